@@ -1,0 +1,1 @@
+"""Checks, verdicts and grading of the course's problems."""

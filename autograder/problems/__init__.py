@@ -1,0 +1,1 @@
+"""The checks of each problem, one file a problem."""

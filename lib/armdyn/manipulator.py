@@ -1,0 +1,91 @@
+"""The base class: a model says M, C, g, f and P; dynamics, energy and state space follow from them.
+
+The equation of motion, in the course's notation, is
+
+    M(q) q̈ + C(q, q̇) q̇ + g(q) + f(q̇) = u.
+
+Every method takes leading batch axes: arguments of shape (..., n) broadcast against each other, so
+that one state and a million states are the same call.
+"""
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+from armdyn.parameters import state_vector
+
+
+class Manipulator(ABC):
+    """A robot with `n` generalised coordinates.
+
+    A subclass gives `n`, `M`, `C`, `g_vec` and `potential_energy`, and `f_vec` where there is
+    friction. Shapes below leave out the batch axes. All methods raise ValueError for an argument
+    whose last axis has not the size asked for.
+
+    Source: R. M. Murray, Z. Li, S. S. Sastry (1994), A Mathematical Introduction to Robotic
+    Manipulation, section 4.3, for the structure of the equation.
+    """
+
+    n: int
+
+    @abstractmethod
+    def M(self, q) -> np.ndarray:
+        """Joint-space inertia matrix, (n, n), kg·m²; q: (n,), rad."""
+
+    @abstractmethod
+    def C(self, q, qd) -> np.ndarray:
+        """Coriolis and centrifugal matrix in Christoffel form, (n, n), kg·m²/s."""
+
+    @abstractmethod
+    def g_vec(self, q) -> np.ndarray:
+        """Gravity vector ∂P/∂q, (n,), N·m."""
+
+    @abstractmethod
+    def potential_energy(self, q) -> np.ndarray:
+        """Potential energy P, scalar, J."""
+
+    def f_vec(self, qd) -> np.ndarray:
+        """Friction torque f(q̇), (n,), N·m; zero unless the model has friction."""
+        return np.zeros_like(self._per_joint("qd", qd))
+
+    def inverse_dynamics(self, q, qd, qdd) -> np.ndarray:
+        """Input u = M q̈ + C q̇ + g + f that gives the acceleration qdd, (n,), N·m."""
+        qdd = self._per_joint("qdd", qdd)
+        return np.matvec(self.M(q), qdd) + self.bias(q, qd)
+
+    def bias(self, q, qd) -> np.ndarray:
+        """C q̇ + g + f, the input that keeps q̈ = 0, (n,), N·m."""
+        qd = self._per_joint("qd", qd)
+        return np.matvec(self.C(q, qd), qd) + self.g_vec(q) + self.f_vec(qd)
+
+    def dynamics(self, q, qd, u) -> np.ndarray:
+        """Acceleration q̈ = M⁻¹ (u − C q̇ − g − f), (n,), rad/s².
+
+        Raises numpy.linalg.LinAlgError where M(q) is singular: the model then has a motion that
+        carries no kinetic energy, and its acceleration is not determined.
+        """
+        u = self._per_joint("u", u)
+        rest = u - self.bias(q, qd)
+        return np.linalg.solve(self.M(q), rest[..., np.newaxis])[..., 0]
+
+    def kinetic_energy(self, q, qd) -> np.ndarray:
+        """K = ½ q̇ᵀ M q̇, scalar, J."""
+        qd = self._per_joint("qd", qd)
+        return 0.5 * np.vecdot(qd, np.matvec(self.M(q), qd))
+
+    def energy(self, q, qd) -> np.ndarray:
+        """Total energy E = K + P, scalar, J."""
+        return self.kinetic_energy(q, qd) + self.potential_energy(q)
+
+    def state_derivative(self, x, u) -> np.ndarray:
+        """ẋ of the state x = [q; q̇], shape (2n,), in rad/s and rad/s².
+
+        x: (2n,), the coordinates first, then the velocities. u: (n,), N·m.
+        """
+        x = state_vector("x", x, 2 * self.n)
+        q, qd = x[..., : self.n], x[..., self.n :]
+        qdd = self.dynamics(q, qd, u)
+        return np.concatenate([np.broadcast_to(qd, qdd.shape), qdd], axis=-1)
+
+    def _per_joint(self, name: str, value) -> np.ndarray:
+        return state_vector(name, value, self.n)

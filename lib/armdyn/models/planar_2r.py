@@ -1,0 +1,104 @@
+"""The planar arm with two revolute joints (2R), in closed form."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from armdyn.friction import joint_friction
+from armdyn.manipulator import Manipulator
+from armdyn.parameters import finite, nonnegative, per_joint, positive
+
+
+@dataclass(frozen=True)
+class Planar2R(Manipulator):
+    """Two links in a vertical plane, x to the right, y up, gravity along −y.
+
+    q1 is the angle of link 1 from the x axis, q2 that of link 2 relative to link 1. Each centre of
+    mass lies on its link's axis; I1 and I2 are inertias about the centres of mass. A centre of mass
+    behind its joint (a counterweight) has a negative lc.
+    Raises ValueError, naming the argument, for a parameter that is not finite or not physical.
+
+    Source: M. W. Spong, M. Vidyasagar (1989), Robot Dynamics and Control, section 6.4, for M, C, g.
+    """
+
+    l1: float = field(metadata={"unit": "m", "doc": "length of link 1"})
+    l2: float = field(metadata={"unit": "m", "doc": "length of link 2"})
+    lc1: float = field(metadata={"unit": "m", "doc": "joint 1 to the centre of mass of link 1"})
+    lc2: float = field(metadata={"unit": "m", "doc": "joint 2 to the centre of mass of link 2"})
+    m1: float = field(metadata={"unit": "kg", "doc": "mass of link 1"})
+    m2: float = field(metadata={"unit": "kg", "doc": "mass of link 2"})
+    I1: float = field(
+        metadata={"unit": "kg·m²", "doc": "inertia of link 1 about its centre of mass"}
+    )
+    I2: float = field(
+        metadata={"unit": "kg·m²", "doc": "inertia of link 2 about its centre of mass"}
+    )
+    g: float = field(default=9.81, metadata={"unit": "m/s²", "doc": "gravitational acceleration"})
+    viscous: tuple[float, float] = field(
+        default=(0.0, 0.0), metadata={"unit": "N·m·s/rad", "doc": "viscous friction of each joint"}
+    )
+    coulomb: tuple[float, float] = field(
+        default=(0.0, 0.0), metadata={"unit": "N·m", "doc": "Coulomb friction of each joint"}
+    )
+
+    n = 2
+
+    def __post_init__(self):
+        for name in ("l1", "l2"):
+            positive(name, getattr(self, name), "m")
+        for name in ("lc1", "lc2"):
+            finite(name, getattr(self, name), "m")
+        for name in ("m1", "m2"):
+            nonnegative(name, getattr(self, name), "kg")
+        for name in ("I1", "I2"):
+            nonnegative(name, getattr(self, name), "kg·m²")
+        finite("g", self.g, "m/s²")
+        # A frozen instance is hashable only if its friction is: arrays become tuples.
+        for name, unit in (("viscous", "N·m·s/rad"), ("coulomb", "N·m")):
+            object.__setattr__(self, name, per_joint(name, getattr(self, name), 2, unit))
+
+    def M(self, q) -> np.ndarray:
+        """(2, 2), kg·m²; it depends on q2 alone."""
+        q2 = self._per_joint("q", q)[..., 1]
+        coupling = self.m2 * self.l1 * self.lc2 * np.cos(q2)
+        M22 = np.broadcast_to(self.I2 + self.m2 * self.lc2**2, q2.shape)
+        M12 = M22 + coupling
+        M11 = self.I1 + self.m1 * self.lc1**2 + self.m2 * self.l1**2 + M22 + 2 * coupling
+        # fmt: off
+        return _matrix(M11, M12,
+                       M12, M22)
+        # fmt: on
+
+    def C(self, q, qd) -> np.ndarray:
+        """Christoffel form, (2, 2), kg·m²/s."""
+        q, qd = np.broadcast_arrays(self._per_joint("q", q), self._per_joint("qd", qd))
+        qd1, qd2 = qd[..., 0], qd[..., 1]
+        h = -self.m2 * self.l1 * self.lc2 * np.sin(q[..., 1])
+        # fmt: off
+        return _matrix( h * qd2, h * (qd1 + qd2),
+                       -h * qd1, np.zeros_like(h))
+        # fmt: on
+
+    def g_vec(self, q) -> np.ndarray:
+        """(2,), N·m."""
+        q = self._per_joint("q", q)
+        q1, q12 = q[..., 0], q[..., 0] + q[..., 1]
+        g2 = self.m2 * self.lc2 * self.g * np.cos(q12)
+        g1 = (self.m1 * self.lc1 + self.m2 * self.l1) * self.g * np.cos(q1) + g2
+        return np.stack([g1, g2], axis=-1)
+
+    def f_vec(self, qd) -> np.ndarray:
+        return joint_friction(self._per_joint("qd", qd), self.viscous, self.coulomb)
+
+    def potential_energy(self, q) -> np.ndarray:
+        """Zero with both centres of mass at the height of joint 1, J."""
+        q = self._per_joint("q", q)
+        q1, q12 = q[..., 0], q[..., 0] + q[..., 1]
+        height1 = self.lc1 * np.sin(q1)
+        height2 = self.l1 * np.sin(q1) + self.lc2 * np.sin(q12)
+        return self.g * (self.m1 * height1 + self.m2 * height2)
+
+
+def _matrix(a11, a12, a21, a22) -> np.ndarray:
+    """Entries of shape (...) as a (..., 2, 2) array."""
+    return np.stack([np.stack([a11, a12], axis=-1), np.stack([a21, a22], axis=-1)], axis=-2)
