@@ -1,4 +1,4 @@
-"""Checks on physical parameters and states: each error names the argument, what came, what is needed."""
+"""Checks on parameters and states: each error names the argument, what came and what is needed."""
 
 import math
 from numbers import Real
@@ -42,7 +42,7 @@ def per_joint(name: str, value, n: int, unit: str) -> tuple[float, ...]:
 
 
 def state_vector(name: str, value, size: int) -> np.ndarray:
-    """`value` as a float array of shape (..., size); ValueError that gives both shapes otherwise."""
+    """`value` as a float array of shape (..., size); otherwise ValueError with both shapes."""
     try:
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError) as error:

@@ -1,8 +1,8 @@
 """The structural properties of M, C and g, shown in numbers.
 
 Each function takes a model and states of shape (..., n), looks at all of them, and returns a
-`Finding`: the largest violation, where it is, and the floor that rounding alone can reach. A finding
-is a number with a witness, not a yes or no; `holds` compares the two.
+`Finding`: the largest violation, where it is, and the floor that rounding alone can reach. A
+finding is a number with a witness, not a yes or no; `holds` compares the two.
 
 Source of the properties: R. M. Murray, Z. Li, S. S. Sastry (1994), A Mathematical Introduction to
 Robotic Manipulation, lemma 4.2.
@@ -97,8 +97,8 @@ def gravity_gradient(model, q) -> Finding:
 def power_balance(model, q, qd, u) -> Finding:
     """dE/dt = q̇ᵀ(u − f) along the motion: what goes in, less friction, is stored.
 
-    The violation is |dE/dt − q̇ᵀ(u − f)| over the sum of the powers' sizes, with dE/dt by differences
-    of E along ẋ. q (rad), qd (rad/s), u (N·m): (..., n).
+    The violation is |dE/dt − q̇ᵀ(u − f)| over the sum of the powers' sizes, with dE/dt by
+    differences of E along ẋ. q (rad), qd (rad/s), u (N·m): (..., n).
     """
     arrays = (np.asarray(a, dtype=float) for a in (q, qd, u))
     q, qd, u = np.broadcast_arrays(*arrays)

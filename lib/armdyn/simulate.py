@@ -30,9 +30,9 @@ def simulate(f, x0, u, t, method: str = "rk4", rtol: float = 1e-9, atol: float =
     t: (T,), increasing, s. Method "rk4" takes one step from each time to the next; one of
     SciPy's methods ("RK45", "DOP853", "LSODA", ...) chooses its own steps by rtol and atol.
 
-    Returns (..., T, N). Raises ValueError for times that do not increase, for states or derivatives of
-    the wrong shape and for an unknown method; FloatingPointError, with the time, where the states
-    stop being finite.
+    Returns (..., T, N). Raises ValueError for times that do not increase, for states or derivatives
+    of the wrong shape and for an unknown method; FloatingPointError, with the time, where the
+    states stop being finite.
     """
     x0, t = np.asarray(x0, dtype=float), _times(t)
     rate = _rate(f, u)
@@ -54,7 +54,10 @@ def simulate(f, x0, u, t, method: str = "rk4", rtol: float = 1e-9, atol: float =
 
 
 def energy_drift(model, x) -> np.ndarray:
-    """E − E₀ along states x of shape (..., T, 2n): (..., T), J. Zero for a free arm in exact motion."""
+    """E − E₀ along states x of shape (..., T, 2n): (..., T), J.
+
+    Zero for exact motion without input and friction.
+    """
     x = np.asarray(x, dtype=float)
     energy = model.energy(x[..., : model.n], x[..., model.n :])
     return energy - energy[..., :1]

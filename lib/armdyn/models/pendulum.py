@@ -42,10 +42,11 @@ class Pendulum(Manipulator):
         nonnegative("viscous", self.viscous, "N·m·s/rad")
         nonnegative("coulomb", self.coulomb, "N·m")
         least = self.m * self.lc**2
-        if self.I < least * (1 - ROUNDING):
+        if least * (1 - ROUNDING) > self.I:
             raise ValueError(
-                f"I = {self.I!r}: the inertia about the pivot is at least m lc² = {least:.6g} kg·m²; "
-                "for an inertia about the centre of mass use Pendulum.from_com(m, lc, I_com)"
+                f"I = {self.I!r}: the inertia about the pivot is at least m lc² = {least:.6g} "
+                "kg·m²; for an inertia about the centre of mass use "
+                "Pendulum.from_com(m, lc, I_com)"
             )
 
     @classmethod
