@@ -1,0 +1,53 @@
+"""How a verdict looks in a notebook: a card whose text says everything its colour says."""
+
+from html import escape
+
+from autograder.verdict import State, Verdict, worst_case
+
+# Mark and colour (Okabe and Ito's palette, safe for colour-blind readers).
+LOOKS = {
+    State.CORRECT: ("✓", "#009E73"),
+    State.PARTLY_CORRECT: ("◐", "#E69F00"),
+    State.INCORRECT: ("✗", "#D55E00"),
+    State.ERROR: ("!", "#CC79A7"),
+    State.NOT_ATTEMPTED: ("○", "#888888"),
+    State.CHECK_FAILED: ("?", "#0072B2"),
+}
+
+
+def html_card(verdict: Verdict) -> str:
+    """The verdict as HTML, readable by a screen reader from top to bottom."""
+    mark, colour = LOOKS[verdict.state]
+    lines = [_paragraph("problem", verdict.problem)]
+    lines += [_rows(verdict)] if verdict.rows else []
+    lines += [_paragraph("diagnosis", sentence) for sentence in verdict.diagnosis]
+    if verdict.witness:
+        lines.append(_paragraph("witness", worst_case(verdict.witness)))
+    lines.append(_paragraph("next", verdict.next_step))
+    return (
+        f'<div class="armdyn-verdict" data-state="{verdict.state.name.lower().replace("_", "-")}"'
+        f' role="group" aria-label="{escape(verdict.headline)}"'
+        f' style="border-left: 5px solid {colour}; padding: 0.4em 0.9em; max-width: 46em">'
+        f'<p style="margin: 0.2em 0"><strong><span aria-hidden="true">{mark} </span>'
+        f"{escape(verdict.headline)}</strong></p>{''.join(lines)}</div>"
+    )
+
+
+def mimebundle(verdict: Verdict) -> dict[str, str]:
+    """The verdict for a notebook's output: plain text, and the card."""
+    return {"text/plain": str(verdict), "text/html": html_card(verdict)}
+
+
+def _paragraph(kind: str, text: str) -> str:
+    if not text:
+        return ""
+    weight = "; font-weight: 600" if kind == "diagnosis" else ""
+    return f'<p class="armdyn-{kind}" style="margin: 0.3em 0{weight}">{escape(text)}</p>'
+
+
+def _rows(verdict: Verdict) -> str:
+    items = "".join(
+        f"<li>{'met' if row.met else 'not met'}: {escape(row.text)} ({row.share:.0%})</li>"
+        for row in verdict.rows
+    )
+    return f'<ul style="margin: 0.3em 0">{items}</ul>'

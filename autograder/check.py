@@ -1,0 +1,63 @@
+"""What a student's cell calls, and how the verdict shows there."""
+
+import difflib
+import os
+import sys
+
+import numpy as np
+
+from autograder import card
+from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
+from autograder.problems import CHECKS
+from autograder.verdict import State, Verdict
+from autograder.wall import answer_all
+
+# A visible check tries the same cases each time, so that a student can see an error change.
+VISIBLE_SEED = 20260101
+
+
+class NotCorrectError(Exception):
+    """The answer is not correct yet. Its traceback is the verdict, not the way through our code."""
+
+    def __init__(self, verdict: Verdict):
+        super().__init__(verdict.headline)
+        self.verdict = verdict
+
+    def _render_traceback_(self):
+        # `nbgrader validate` shows errors alone, not the card above them.
+        if os.environ.get("NBGRADER_EXECUTION"):
+            return str(self.verdict).splitlines()
+        return [f"{self.verdict.headline}: see the card above."]
+
+
+def check(id: str, fresh: bool = False) -> None:
+    """Judge the function that the check `id` asks for, as this notebook defines it, and show it.
+
+    The visible check tries a few fixed cases; `fresh=True` draws new ones each time, as the grader
+    does. Raises NotCorrectError after showing a verdict that is not "correct", and ValueError for
+    an unknown id.
+    """
+    if id not in CHECKS:
+        close = difflib.get_close_matches(id, CHECKS, n=1)
+        meant = f"; did you mean {close[0]!r}?" if close else f"; known are {', '.join(CHECKS)}"
+        raise ValueError(f"there is no check {id!r}{meant}")
+    namespace = sys._getframe(1).f_globals
+    rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
+    count = HIDDEN_CASES if fresh else VISIBLE_CASES
+    verdict = CHECKS[id].run(lambda calls: answer_all(calls, namespace), rng, count)
+    _show(verdict)
+    if verdict.state is not State.CORRECT:
+        raise NotCorrectError(verdict)
+
+
+def _show(verdict: Verdict) -> None:
+    try:
+        from IPython import get_ipython
+        from IPython.display import display
+    except ImportError:
+        print(verdict)
+        return
+    if get_ipython() is None:
+        print(verdict)
+    else:
+        display(card.mimebundle(verdict), raw=True)

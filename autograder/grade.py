@@ -1,0 +1,155 @@
+"""grade(submission, source, seed): one notebook judged. No database, no nbgrader, no state."""
+
+import hashlib
+import logging
+import re
+from dataclasses import dataclass, replace
+
+import numpy as np
+from nbformat import NotebookNode
+from nbformat.v4 import new_output
+
+from autograder.judge import HIDDEN_CASES
+from autograder.problems import CHECKS
+from autograder.repair import grade_id, repair
+from autograder.sandbox import Room, RoomLostError
+from autograder.verdict import State, Verdict
+from autograder.wall import Call, Fault, FaultKind, Reply
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Graded:
+    """A judged notebook: its cells with the outputs of this run, a verdict for each grade cell by
+    grade_id, and notes for the instructor on what had to be mended.
+    """
+
+    notebook: NotebookNode
+    verdicts: dict[str, Verdict]
+    notes: tuple[str, ...]
+
+
+def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
+    """Run the submission's cells in a sandbox and judge its graded functions outside.
+
+    seed: decides the random cases; the same seed gives the same verdicts. Each check has its own
+    stream, so that adding a problem changes no other's cases. A grade cell that no check belongs
+    to gets no credit and says so.
+    """
+    notebook, notes = repair(submission, source)
+    verdicts = {}
+    with Sitting() as sitting:
+        for cell in notebook.cells:
+            if cell.cell_type != "code":
+                continue
+            cell.outputs, cell.execution_count = [], None
+            if not is_judged(cell):
+                cell.outputs = [_output(output) for output in sitting.run(cell.source)]
+                continue
+            name = grade_id(cell)
+            if name in CHECKS:
+                verdict = CHECKS[name].run(sitting.ask, stream(seed, name), HIDDEN_CASES)
+            else:
+                problem = f"No check belongs to the grade cell {name}."
+                verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
+            if verdict.state is State.CHECK_FAILED:
+                log.error("%s: %s", name, verdict.problem)
+                notes.append(f"{name} could not be judged: {verdict.problem}")
+            verdicts[name] = verdict.without_inputs()
+    return Graded(notebook, verdicts, tuple(notes))
+
+
+def is_judged(cell: NotebookNode) -> bool:
+    """Whether the cell is graded by a check, not run, and not read by a person."""
+    claims = cell.metadata.get("nbgrader") or {}
+    return cell.cell_type == "code" and bool(claims.get("grade")) and not claims.get("solution")
+
+
+def stream(seed: str, name: str) -> np.random.Generator:
+    """The random numbers of one check under one seed."""
+    digest = hashlib.sha256(f"{seed}\0{name}".encode()).digest()
+    return np.random.default_rng(np.frombuffer(digest, dtype=np.uint32))
+
+
+class Sitting:
+    """A student's notebook in a room, cell by cell; when the room is lost, a new one takes over.
+
+    A new room runs the earlier cells again, but not the one, or the call, that ended the last.
+    """
+
+    def __init__(self, room=Room):
+        self._new_room = room
+        self._room = None
+        self._ran: list[str] = []
+        self._failed: list[tuple[str, str]] = []  # source of a cell, and its error
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exception):
+        if self._room is not None:
+            self._room.close()
+
+    def run(self, source: str) -> list[dict]:
+        """The outputs of a cell; an error output where it ends its process."""
+        try:
+            outputs = self._current().run(source)
+        except RoomLostError as error:
+            self._room = None
+            text = f"this cell ended Python itself: {error}"
+            outputs = [_error("RoomLostError", text, [text])]
+        else:
+            self._ran.append(source)
+        for output in outputs:
+            if output.get("output_type") == "error":
+                said = f"{output.get('ename')}: {output.get('evalue')}"
+                self._failed.append((source, said))
+        return outputs
+
+    def ask(self, calls: list[Call]) -> list[Reply]:
+        """The replies to calls of the student's functions."""
+        try:
+            replies = self._current().ask(calls)
+        except RoomLostError:
+            self._room = None
+            return [Reply(fault=Fault(FaultKind.DIED))]
+        return [self._explained(calls[0].name, reply) for reply in replies]
+
+    def _current(self):
+        if self._room is None:
+            self._room = self._new_room()
+            for source in self._ran:
+                self._room.run(source)
+        return self._room
+
+    def _explained(self, name: str, reply: Reply) -> Reply:
+        """A missing name is blamed on the cell that should have defined it, where that failed."""
+        if reply.fault is None or reply.fault.kind is not FaultKind.MISSING:
+            return reply
+        for source, error in reversed(self._failed):
+            if re.search(rf"\bdef\s+{re.escape(name)}\b", source):
+                return Reply(fault=replace(reply.fault, kind=FaultKind.CELL_FAILED, message=error))
+        return reply
+
+
+def _output(output: dict) -> NotebookNode:
+    """A notebook's output from what came back through the wall; nothing else gets in."""
+    match output:
+        case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
+            return new_output("stream", name=name, text=text)
+        case {"output_type": "display_data", "data": dict(data)}:
+            shown = {k: v for k, v in data.items() if k in SHOWN and isinstance(v, str)}
+            return new_output("display_data", data=shown)
+        case {"output_type": "error", "ename": str(name), "evalue": str(value)}:
+            lines = output.get("traceback")
+            lines = [str(line) for line in lines] if isinstance(lines, list) else []
+            return NotebookNode(_error(name, value, lines))
+    return new_output("stream", name="stderr", text="(an output that could not be read)")
+
+
+SHOWN = ("text/plain", "text/latex", "image/png")
+
+
+def _error(name: str, value: str, lines: list[str]) -> dict:
+    return {"output_type": "error", "ename": name, "evalue": value, "traceback": lines}

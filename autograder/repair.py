@@ -1,0 +1,102 @@
+"""Puts a submitted notebook's graded cells right, from the source version, before it is judged.
+
+Students copy, delete, rename and retype cells, by accident or not. nbgrader trusts the cells'
+metadata as submitted; here it is rebuilt from the source, and every change is reported.
+"""
+
+import copy
+
+from nbformat import NotebookNode
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_raw_cell
+
+NEW_CELL = {"code": new_code_cell, "markdown": new_markdown_cell, "raw": new_raw_cell}
+
+
+def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode, list[str]]:
+    """The submission with each graded cell of `source` in it exactly once, and what was mended.
+
+    A locked cell gets the source's text again. An editable cell keeps the student's text; where it
+    was deleted, an empty one is put in. Of several copies the last one counts, as it does when the
+    notebook is run; the others stay as ordinary cells. Cells that only claim to be graded stay too,
+    without the claim.
+    """
+    notebook, notes = copy.deepcopy(submission), []
+    known = {grade_id(cell): cell for cell in source.cells if grade_id(cell)}
+    at = _last_places(notebook, known, notes)
+    for index, cell in enumerate(notebook.cells):
+        claimed = grade_id(cell)
+        if claimed and at.get(claimed) != index:
+            del cell.metadata["nbgrader"]
+            if claimed not in known:
+                notes.append(f"a cell that claims to be {claimed}, which the source does not have")
+    placed = {name: notebook.cells[index] for name, index in at.items()}
+    for name, original in known.items():
+        if name in placed:
+            _put_right(placed[name], original, notes)
+    _put_back(notebook, known, placed, notes)
+    return notebook, notes
+
+
+def grade_id(cell: NotebookNode) -> str | None:
+    """The cell's grade_id, or None where it has none that can be one."""
+    claims = cell.metadata.get("nbgrader")
+    name = claims.get("grade_id") if isinstance(claims, dict) else None
+    return name if isinstance(name, str) else None
+
+
+def is_locked(cell: NotebookNode) -> bool:
+    """Whether the source's text counts in this cell, not the student's."""
+    claims = cell.metadata["nbgrader"]
+    return not claims.get("solution") and bool(claims.get("grade") or claims.get("locked"))
+
+
+def _last_places(notebook, known, notes) -> dict[str, int]:
+    at: dict[str, int] = {}
+    for index, cell in enumerate(notebook.cells):
+        name = grade_id(cell)
+        if name in known:
+            if name in at:
+                notes.append(f"{name} was there more than once; the last one counts")
+            at[name] = index
+    return at
+
+
+def _put_right(cell, original, notes) -> None:
+    name = grade_id(original)
+    if cell.cell_type != original.cell_type:
+        notes.append(f"{name} had been made a {cell.cell_type} cell")
+        cell.cell_type = original.cell_type
+        if cell.cell_type == "code":
+            cell.outputs, cell.execution_count = [], None
+        else:
+            cell.pop("outputs", None)
+            cell.pop("execution_count", None)
+    checksum = cell.metadata["nbgrader"].get("checksum")
+    claims = {
+        k: v for k, v in cell.metadata["nbgrader"].items() if k not in ("checksum", "cell_type")
+    }
+    wanted = dict(original.metadata["nbgrader"])
+    if any(claims.get(key) != value for key, value in wanted.items()):
+        notes.append(f"the nbgrader settings of {name} had been changed")
+    cell.metadata["nbgrader"] = NotebookNode(wanted | ({"checksum": checksum} if checksum else {}))
+    if is_locked(original):
+        cell.source = original.source
+
+
+def _put_back(notebook, known, placed, notes) -> None:
+    """Each missing cell goes behind the graded cell that precedes it in the source."""
+    before = None
+    for name, original in known.items():
+        if name not in placed:
+            notes.append(f"{name} was missing; it was put back")
+            text = original.source if is_locked(original) else ""
+            cell = NEW_CELL[original.cell_type](source=text)
+            cell.metadata = copy.deepcopy(original.metadata)
+            position = 0 if before is None else _index(notebook.cells, before) + 1
+            notebook.cells.insert(position, cell)
+            placed[name] = cell
+        before = placed[name]
+
+
+def _index(cells, wanted) -> int:
+    return next(index for index, cell in enumerate(cells) if cell is wanted)

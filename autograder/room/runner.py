@@ -1,0 +1,131 @@
+"""Runs a student's cells and answers calls, inside the sandbox.
+
+One request a line on standard input, one reply a line on standard output, both JSON:
+{"run": source} → {"outputs": [...]}, {"ask": [calls]} → {"replies": [...]}. Both descriptors are
+moved out of the way first, so that what the student's code prints cannot mix with the replies.
+"""
+
+import builtins
+import json
+import os
+import resource
+import sys
+
+MEMORY_BYTES = 4 << 30
+FILE_BYTES = 64 << 20
+MOST_TEXT = 200_000
+MOST_OUTPUTS = 50
+# What a feedback page shows of a student's output. No HTML or JavaScript: it would run in the
+# instructor's browser.
+SHOWN = ("text/plain", "text/latex", "image/png")
+
+
+def main():
+    requests, replies = _private_channel()
+    _limit_resources()
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import wall
+
+    shell = _shell()
+    _reply(replies, {"ready": True})
+    for line in requests:
+        request = json.loads(line)
+        if "run" in request:
+            outputs = _run(shell, request["run"], request["seconds"], wall)
+            _reply(replies, {"outputs": outputs})
+        else:
+            calls = [wall.decode_call(call) for call in request["ask"]]
+            answers = _quietly(wall.answer_all, calls, shell.user_ns)
+            _reply(replies, {"replies": [wall.encode_reply(answer) for answer in answers]})
+
+
+def _private_channel():
+    requests = os.fdopen(os.dup(0), encoding="utf-8")
+    replies = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    nothing = os.open(os.devnull, os.O_RDWR)
+    for descriptor in (0, 1, 2):
+        os.dup2(nothing, descriptor)
+    return requests, replies
+
+
+def _limit_resources():
+    resource.setrlimit(resource.RLIMIT_FSIZE, (FILE_BYTES, FILE_BYTES))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    if sys.platform == "linux":  # macOS refuses a limit on the address space
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+
+
+def _shell():
+    from IPython.core.interactiveshell import InteractiveShell
+    from traitlets.config import Config
+
+    config = Config()
+    config.HistoryManager.enabled = False
+    config.InteractiveShell.colors = "nocolor"
+    # As in JupyterLab: figures become PNG images in the cell's output.
+    os.environ["MPLBACKEND"] = "module://matplotlib_inline.backend_inline"
+    shell = InteractiveShell.instance(config=config)
+    shell.user_ns["__name__"] = "__main__"
+    builtins.input = _no_input
+    return shell
+
+
+def _no_input(prompt=""):
+    raise RuntimeError("input() asks for something while nobody is there to answer")
+
+
+def _run(shell, source, seconds, wall):
+    """The cell's outputs, as a notebook stores them."""
+    from IPython.utils.capture import capture_output
+
+    errors = []
+    shell._showtraceback = lambda kind, value, lines: errors.append((kind, value, lines))
+    shell.showsyntaxerror = lambda *args, **kwargs: errors.append((*sys.exc_info()[:2], []))
+    try:
+        with capture_output() as captured, wall.time_limit(seconds):
+            shell.run_cell(source, store_history=False)
+            _show_figures()
+    except BaseException as error:
+        errors.append((type(error), error, []))
+    outputs = [
+        {"output_type": "stream", "name": name, "text": wall.shortened(text, MOST_TEXT)}
+        for name, text in (("stdout", captured.stdout), ("stderr", captured.stderr))
+        if text
+    ]
+    for output in captured.outputs[:MOST_OUTPUTS]:
+        data = {kind: str(output.data[kind]) for kind in SHOWN if kind in output.data}
+        outputs.append({"output_type": "display_data", "data": data, "metadata": {}})
+    for kind, value, lines in errors[:1]:
+        if kind is wall.TimeLimitError:
+            kind, value, lines = TimeoutError, f"this cell ran longer than {seconds:g} s", []
+        elif isinstance(value, SyntaxError):
+            value, lines = f"{value.msg}, line {value.lineno}: {(value.text or '').strip()}", []
+        text = wall.shortened(str(value))
+        lines = [str(line) for line in lines] or [f"{kind.__name__}: {text}"]
+        outputs.append(
+            {"output_type": "error", "ename": kind.__name__, "evalue": text, "traceback": lines}
+        )
+    return outputs
+
+
+def _show_figures():
+    if "matplotlib.pyplot" in sys.modules:
+        from matplotlib_inline.backend_inline import flush_figures
+
+        flush_figures()
+
+
+def _quietly(function, *args):
+    from IPython.utils.capture import capture_output
+
+    with capture_output():
+        return function(*args)
+
+
+def _reply(replies, message):
+    replies.write(json.dumps(message) + "\n")
+    replies.flush()
+
+
+if __name__ == "__main__":
+    main()

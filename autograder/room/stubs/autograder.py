@@ -1,0 +1,5 @@
+"""Stands for `autograder` where a submission is graded: the judging happens elsewhere."""
+
+
+def check(id, fresh=False):
+    """Do nothing: grade cells are judged outside, on numbers."""

@@ -1,0 +1,86 @@
+"""The verdict on one answer, and how it reads as plain text."""
+
+import textwrap
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+
+class State(StrEnum):
+    """Where an answer stands. The last state is ours: the check failed, the student is not to blame."""
+
+    CORRECT = "correct"
+    PARTLY_CORRECT = "partly correct"
+    INCORRECT = "incorrect"
+    ERROR = "error in your code"
+    NOT_ATTEMPTED = "not attempted"
+    CHECK_FAILED = "the check itself failed"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One criterion: what was asked for, its share of the credit, and whether it was met."""
+
+    text: str
+    share: float
+    met: bool
+
+
+@dataclass(frozen=True)
+class Witness:
+    """The worst case: what was called, what came back, how far off it was, with the unit."""
+
+    call: str
+    returned: str
+    off: str
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is known of one answer. `credit` is its share of the cell's points, in [0, 1].
+
+    `problem` says what is wrong with the code where the state is an error; `diagnosis` names the
+    physics mistakes whose numbers the answer shows; `next_step` is what to do now.
+    """
+
+    check: str
+    state: State
+    credit: float = 0.0
+    rows: tuple[Row, ...] = ()
+    witness: Witness | None = None
+    problem: str = ""
+    diagnosis: tuple[str, ...] = ()
+    next_step: str = ""
+
+    def without_inputs(self) -> "Verdict":
+        """The same verdict for a feedback page: the worst case without the inputs that showed it."""
+        if self.witness is None:
+            return self
+        return replace(self, witness=replace(self.witness, call=""))
+
+    @property
+    def headline(self) -> str:
+        if self.state is State.PARTLY_CORRECT:
+            return f"{self.check}: {self.state} ({self.credit:.0%})"
+        return f"{self.check}: {self.state}"
+
+    def lines(self) -> list[str]:
+        """The verdict in sentences, the headline apart, most useful first."""
+        return [
+            *([self.problem] if self.problem else []),
+            *self.diagnosis,
+            *([worst_case(self.witness)] if self.witness else []),
+            *([self.next_step] if self.next_step else []),
+        ]
+
+    def __str__(self):
+        rows = [f"  [{'x' if row.met else ' '}] {row.text}" for row in self.rows]
+        body = [textwrap.fill(line, 88, initial_indent="  ", subsequent_indent="  ")
+                for line in self.lines()]  # fmt: skip
+        return "\n".join([self.headline, *rows, *body])
+
+
+def worst_case(witness: Witness) -> str:
+    """The witness as a sentence."""
+    if witness.call:
+        return f"Worst case: {witness.call} gave {witness.returned}, off by {witness.off}."
+    return f"Worst case: off by {witness.off}."

@@ -1,0 +1,39 @@
+"""nbgrader's settings for this course; nbgrader reads this file from the folder it is started in.
+
+solutions/ holds the source version of each assignment. Everything else that nbgrader writes goes to
+course/, which holds students' work and is in no repository: back it up.
+"""
+
+from pathlib import Path
+
+from autograder import nbgrader_glue
+
+root = Path(__file__).resolve().parent
+course = root / "course"
+(course / "exchange").mkdir(parents=True, exist_ok=True)
+
+c = get_config()  # noqa: F821  (nbgrader defines it)
+
+c.CourseDirectory.course_id = "armdyn"
+c.CourseDirectory.root = str(root)
+c.CourseDirectory.source_directory = "solutions"
+c.CourseDirectory.release_directory = "course/release"
+c.CourseDirectory.submitted_directory = "course/submitted"
+c.CourseDirectory.autograded_directory = "course/autograded"
+c.CourseDirectory.feedback_directory = "course/feedback"
+c.CourseDirectory.solution_directory = "course/solution"
+c.CourseDirectory.db_url = f"sqlite:///{course / 'gradebook.db'}"
+
+# The exchange is in course/ as well, so that one machine is enough to try everything. For a class,
+# point it at a folder that everybody can write to.
+c.Exchange.root = str(course / "exchange")
+c.Exchange.cache = str(course / "cache")
+c.Exchange.assignment_dir = "problems"
+
+c.GenerateAssignment.preprocessors = nbgrader_glue.generate_preprocessors()
+c.Autograde.sanitize_preprocessors = nbgrader_glue.sanitize_preprocessors()
+c.Autograde.autograde_preprocessors = nbgrader_glue.autograde_preprocessors()
+
+c.ClearSolutions.code_stub = {"python": "raise NotImplementedError  # your answer goes here"}
+c.ClearSolutions.text_stub = "*(your answer goes here)*"
+c.CsvExportPlugin.to = "course/grades.csv"
