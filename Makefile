@@ -1,0 +1,64 @@
+.PHONY: help lab test lessons
+.SUFFIXES:
+
+ARGS =
+LOG := .venv/install.log
+
+help:
+	@echo 'make lab       open JupyterLab on the first lesson; ARGS="--port=8899" goes to JupyterLab'
+	@echo 'make test      ruff, pytest, and every lesson and solution run again by nbval'
+	@echo 'make lessons   run the lessons and store their outputs'
+	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
+
+lab: .venv/lab.done
+	@.venv/bin/autograder problems
+	@.venv/bin/autograder lab $(ARGS)
+
+test: .venv/test.done
+	.venv/bin/ruff check
+	.venv/bin/ruff format --check
+	.venv/bin/python -m pytest
+	.venv/bin/python -m pytest --nbval lessons solutions
+
+lessons: .venv/test.done
+	.venv/bin/jupyter nbconvert --to notebook --execute --inplace \
+	  --ExecutePreprocessor.record_timing=False lessons/*.ipynb
+
+define install
+@echo "Installing $(1) into .venv; the first time takes some minutes (log: $(LOG))"
+@.venv/bin/python -m pip --disable-pip-version-check install -c constraints.txt -e ".[$(1)]" \
+  >$(LOG) 2>&1 || { echo "make: installing failed; is the network there? The reason is at the" \
+  "end of $(LOG): $$(grep -i error $(LOG) | tail -n 1)" >&2; exit 1; }
+@touch $@
+endef
+
+.venv/lab.done: .venv/path pyproject.toml constraints.txt
+	$(call install,lab)
+
+# One after the other, also with -j: two installations into one .venv break each other.
+.venv/test.done: .venv/lab.done
+	$(call install,test)
+
+# An environment knows its own path and its Python: when either has gone, it is made anew.
+ifneq ($(shell test "$$(cat .venv/path)" = "$$(pwd)" && .venv/bin/python -c "" && echo works),works)
+.PHONY: .venv/path
+endif
+
+.venv/path:
+	@if [ -n "$$PYTHON" ]; then set -- "$$PYTHON"; \
+	else set -- python3 python3.13 python3.12 python3.11 python; fi; \
+	chosen=; why=; \
+	for python do \
+	  if ! said=$$("$$python" --version 2>&1); then continue; fi; \
+	  if ! "$$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then \
+	    why="$${why:-$$python is $$said. }"; \
+	  elif ! "$$python" -c 'import ensurepip, venv' 2>/dev/null; then \
+	    why="$${why:-$$python lacks venv (Debian, Ubuntu: apt install python3-venv). }"; \
+	  else chosen=$$python; break; fi; \
+	done; \
+	if [ -z "$$chosen" ]; then \
+	  echo "make: Python 3.11 or newer, with venv, is needed. $${why}Install one, or name it:" \
+	    "make lab PYTHON=/path/to/python3" >&2; exit 1; fi; \
+	said=$$("$$chosen" -m venv --clear .venv 2>&1) || { \
+	  echo "make: $$chosen could not make .venv: $$said" >&2; exit 1; }; \
+	pwd >.venv/path

@@ -1,0 +1,145 @@
+"""JupyterLab, as `make lab` and `autograder lab` start it."""
+
+import json
+import os
+import socket
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import urljoin
+
+if TYPE_CHECKING:
+    from jupyter_server.serverapp import ServerApp
+
+FIRST_LESSON = "lessons/00-start-here.ipynb"
+FIRST_PROBLEM = "problems/p3-pendulum/p3-pendulum.ipynb"
+
+
+def lab(arguments: list[str]) -> int:
+    """Serve JupyterLab from the course's folder until it is stopped; its exit status.
+
+    `arguments` go to JupyterLab and win over what is set here. One line on stdout says which
+    address to open; where the server cannot start, one line on stderr says what to do.
+    """
+    root = Path.cwd()
+    if not (root / "lessons").is_dir():
+        return _fail(f"no lessons/ in {root}; change to the folder of the course and try again")
+    try:
+        port = _port(arguments)
+    except ValueError as error:
+        return _fail(str(error))
+    if port and not _is_free(port):
+        return _fail(
+            f"port {port} is taken; stop what runs there, or choose another one: "
+            f'make lab ARGS="--port={port + 1}" (or: autograder lab --port={port + 1})'
+        )
+
+    from jupyterlab.labapp import LabApp  # takes a second
+
+    # JupyterLab's own state lives beside the environment, so that a student's other projects
+    # and this course do not open each other's notebooks.
+    workspaces = root / ".venv" / "lab" / "workspaces"
+    first = [path for path in (FIRST_LESSON, FIRST_PROBLEM) if (root / path).exists()]
+    opens = "/lab"
+    if first and not any(workspaces.glob("*")):
+        _lay_out(workspaces, first)
+        opens = f"/lab/tree/{first[0]}?file-browser-path=/"
+    server = LabApp.initialize_server([*_settings(root, workspaces, opens), *arguments])
+    print(f"\n    Open {_address(server)}\n    Stop with Ctrl-C\n", flush=True)
+    # Jupyter would print the address again, five times over.
+    server.identity_provider.token_generated = False
+    server.start()
+    return 0
+
+
+def _settings(root: Path, workspaces: Path, opens: str) -> list[str]:
+    """What JupyterLab is started with: quiet, and asking nothing of any host."""
+    settings = [
+        f"--ServerApp.root_dir={root}",
+        f"--LabApp.default_url={opens}",
+        f"--LabApp.workspaces_dir={workspaces}",
+        "--LabApp.news_url=None",
+        "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+        "--LabApp.extension_manager=readonly",
+        "--Application.log_level=WARN",
+    ]
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        settings.append("--allow-root")
+    if not _has_display():
+        settings.append("--no-browser")
+    return settings
+
+
+def _address(server: "ServerApp") -> str:
+    """What to open in a browser, with the token unless the user has set their own."""
+    address = urljoin(server.connection_url, server.default_url.lstrip("/"))
+    identity = server.identity_provider
+    if identity.token and identity.token_generated:
+        address += f"{'&' if '?' in address else '?'}token={identity.token}"
+    return address
+
+
+def _has_display() -> bool:
+    if not sys.platform.startswith("linux"):
+        return True
+    return any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"))
+
+
+def _port(arguments: list[str]) -> int | None:
+    """The port that the arguments ask for; ValueError where it is none."""
+    found = None
+    for position, argument in enumerate(arguments):
+        name, equals, value = argument.partition("=")
+        if name in ("--port", "--ServerApp.port"):
+            found = value if equals else "".join(arguments[position + 1 : position + 2])
+    if found is None:
+        return None
+    if not found.isdecimal() or int(found) > 65535:
+        raise ValueError(f"--port={found} is not a port; give a number from 1024 to 65535")
+    return int(found)
+
+
+def _is_free(port: int) -> bool:
+    with socket.socket() as trial:
+        # As the server does, so that a port it has just left counts as free.
+        if os.name == "posix":
+            trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            trial.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+    return True
+
+
+def _lay_out(workspaces: Path, notebooks: list[str]) -> None:
+    """Write the layout of the first start: the notebooks side by side, the file browser open."""
+    from jupyterlab_server.workspaces_handler import WorkspacesManager
+
+    areas = [
+        {"type": "tab-area", "currentIndex": 0, "widgets": [f"notebook:{path}"]}
+        for path in notebooks
+    ]
+    data = {
+        f"notebook:{path}": {"data": {"path": path, "factory": "Notebook"}} for path in notebooks
+    }
+    data["file-browser-filebrowser:cwd"] = {"path": ""}
+    data["layout-restorer:data"] = {
+        "main": {
+            "dock": {
+                "type": "split-area",
+                "orientation": "horizontal",
+                "sizes": [1 / len(areas)] * len(areas),
+                "children": areas,
+            },
+            "current": f"notebook:{notebooks[0]}",
+        },
+        "left": {"collapsed": False, "visible": True, "current": "filebrowser"},
+        "right": {"collapsed": True, "visible": True},
+    }
+    layout = {"data": data, "metadata": {"id": "default"}}
+    WorkspacesManager(str(workspaces)).save("default", json.dumps(layout))
+
+
+def _fail(reason: str) -> int:
+    print(f"autograder lab: {reason}", file=sys.stderr)
+    return 1
