@@ -12,18 +12,23 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
-from armdyn.parameters import state_vector
+from armdyn.parameters import state_vector, state_vectors
+
+# An eigenvalue of M below n times this, relative to the largest, is 0 but for rounding: the entries
+# of M are sums of several products, each with its own.
+ROUNDING = 8 * np.finfo(float).eps
 
 
 class Manipulator(ABC):
     """A robot with `n` generalised coordinates.
 
     A subclass gives `n`, `M`, `C`, `g_vec` and `potential_energy`, and `f_vec` where there is
-    friction. Shapes below leave out the batch axes. All methods raise ValueError for an argument
-    whose last axis has not the size asked for.
+    friction. Shapes below leave out the batch axes. All methods raise ValueError, naming the
+    argument, for one that is not finite real numbers, whose last axis has not the size asked for,
+    or whose batch axes do not broadcast with the others'.
 
     Source: R. M. Murray, Z. Li, S. S. Sastry (1994), A Mathematical Introduction to Robotic
-    Manipulation, section 4.3, for the structure of the equation.
+    Manipulation, chapter 4, for the structure of the equation.
     """
 
     n: int
@@ -46,31 +51,34 @@ class Manipulator(ABC):
 
     def f_vec(self, qd) -> np.ndarray:
         """Friction torque f(q̇), (n,), N·m; zero unless the model has friction."""
-        return np.zeros_like(self._per_joint("qd", qd))
+        return np.zeros_like(state_vector("qd", qd, self.n))
 
     def inverse_dynamics(self, q, qd, qdd) -> np.ndarray:
         """Input u = M q̈ + C q̇ + g + f that gives the acceleration qdd, (n,), N·m."""
-        qdd = self._per_joint("qdd", qdd)
+        q, qd, qdd = state_vectors(self.n, q=q, qd=qd, qdd=qdd)
         return np.matvec(self.M(q), qdd) + self.bias(q, qd)
 
     def bias(self, q, qd) -> np.ndarray:
         """C q̇ + g + f, the input that keeps q̈ = 0, (n,), N·m."""
-        qd = self._per_joint("qd", qd)
+        q, qd = state_vectors(self.n, q=q, qd=qd)
         return np.matvec(self.C(q, qd), qd) + self.g_vec(q) + self.f_vec(qd)
 
     def dynamics(self, q, qd, u) -> np.ndarray:
         """Acceleration q̈ = M⁻¹ (u − C q̇ − g − f), (n,), rad/s².
 
-        Raises numpy.linalg.LinAlgError where M(q) is singular: the model then has a motion that
-        carries no kinetic energy, and its acceleration is not determined.
+        Raises numpy.linalg.LinAlgError, saying where, if M(q) is singular to rounding: its smallest
+        eigenvalue is below n·1.8e-15 of the largest. The model then has a motion that carries no
+        kinetic energy, and its acceleration is not determined.
         """
-        u = self._per_joint("u", u)
-        rest = u - self.bias(q, qd)
-        return np.linalg.solve(self.M(q), rest[..., np.newaxis])[..., 0]
+        q, qd, u = state_vectors(self.n, q=q, qd=qd, u=u)
+        M = self.M(q)
+        _refuse_singular(M, q)
+        rest = u - np.matvec(self.C(q, qd), qd) - self.g_vec(q) - self.f_vec(qd)
+        return np.linalg.solve(M, rest[..., np.newaxis])[..., 0]
 
     def kinetic_energy(self, q, qd) -> np.ndarray:
         """K = ½ q̇ᵀ M q̇, scalar, J."""
-        qd = self._per_joint("qd", qd)
+        q, qd = state_vectors(self.n, q=q, qd=qd)
         return 0.5 * np.vecdot(qd, np.matvec(self.M(q), qd))
 
     def energy(self, q, qd) -> np.ndarray:
@@ -81,11 +89,31 @@ class Manipulator(ABC):
         """ẋ of the state x = [q; q̇], shape (2n,), in rad/s and rad/s².
 
         x: (2n,), the coordinates first, then the velocities. u: (n,), N·m.
+        Raises numpy.linalg.LinAlgError where M(q) is singular, as `dynamics` does.
         """
         x = state_vector("x", x, 2 * self.n)
         q, qd = x[..., : self.n], x[..., self.n :]
         qdd = self.dynamics(q, qd, u)
         return np.concatenate([np.broadcast_to(qd, qdd.shape), qdd], axis=-1)
 
-    def _per_joint(self, name: str, value) -> np.ndarray:
-        return state_vector(name, value, self.n)
+
+def _refuse_singular(M, q) -> None:
+    n = M.shape[-1]
+    size = np.sqrt(np.einsum("...ij,...ij", M, M))[..., np.newaxis, np.newaxis]
+    # |det| ≤ smallest eigenvalue · largestⁿ⁻¹, and det is cheaper than eigenvalues: it clears
+    # nearly every state, whose eigenvalues then need no look.
+    suspect = np.abs(np.linalg.det(M / np.where(size > 0, size, 1))) <= 2 * n * ROUNDING
+    if not np.any(suspect):
+        return
+    values, vectors = np.linalg.eigh(M[suspect])
+    sizes = np.abs(values)
+    singular = np.flatnonzero(sizes.min(axis=-1) <= n * ROUNDING * sizes.max(axis=-1))
+    if len(singular):
+        k = singular[0]
+        at = tuple(int(i) for i in np.argwhere(suspect)[k])
+        index = f" (state {', '.join(map(str, at))} of the batch)" if at else ""
+        idle = vectors[k][:, np.argmin(sizes[k])]
+        raise np.linalg.LinAlgError(
+            f"M(q) is singular at q = {q[at]}{index}: a velocity along {idle} carries no kinetic "
+            "energy, so q̈ is not determined"
+        )

@@ -1,15 +1,22 @@
 """Checks on parameters and states: each error names the argument, what came and what is needed."""
 
-import math
+import reprlib
+from collections.abc import Sequence
 from numbers import Real
 
 import numpy as np
 
+# Inertias are products of three parameters; within this bound their squares stay finite.
+LARGEST = 1e50
+
 
 def finite(name: str, value: float, unit: str) -> float:
-    """`value` as a float; ValueError unless it is one finite real number."""
-    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
-        raise ValueError(f"{name} = {value!r}: needs one finite number, in {unit}")
+    """`value` as a float; ValueError unless it is one finite real number, at most 1e50 in size."""
+    if isinstance(value, bool) or not isinstance(value, Real) or not abs(value) <= LARGEST:
+        raise ValueError(
+            f"{name} = {reprlib.repr(value)}: needs one finite number, in {unit} "
+            f"(at most {LARGEST:.0e})"
+        )
     return float(value)
 
 
@@ -30,23 +37,58 @@ def nonnegative(name: str, value: float, unit: str) -> float:
 
 
 def per_joint(name: str, value, n: int, unit: str) -> tuple[float, ...]:
-    """`value` as a tuple of `n` floats ≥ 0, one per joint; a single number is allowed for n = 1."""
-    values = (value,) if n == 1 and isinstance(value, Real) else value
+    """`value`, a sequence or an array, as a tuple of `n` floats ≥ 0, one per joint."""
+    # Strings are sequences too; sets and mappings have no order that joints could follow.
+    listed = isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes)
+    if not listed or np.shape(value)[:1] != (n,):
+        raise ValueError(
+            f"{name} = {reprlib.repr(value)}: needs {n} numbers, one per joint, in {unit}"
+        )
+    return tuple(nonnegative(f"{name}[{i}]", entry, unit) for i, entry in enumerate(value))
+
+
+def real_array(name: str, value, needs: str = "real numbers") -> np.ndarray:
+    """`value` as a float array; ValueError for what is not real numbers: None, text, bool, complex.
+
+    NaN and infinity pass here; `all_finite` refuses them.
+    """
     try:
-        entries = tuple(values)
-    except TypeError:
-        entries = ()
-    if len(entries) != n:
-        raise ValueError(f"{name} = {value!r}: needs {n} numbers, one per joint, in {unit}")
-    return tuple(nonnegative(f"{name}[{i}]", entry, unit) for i, entry in enumerate(entries))
+        array = np.asarray(value)
+    except ValueError:
+        raise ValueError(
+            f"{name} = {reprlib.repr(value)}: rows of different lengths; needs {needs}"
+        ) from None
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"{name} = {reprlib.repr(value)}: needs {needs}, not {array.dtype} values")
+    return array.astype(float, copy=False)
+
+
+def all_finite(name: str, array: np.ndarray) -> np.ndarray:
+    """The array itself; ValueError, with the first offending index, if it holds NaN or infinity."""
+    if not np.isfinite(array).all():
+        at = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        where = f"{name}[{', '.join(map(str, at))}]" if at else name
+        raise ValueError(f"{where} = {array[at]}: needs finite numbers")
+    return array
 
 
 def state_vector(name: str, value, size: int) -> np.ndarray:
     """`value` as a float array of shape (..., size); otherwise ValueError with both shapes."""
-    try:
-        array = np.asarray(value, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name}: needs numbers of shape (..., {size}); {error}") from None
+    needs = f"real numbers of shape (..., {size})"
+    array = real_array(name, value, needs)
     if array.ndim == 0 or array.shape[-1] != size:
-        raise ValueError(f"{name}: got shape {array.shape}, needs (..., {size})")
-    return array
+        raise ValueError(f"{name}: got shape {array.shape}, needs {needs}")
+    return all_finite(name, array)
+
+
+def state_vectors(size: int, **named) -> list[np.ndarray]:
+    """Each value as by `state_vector`; ValueError if their batch axes do not broadcast."""
+    arrays = [state_vector(name, value, size) for name, value in named.items()]
+    try:
+        np.broadcast_shapes(*(array.shape for array in arrays))
+    except ValueError:
+        shapes = ", ".join(
+            f"{name} {array.shape}" for name, array in zip(named, arrays, strict=True)
+        )
+        raise ValueError(f"{shapes}: needs batch axes that broadcast to one shape") from None
+    return arrays

@@ -1,13 +1,13 @@
 """The physical pendulum: the smallest manipulator, n = 1."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Self
 
 import numpy as np
 
 from armdyn.friction import joint_friction
 from armdyn.manipulator import Manipulator
-from armdyn.parameters import finite, nonnegative, positive
+from armdyn.parameters import finite, nonnegative, positive, state_vector, state_vectors
 
 # How far below m·lc² rounding alone may put an I that was computed as I_com + m·lc² with I_com = 0.
 ROUNDING = 1e-12
@@ -35,12 +35,12 @@ class Pendulum(Manipulator):
     n = 1
 
     def __post_init__(self):
-        positive("m", self.m, "kg")
-        nonnegative("lc", self.lc, "m")
-        positive("I", self.I, "kg·m²")
-        finite("g", self.g, "m/s²")
-        nonnegative("viscous", self.viscous, "N·m·s/rad")
-        nonnegative("coulomb", self.coulomb, "N·m")
+        checks = {"m": positive, "I": positive, "g": finite}
+        for parameter in fields(self):
+            name, unit = parameter.name, parameter.metadata["unit"]
+            value = checks.get(name, nonnegative)(name, getattr(self, name), unit)
+            # Floats whatever came, so that pendulums compare and hash by their numbers.
+            object.__setattr__(self, name, value)
         least = self.m * self.lc**2
         if least * (1 - ROUNDING) > self.I:
             raise ValueError(
@@ -51,7 +51,10 @@ class Pendulum(Manipulator):
 
     @classmethod
     def from_com(cls, m: float, lc: float, I_com: float, **others) -> Self:
-        """A pendulum from its inertia about the centre of mass, I = I_com + m ℓc² (kg·m²)."""
+        """A pendulum from its inertia about the centre of mass, I = I_com + m ℓc² (kg·m²).
+
+        others: g, viscous and coulomb, as in the constructor, whose ValueErrors it raises too.
+        """
         nonnegative("I_com", I_com, "kg·m²")
         positive("m", m, "kg")
         nonnegative("lc", lc, "m")
@@ -59,22 +62,23 @@ class Pendulum(Manipulator):
 
     def M(self, q) -> np.ndarray:
         """(1, 1), kg·m²: the constant I."""
-        q = self._per_joint("q", q)
-        return np.full((*q.shape, 1), float(self.I))
+        q = state_vector("q", q, 1)
+        return np.full((*q.shape, 1), self.I)
 
     def C(self, q, qd) -> np.ndarray:
         """(1, 1), kg·m²/s: zero, since M does not depend on q."""
-        q, qd = self._per_joint("q", q), self._per_joint("qd", qd)
+        q, qd = state_vectors(1, q=q, qd=qd)
         return np.zeros((*np.broadcast_shapes(q.shape, qd.shape), 1))
 
     def g_vec(self, q) -> np.ndarray:
         """m g ℓc sin q, (1,), N·m."""
-        return self.m * self.g * self.lc * np.sin(self._per_joint("q", q))
+        return self.m * self.g * self.lc * np.sin(state_vector("q", q, 1))
 
     def f_vec(self, qd) -> np.ndarray:
-        return joint_friction(self._per_joint("qd", qd), self.viscous, self.coulomb)
+        """Viscous and Coulomb friction, (1,), N·m."""
+        return joint_friction(state_vector("qd", qd, 1), self.viscous, self.coulomb)
 
     def potential_energy(self, q) -> np.ndarray:
         """P = m g ℓc (1 − cos q), zero when hanging, J."""
-        q = self._per_joint("q", q)[..., 0]
+        q = state_vector("q", q, 1)[..., 0]
         return self.m * self.g * self.lc * (1 - np.cos(q))

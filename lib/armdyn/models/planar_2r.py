@@ -1,12 +1,19 @@
 """The planar arm with two revolute joints (2R), in closed form."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
 from armdyn.friction import joint_friction
 from armdyn.manipulator import Manipulator
-from armdyn.parameters import finite, nonnegative, per_joint, positive
+from armdyn.parameters import (
+    finite,
+    nonnegative,
+    per_joint,
+    positive,
+    state_vector,
+    state_vectors,
+)
 
 
 @dataclass(frozen=True)
@@ -17,8 +24,9 @@ class Planar2R(Manipulator):
     mass lies on its link's axis; I1 and I2 are inertias about the centres of mass. A centre of mass
     behind its joint (a counterweight) has a negative lc.
     Raises ValueError, naming the argument, for a parameter that is not finite or not physical.
+    Masses and inertias may be zero, and M(q) may then be singular: see `Manipulator.dynamics`.
 
-    Source: M. W. Spong, M. Vidyasagar (1989), Robot Dynamics and Control, section 6.4, for M, C, g.
+    Source: M. W. Spong, M. Vidyasagar (1989), Robot Dynamics and Control, chapter 6, for M, C, g.
     """
 
     l1: float = field(metadata={"unit": "m", "doc": "length of link 1"})
@@ -44,24 +52,22 @@ class Planar2R(Manipulator):
     n = 2
 
     def __post_init__(self):
-        for name in ("l1", "l2"):
-            positive(name, getattr(self, name), "m")
-        for name in ("lc1", "lc2"):
-            finite(name, getattr(self, name), "m")
-        for name in ("m1", "m2"):
-            nonnegative(name, getattr(self, name), "kg")
-        for name in ("I1", "I2"):
-            nonnegative(name, getattr(self, name), "kg·m²")
-        finite("g", self.g, "m/s²")
-        # A frozen instance is hashable only if its friction is: arrays become tuples.
-        for name, unit in (("viscous", "N·m·s/rad"), ("coulomb", "N·m")):
-            object.__setattr__(self, name, per_joint(name, getattr(self, name), 2, unit))
+        checks = {"l1": positive, "l2": positive, "lc1": finite, "lc2": finite, "g": finite}
+        for parameter in fields(self):
+            name, unit = parameter.name, parameter.metadata["unit"]
+            value = getattr(self, name)
+            if name in ("viscous", "coulomb"):
+                value = per_joint(name, value, 2, unit)
+            else:
+                value = checks.get(name, nonnegative)(name, value, unit)
+            # Floats and tuples whatever came, so that arms compare and hash by their numbers.
+            object.__setattr__(self, name, value)
 
     def M(self, q) -> np.ndarray:
         """(2, 2), kg·m²; it depends on q2 alone."""
-        q2 = self._per_joint("q", q)[..., 1]
+        q2 = state_vector("q", q, 2)[..., 1]
         coupling = self.m2 * self.l1 * self.lc2 * np.cos(q2)
-        M22 = np.broadcast_to(self.I2 + self.m2 * self.lc2**2, q2.shape)
+        M22 = self.I2 + self.m2 * self.lc2**2
         M12 = M22 + coupling
         M11 = self.I1 + self.m1 * self.lc1**2 + self.m2 * self.l1**2 + M22 + 2 * coupling
         # fmt: off
@@ -71,28 +77,28 @@ class Planar2R(Manipulator):
 
     def C(self, q, qd) -> np.ndarray:
         """Christoffel form, (2, 2), kg·m²/s."""
-        q, qd = np.broadcast_arrays(self._per_joint("q", q), self._per_joint("qd", qd))
+        q, qd = state_vectors(2, q=q, qd=qd)
         qd1, qd2 = qd[..., 0], qd[..., 1]
         h = -self.m2 * self.l1 * self.lc2 * np.sin(q[..., 1])
         # fmt: off
         return _matrix( h * qd2, h * (qd1 + qd2),
-                       -h * qd1, np.zeros_like(h))
+                       -h * qd1, 0.0)
         # fmt: on
 
     def g_vec(self, q) -> np.ndarray:
         """(2,), N·m."""
-        q = self._per_joint("q", q)
-        q1, q12 = q[..., 0], q[..., 0] + q[..., 1]
-        g2 = self.m2 * self.lc2 * self.g * np.cos(q12)
-        g1 = (self.m1 * self.lc1 + self.m2 * self.l1) * self.g * np.cos(q1) + g2
+        q = state_vector("q", q, 2)
+        g2 = self.m2 * self.lc2 * self.g * np.cos(q[..., 0] + q[..., 1])
+        g1 = (self.m1 * self.lc1 + self.m2 * self.l1) * self.g * np.cos(q[..., 0]) + g2
         return np.stack([g1, g2], axis=-1)
 
     def f_vec(self, qd) -> np.ndarray:
-        return joint_friction(self._per_joint("qd", qd), self.viscous, self.coulomb)
+        """Viscous and Coulomb friction of each joint, (2,), N·m."""
+        return joint_friction(state_vector("qd", qd, 2), self.viscous, self.coulomb)
 
     def potential_energy(self, q) -> np.ndarray:
         """Zero with both centres of mass at the height of joint 1, J."""
-        q = self._per_joint("q", q)
+        q = state_vector("q", q, 2)
         q1, q12 = q[..., 0], q[..., 0] + q[..., 1]
         height1 = self.lc1 * np.sin(q1)
         height2 = self.l1 * np.sin(q1) + self.lc2 * np.sin(q12)
@@ -101,4 +107,7 @@ class Planar2R(Manipulator):
 
 def _matrix(a11, a12, a21, a22) -> np.ndarray:
     """Entries of shape (...) as a (..., 2, 2) array."""
-    return np.stack([np.stack([a11, a12], axis=-1), np.stack([a21, a22], axis=-1)], axis=-2)
+    matrices = np.empty((*np.broadcast(a11, a12, a21, a22).shape, 2, 2))
+    matrices[..., 0, 0], matrices[..., 0, 1] = a11, a12
+    matrices[..., 1, 0], matrices[..., 1, 1] = a21, a22
+    return matrices
