@@ -4,9 +4,14 @@ solutions/ holds the source version of each assignment. Everything else that nbg
 course/, which holds students' work and is in no repository: back it up.
 """
 
+import os
+import sys
 from pathlib import Path
 
 from autograder import nbgrader_glue
+
+# nbgrader starts `alembic` by its bare name, which is found only where the environment is activated.
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 
 root = Path(__file__).resolve().parent
 course = root / "course"

@@ -164,7 +164,7 @@ class Check:
         e, g = expected[worst][k], given[worst][k]
         at = np.unravel_index(np.argmax(np.abs(g - e)), np.shape(e))
         off, size = abs(float(g[at] - e[at])), abs(float(e[at]))
-        share = f" ({100 * off / size:.2g} % of the right value)" if size > 0 else ""
+        share = f" ({_percent(off / size)} of the right value)" if size > 0 else ""
         unit = f" {self.criteria[k].unit}".rstrip()
         entry = "" if np.size(e) == 1 else f" in entry {tuple(int(i) for i in at)}"
         # A quantity formed from several values is not what the function returned.
@@ -229,6 +229,10 @@ def shown_call(call: Call) -> str:
     """A call as a student would type it, numbers shortened."""
     names = {name: f"{at:.4g}" for name, at in call.at[-1].items()} if call.at else {}
     return f"{call.name}({', '.join(_shown(value, names) for value in call.args)})"
+
+
+def _percent(share: float) -> str:
+    return f"{share:.0%}" if share >= 0.01 else f"{100 * share:.1g}%"
 
 
 def _shown(value, names) -> str:

@@ -74,7 +74,7 @@ class Verdict:
 
     def __str__(self):
         rows = [f"  [{'x' if row.met else ' '}] {row.text}" for row in self.rows]
-        body = [textwrap.fill(line, 88, initial_indent="  ", subsequent_indent="  ")
+        body = [textwrap.fill(line, 78, initial_indent="  ", subsequent_indent="  ")
                 for line in self.lines()]  # fmt: skip
         return "\n".join([self.headline, *rows, *body])
 

@@ -1,0 +1,1 @@
+"""Submissions as students send them: right ones, wrong ones and damaged ones."""
