@@ -40,7 +40,7 @@ endef
 	$(call install,test)
 
 # An environment knows its own path and its Python: when either has gone, it is made anew.
-ifneq ($(shell test "$$(cat .venv/path)" = "$$(pwd)" && .venv/bin/python -c "" && echo works),works)
+ifneq ($(shell { test "$$(cat .venv/path)" = "$$(pwd)" && .venv/bin/python -c "" && echo works; } 2>/dev/null),works)
 .PHONY: .venv/path
 endif
 

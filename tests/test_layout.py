@@ -1,0 +1,143 @@
+"""The rules of the house that no single module can see: who imports whom, and what is tracked."""
+
+import ast
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+ARMDYN = sorted((ROOT / "lib" / "armdyn").rglob("*.py"))
+AUTOGRADER = sorted((ROOT / "autograder").rglob("*.py"))
+SOLUTIONS = sorted((ROOT / "solutions").rglob("*.ipynb"))
+
+
+def imports(source: str, package: str = "") -> set[str]:
+    """Every module that the source names in an import, wherever in it; relative ones resolved."""
+    found = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            found.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = package.split(".")[: len(package.split(".")) - node.level + 1]
+            base = ".".join([*(above if node.level else []), *filter(None, [node.module])])
+            found.add(base)
+            found.update(f"{base}.{alias.name}" for alias in node.names)
+    return found
+
+
+def module_imports(path: Path, top: Path) -> set[str]:
+    return imports(path.read_text(encoding="utf-8"), ".".join(path.relative_to(top).parent.parts))
+
+
+def names(modules: set[str], *packages: str) -> set[str]:
+    """Those of the modules that are in, or are, one of the packages."""
+    return {m for m in modules for p in packages if m == p or m.startswith(f"{p}.")}
+
+
+def code(notebook: Path) -> str:
+    """The notebook's code, without the lines that are IPython's and not Python's."""
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    source = "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code")
+    return "\n".join(
+        line for line in source.splitlines() if not line.lstrip().startswith(("%", "!"))
+    )
+
+
+def tracked() -> list[Path]:
+    """The files git tracks; outside a checkout, none."""
+    listed = subprocess.run(
+        [shutil.which("git"), "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True
+    )
+    return [ROOT / name for name in listed.stdout.decode().split("\0") if name]
+
+
+def relative(paths):
+    return [pytest.param(path, id=path.relative_to(ROOT).as_posix()) for path in paths]
+
+
+@pytest.mark.parametrize(
+    ("source", "package", "found"),
+    [
+        ("import a.b as c", "", {"a.b"}),
+        ("from a import b", "", {"a", "a.b"}),
+        ("from . import b", "a.c", {"a.c", "a.c.b"}),
+        ("from .. import b", "a.c", {"a", "a.b"}),
+        ("from ..d import b", "a.c", {"a.d", "a.d.b"}),
+        ("def f():\n    import late", "", {"late"}),
+    ],
+)
+def test_imports_are_found(source, package, found):
+    assert imports(source, package) == found
+
+
+@pytest.mark.parametrize("path", relative(ARMDYN))
+def test_armdyn_stands_alone(path):
+    found = module_imports(path, ROOT / "lib")
+    assert not names(found, "IPython", "nbgrader", "autograder")
+    if path.stem != "plotting" and "plotting" not in path.parts:
+        assert not names(found, "matplotlib")
+
+
+def test_models_and_derive_do_not_know_each_other():
+    top = ROOT / "lib"
+    for path in ARMDYN:
+        area = path.relative_to(top / "armdyn").parts[0].removesuffix(".py")
+        if area == "models":
+            assert not names(module_imports(path, top), "armdyn.derive"), path
+        if area == "derive":
+            assert not names(module_imports(path, top), "armdyn.models"), path
+
+
+@pytest.mark.parametrize("path", relative(AUTOGRADER))
+def test_one_file_knows_nbgrader(path):
+    if path.name != "nbgrader_glue.py":
+        assert not names(module_imports(path, ROOT), "nbgrader")
+
+
+@pytest.mark.parametrize("path", relative(SOLUTIONS))
+def test_a_problem_holds_nothing_of_armdyn(path):
+    assert not names(imports(code(path)), "armdyn")
+
+
+def test_there_are_files_to_judge():
+    assert len(ARMDYN) > 5
+    assert len(AUTOGRADER) > 5
+    assert SOLUTIONS
+
+
+def test_no_registry_is_named():
+    # Where packages come from is the machine's business: a mirror, a cache, a folder of wheels.
+    registry = re.compile(
+        r"(pypi|pythonhosted|npmjs|yarnpkg|jsdelivr|unpkg|anaconda|conda-forge)\.(org|com|io|net)"
+        r"|--(extra-)?index-url|find-links",
+        re.IGNORECASE,
+    )
+    this = Path(__file__)
+    naming = [
+        (path.relative_to(ROOT).as_posix(), found.group())
+        for path in tracked()
+        if path != this and path.is_file()
+        for found in [registry.search(path.read_text(encoding="utf-8", errors="replace"))]
+        if found
+    ]
+    assert naming == []
+
+
+def test_nothing_of_students_is_tracked():
+    assert not [p for p in tracked() if p.relative_to(ROOT).parts[0] in ("course", "problems")]
+
+
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md"])
+def test_says_what_it_is(name):
+    assert len((ROOT / name).read_text(encoding="utf-8")) > 500
+
+
+def test_constraints_pin_everything():
+    lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    pins = [line for line in lines if line and not line.startswith("#")]
+    assert len(pins) > 100
+    assert [pin for pin in pins if not re.fullmatch(r"[a-z0-9-]+==[0-9][\w.]*( ; .+)?", pin)] == []
