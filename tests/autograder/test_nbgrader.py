@@ -19,8 +19,8 @@ import nbformat
 import pytest
 from nbgrader.api import Gradebook
 
-from submissions import p3_pendulum
-from submissions.p3_pendulum import BAD_ANSWERS, POINTS
+from tests.submissions import p3_pendulum
+from tests.submissions.p3_pendulum import BAD_ANSWERS, POINTS
 
 ROOT = Path(__file__).parents[2]
 P3 = "p3-pendulum"

@@ -1,0 +1,148 @@
+"""p3-pendulum: right answers in many styles pass at any seed; the references agree with armdyn."""
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from armdyn import Pendulum
+from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
+from autograder.problems import CHECKS
+from autograder.problems.p3_pendulum import CHECKS as P3
+from autograder.verdict import State
+from autograder.wall import answer_all
+
+MGL = "pend.m * pend.g * pend.lc"
+RIGHT = {
+    "p3-lagrangian": [
+        "I * qd**2 / 2 - m * g * lc * (1 - sp.cos(q))",
+        "I * qd**2 / 2 + m * g * lc * sp.cos(q)",
+        "sp.Rational(1, 2) * I * qd**2 - 2 * m * g * lc * sp.sin(q / 2) ** 2",
+        "0.5 * I * qd**2 - m * g * (5 - lc * sp.cos(q))",
+        "0.5 * (I - m * lc**2) * qd**2 + 0.5 * m * ((lc * sp.cos(q) * qd) ** 2 "
+        "+ (lc * sp.sin(q) * qd) ** 2) + m * g * lc * sp.cos(q)",
+        "sp.Matrix([[I * qd**2 / 2 + m * g * lc * sp.cos(q)]])[0, 0]",
+    ],
+    "p3-M": [
+        "pend.I",
+        "[pend.I]",
+        "[[pend.I]]",
+        "np.array([[pend.I]])",
+        "np.float32(pend.I)",
+        "np.array([[pend.I]], dtype=np.float32)",
+        "pend.I + 0 * q",
+        "((pend.I - pend.m * pend.lc**2) + pend.m * pend.lc**2,)",
+        "sp.Matrix([[pend.I]])",
+        "np.full((1, 1), pend.I)",
+    ],
+    "p3-C": ["0", "0.0", "[[0]]", "np.zeros((1, 1))", "0 * qd", "[[0 * q[0] * qd[0]]]", "(0,)"],
+    "p3-g_vec": [
+        f"{MGL} * np.sin(q)",
+        f"{MGL} * np.sin(q[0])",
+        f"[{MGL} * np.sin(q[0])]",
+        f"np.float32({MGL} * np.sin(np.float32(q)))",
+        f"{MGL} * sp.sin(q[0])",
+        f"-{MGL} * np.cos(q + np.pi / 2)",
+        f"2 * {MGL} * np.sin(q / 2) * np.cos(q / 2)",
+        f"{MGL} * (np.cos(q - 1e-6) - np.cos(q + 1e-6)) / 2e-6",
+        f"np.array([[{MGL} * np.sin(q[0])]])",
+        f"float({MGL} * np.sin(q)[0])",
+    ],
+    "p3-inertia_about_pivot": ["I_com + m * lc**2", "I_com + m * lc * lc", "[I_com + m * lc**2]"],
+    "p3-small_angle_frequency": [
+        f"np.sqrt({MGL} / pend.I)",
+        f"({MGL} / pend.I) ** 0.5",
+        f"sp.sqrt({MGL} / pend.I)",
+        f"2 * np.pi / (2 * np.pi * np.sqrt(pend.I / ({MGL})))",
+    ],
+}
+CASES = [(check_id, returned) for check_id, variants in RIGHT.items() for returned in variants]
+
+
+def namespace_of(check_id, returned):
+    namespace = {"np": np, "sp": sp}
+    exec(f"def {CHECKS[check_id].signature}:\n    return {returned}", namespace)
+    return namespace
+
+
+def judged(check_id, namespace, seed, count=HIDDEN_CASES):
+    return CHECKS[check_id].run(
+        lambda calls: answer_all(calls, namespace), np.random.default_rng(seed), count
+    )
+
+
+@pytest.mark.parametrize(("check_id", "returned"), CASES)
+def test_right_in_any_style(check_id, returned):
+    verdict = judged(check_id, namespace_of(check_id, returned), seed=1)
+    assert verdict.state is State.CORRECT, str(verdict)
+    assert verdict.credit == 1
+    assert verdict.diagnosis == ()
+    assert verdict.witness is None
+
+
+@pytest.mark.parametrize("check_id", [c.id for c in P3 if c.id != "p3-lagrangian"])
+def test_no_false_alarm_over_a_thousand_seeds(check_id):
+    single = f"np.float32({RIGHT[check_id][0]})"
+    namespaces = [namespace_of(check_id, r) for r in (RIGHT[check_id][0], single)]
+    for seed in range(1000):
+        for namespace in namespaces:
+            assert judged(check_id, namespace, seed, VISIBLE_CASES).state is State.CORRECT
+
+
+def test_no_false_alarm_on_the_lagrangian():
+    namespace = namespace_of("p3-lagrangian", RIGHT["p3-lagrangian"][1])
+    for seed in range(40):
+        assert judged("p3-lagrangian", namespace, seed, VISIBLE_CASES).state is State.CORRECT
+
+
+@pytest.mark.parametrize("check_id", RIGHT)
+def test_wrong_by_1e_4_fails_at_any_seed(check_id):
+    exact = check_id == "p3-C"  # zero has no relative error
+    returned = "1e-4 * qd" if exact else f"({RIGHT[check_id][0]}) * 1.0001"
+    namespace = namespace_of(check_id, returned)
+    for seed in range(20):
+        assert judged(check_id, namespace, seed).state is not State.CORRECT
+
+
+def test_references_agree_with_the_library():
+    """The checks' own references, against armdyn.Pendulum, at the checks' own cases."""
+    checks = {check.name: check for check in P3}
+    rng = np.random.default_rng(3)
+    for name in ("M", "g_vec"):
+        for call in checks[name].calls(rng, 50):
+            q, pend = call.args
+            model = Pendulum(**vars(pend))
+            expected = getattr(model, name)(q).item()
+            assert checks[name].reference(q, pend) == pytest.approx(expected, rel=1e-13)
+    for call in checks["C"].calls(rng, 50):
+        q, qd, pend = call.args
+        assert checks["C"].reference(q, qd, pend) == Pendulum(**vars(pend)).C(q, qd).item()
+    for call in checks["lagrangian"].calls(rng, 50):
+        for point in call.at:
+            q, qd, *parameters = point.values()
+            model = Pendulum(**dict(zip(("m", "lc", "I", "g"), parameters, strict=True)))
+            L = model.kinetic_energy([q], [qd]) - model.potential_energy([q])
+            assert checks["lagrangian"].reference(*point.values()) == pytest.approx(L, rel=1e-13)
+    for call in checks["inertia_about_pivot"].calls(rng, 50):
+        I_com, m, lc = call.args
+        expected = Pendulum.from_com(m=m, lc=lc, I_com=I_com).I
+        assert checks["inertia_about_pivot"].reference(*call.args) == pytest.approx(expected)
+
+
+def test_frequency_is_that_of_the_linearised_pendulum():
+    """q̈ = −ω² q near hanging, with q̈ from armdyn's dynamics."""
+    check = CHECKS["p3-small_angle_frequency"]
+    for call in check.calls(np.random.default_rng(4), 50):
+        (pend,) = call.args
+        qdd = Pendulum(**vars(pend)).dynamics([1e-6], [0.0], [0.0]).item()
+        assert check.reference(pend) ** 2 == pytest.approx(-qdd / 1e-6, rel=1e-9)
+
+
+def test_failing_reference_blames_the_check():
+    """A check whose reference breaks is our fault, and says so."""
+    check = CHECKS["p3-M"]
+    broken = type(check)(
+        check.id, check.signature, lambda q, pend: pend.mass, check.calls, check.criteria
+    )
+    verdict = broken.run(lambda calls: [], np.random.default_rng(0))
+    assert verdict.state is State.CHECK_FAILED
+    assert "not your fault" in verdict.next_step
