@@ -36,15 +36,20 @@ def lab(arguments: list[str]) -> int:
 
     from jupyterlab.labapp import LabApp  # takes a second
 
-    # JupyterLab's own state lives beside the environment, so that a student's other projects
-    # and this course do not open each other's notebooks.
-    workspaces = root / ".venv" / "lab" / "workspaces"
-    first = [path for path in (FIRST_LESSON, FIRST_PROBLEM) if (root / path).exists()]
+    # JupyterLab's state lives beside the environment, so that this course and a student's other
+    # projects do not open each other's notebooks.
+    state = root / ".venv" / "lab"
     opens = "/lab"
-    if first and not any(workspaces.glob("*")):
-        _lay_out(workspaces, first)
+    first = [path for path in (FIRST_LESSON, FIRST_PROBLEM) if (root / path).exists()]
+    if first and not any((state / "workspaces").glob("*")):
+        _lay_out(state / "workspaces", first)
         opens = f"/lab/tree/{first[0]}?file-browser-path=/"
-    server = LabApp.initialize_server([*_settings(root, workspaces, opens), *arguments])
+    # Unasked, it would ask a student first of all whether to fetch Jupyter's news.
+    news = {"@jupyterlab/apputils-extension:notification": {"fetchNews": "false"}}
+    (state / "settings").mkdir(parents=True, exist_ok=True)
+    (state / "settings" / "overrides.json").write_text(json.dumps(news), encoding="utf-8")
+
+    server = LabApp.initialize_server([*_settings(root, state, opens), *arguments])
     print(f"\n    Open {_address(server)}\n    Stop with Ctrl-C\n", flush=True)
     # Jupyter would print the address again, five times over.
     server.identity_provider.token_generated = False
@@ -52,16 +57,16 @@ def lab(arguments: list[str]) -> int:
     return 0
 
 
-def _settings(root: Path, workspaces: Path, opens: str) -> list[str]:
+def _settings(root: Path, state: Path, opens: str) -> list[str]:
     """What JupyterLab is started with: quiet, and asking nothing of any host."""
     settings = [
         f"--ServerApp.root_dir={root}",
         f"--LabApp.default_url={opens}",
-        f"--LabApp.workspaces_dir={workspaces}",
-        "--LabApp.news_url=None",
-        "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+        f"--LabApp.workspaces_dir={state / 'workspaces'}",
+        f"--LabApp.app_settings_dir={state / 'settings'}",
         "--LabApp.extension_manager=readonly",
-        "--Application.log_level=WARN",
+        "--ServerApp.answer_yes=True",  # one Ctrl-C stops it
+        "--Application.log_level=ERROR",
     ]
     if hasattr(os, "geteuid") and os.geteuid() == 0:
         settings.append("--allow-root")
