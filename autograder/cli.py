@@ -34,9 +34,14 @@ def problems() -> int:
             file=sys.stderr,
         )
         return 2
-    from autograder.nbgrader_glue import write_problems  # imports nbgrader, which takes seconds
+    for source in sorted((root / "solutions").glob("*/*.ipynb")):
+        folder = root / "problems" / source.parent.name
+        shown = (folder / source.name).relative_to(root)
+        if (folder / source.name).exists():
+            print(f"{shown}: kept as it is, it is yours; move it away for a new one")
+            continue
+        from autograder.nbgrader_glue import write_problem  # imports nbgrader, which takes seconds
 
-    for path, new in write_problems(root, root / "problems"):
-        shown = path.relative_to(root)
-        print(f"{shown}: {'written' if new else 'kept, it is yours; move it away for a new one'}")
+        write_problem(root, source.parent.name, folder)
+        print(f"{shown}: written")
     return 0

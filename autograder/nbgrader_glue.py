@@ -117,21 +117,14 @@ def generate_preprocessors() -> list[type]:
     return [ContinuePastChecks, *GenerateAssignment.preprocessors.make_dynamic_default()]
 
 
-def write_problems(root: Path, to: Path) -> list[tuple[Path, bool]]:
-    """Student versions of all problems in `to`, one folder each; (path, whether it is new).
+def write_problem(root: Path, assignment: str, to: Path) -> None:
+    """The student version of an assignment in the folder `to`; no file that is there is touched.
 
-    A file that is there already is somebody's work and is kept. The gradebook is not touched.
+    root: the course's folder. The gradebook is not touched either.
     """
-    written = []
-    for source in sorted((root / "solutions").glob("*/*.ipynb")):
-        target = to / source.parent.name / source.name
-        new = not target.exists()
-        if new:
-            with tempfile.TemporaryDirectory(prefix="release-") as folder:
-                _generate(root, source.parent.name, folder)
-                _copy_new(Path(folder) / source.parent.name, target.parent)
-        written.append((target, new))
-    return written
+    with tempfile.TemporaryDirectory(prefix="release-") as folder:
+        _generate(root, assignment, folder)
+        _copy_new(Path(folder) / assignment, to)
 
 
 def _generate(root: Path, assignment: str, folder: str) -> None:

@@ -37,8 +37,8 @@ class Course:
         shutil.copy(ROOT / "nbgrader_config.py", root)
         shutil.copytree(ROOT / "solutions", root / "solutions")
 
-    def nbgrader(self, *arguments: str) -> str:
-        """What the command printed; it must succeed."""
+    def nbgrader(self, *arguments: str, status: int = 0) -> str:
+        """What the command printed; it must end with this status."""
         result = subprocess.run(
             [Path(sys.executable).parent / "nbgrader", *arguments],
             cwd=self.root,
@@ -47,7 +47,7 @@ class Course:
             env=os.environ | {"JUPYTER_DATA_DIR": str(self.root / "data")},
         )
         printed = result.stdout + result.stderr
-        assert result.returncode == 0, printed
+        assert result.returncode == status, printed
         return printed
 
     def notebook(self, path: str):
@@ -221,3 +221,16 @@ def test_same_seed_gives_the_same_notebooks_again(course):
     before = course.notebook(path)
     course.nbgrader("autograde", P3, "--student=wrong", "--force")
     assert course.notebook(path).cells == before.cells
+
+
+def test_damaged_file_stops_nobody_else(course):
+    for student in ("a_before", "z_after"):
+        course.submit(student, p3_pendulum.right(course.release))
+    folder = course.root / "course" / "submitted" / "damaged" / P3
+    folder.mkdir(parents=True)
+    (folder / f"{P3}.ipynb").write_text('{"cells": [')
+    said = course.nbgrader("autograde", P3, status=1)
+    assert "error processing assignment 'p3-pendulum' for student 'damaged'" in said
+    assert (folder / f"{P3}.ipynb").read_text() == '{"cells": ['
+    for student in ("a_before", "z_after"):
+        assert automatic(course.scores(student)) == POINTS
