@@ -85,7 +85,7 @@ class Room:
     def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
         message = self._exchange({"run": source, "seconds": seconds}, seconds)
         outputs = message.get("outputs")
-        if not isinstance(outputs, list):
+        if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
             self._lost("it sent no outputs")
         return outputs
 
@@ -133,7 +133,7 @@ class Room:
         line, _, self._buffer = self._buffer.partition(b"\n")
         try:
             message = json.loads(line)
-        except ValueError:
+        except (ValueError, RecursionError):
             message = None
         if not isinstance(message, dict):
             self._lost("it wrote what is no reply")
