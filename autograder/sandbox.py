@@ -133,6 +133,10 @@ class Room:
         line, _, self._buffer = self._buffer.partition(b"\n")
         try:
             message = json.loads(line)
+            if b"\\ud" in line.lower():
+                # Half a surrogate pair is legal in JSON, but no notebook holding one can be saved.
+                text = json.dumps(message, ensure_ascii=False).encode(errors="replace")
+                message = json.loads(text)
         except (ValueError, RecursionError):
             message = None
         if not isinstance(message, dict):
