@@ -16,6 +16,7 @@ import sys
 import sysconfig
 import tempfile
 import time
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
@@ -101,12 +102,15 @@ class Room:
 
     def close(self) -> None:
         """End the process, and all that it started."""
-        if self._process.poll() is None:
-            # Without bubblewrap there is no process namespace to take the children along.
-            os.killpg(self._process.pid, signal.SIGKILL)
+        if self._process.returncode is None:
+            # Without bubblewrap there is no process namespace to take the children along, and they
+            # may be there when their parent has ended. The group's number is free only after wait.
+            with suppress(ProcessLookupError):
+                os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
         for pipe in (self._process.stdin, self._process.stdout, self._process.stderr):
-            pipe.close()
+            with suppress(BrokenPipeError):  # a request that was never read
+                pipe.close()
         self._folder.cleanup()
 
     def _exchange(self, request: dict, seconds: float) -> dict:
