@@ -167,7 +167,8 @@ class Room:
     def _walled(self):
         command = ["bwrap", "--unshare-all", "--die-with-parent", "--new-session"]
         command += ["--uid", NOBODY, "--gid", NOBODY, "--proc", "/proc", "--dev", "/dev"]
-        command += ["--size", str(TMPFS_BYTES), "--tmpfs", "/tmp"]
+        for folder in ("/tmp", "/dev/shm"):
+            command += ["--size", str(TMPFS_BYTES), "--tmpfs", folder]
         for folder in ("/usr", "/bin", "/lib", "/lib64"):
             if Path(folder).is_symlink():
                 command += ["--symlink", os.readlink(folder), folder]
@@ -179,7 +180,7 @@ class Room:
             command += ["--tmpfs", folder]
         for path, name in INSIDE.items():
             command += ["--ro-bind", str(path), f"/room/{name}"]
-        command += ["--remount-ro", "/", "--chdir", "/tmp"]
+        command += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/tmp"]
         # The environment goes in through bwrap's own: what it is started with stays readable inside.
         return [*command, "--", sys.executable, "-I", "-u", "/room/runner.py"], ENVIRONMENT
 
