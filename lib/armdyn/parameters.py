@@ -12,12 +12,16 @@ LARGEST = 1e50
 
 def finite(name: str, value: float, unit: str) -> float:
     """`value` as a float; ValueError unless it is one finite real number, at most 1e50 in size."""
-    if isinstance(value, bool) or not isinstance(value, Real) or not abs(value) <= LARGEST:
+    try:
+        number = float(value) if isinstance(value, Real) else np.nan
+    except OverflowError:
+        number = np.inf
+    if isinstance(value, bool) or not abs(number) <= LARGEST:
         raise ValueError(
             f"{name} = {reprlib.repr(value)}: needs one finite number, in {unit} "
             f"(at most {LARGEST:.0e})"
         )
-    return float(value)
+    return number
 
 
 def positive(name: str, value: float, unit: str) -> float:

@@ -42,7 +42,7 @@ def simulate(
 
     Returns (..., T, N). Raises ValueError for times that do not increase, for states, inputs or
     derivatives that are not numbers of the right shape and for an unknown method;
-    FloatingPointError, with the time, where the states stop being finite or SciPy's method cannot
+    whatever f raises, such as numpy.linalg.LinAlgError at a singular M; FloatingPointError, with the time, where the states stop being finite or SciPy's method cannot
     go on. NumPy's warnings of overflow in f are silent: that error stands for them.
     """
     x0, t = all_finite("x0", real_array("x0", x0)), _times(t)
@@ -55,6 +55,8 @@ def simulate(
     rate = _Rate(f, u)
     try:
         all_finite("ẋ", rate(t[0], x0))
+    except np.linalg.LinAlgError:
+        raise  # a ValueError by descent, but of the model and not of the arguments
     except ValueError as error:
         raise ValueError(f"f(x0, u) at t = {t[0]:.6g} s, x0 = {x0}: {error}") from error
     # Adaptive methods try steps that overflow and take them back; it is the outcome that counts.
