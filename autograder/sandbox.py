@@ -36,6 +36,7 @@ CELL_SECONDS = 10.0
 # Over the limit inside by this much, the process is taken to be out of its own control.
 GRACE_SECONDS = 3.0
 MOST_BYTES = 32 << 20
+MOST_OUTPUTS = 100  # the runner sends fewer; a forged reply may not
 TMPFS_BYTES = 64 << 20
 NOBODY = "65534"
 ENVIRONMENT = {
@@ -88,7 +89,7 @@ class Room:
         outputs = message.get("outputs")
         if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
             self._lost("it sent no outputs")
-        return outputs
+        return outputs[:MOST_OUTPUTS]
 
     def ask(self, calls: list[Call], seconds: float = CELL_SECONDS) -> list[Reply]:
         message = self._exchange({"ask": [encode_call(call) for call in calls]}, seconds)
