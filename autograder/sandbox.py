@@ -75,6 +75,7 @@ class Room:
             stderr=subprocess.PIPE,
             start_new_session=True,
         )
+        os.set_blocking(self._process.stdin.fileno(), False)
         self._buffer = b""
         self._receive(START_SECONDS)
 
@@ -110,14 +111,18 @@ class Room:
                 os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
         for pipe in (self._process.stdin, self._process.stdout, self._process.stderr):
-            with suppress(BrokenPipeError):  # a request that was never read
-                pipe.close()
+            pipe.close()
         self._folder.cleanup()
 
     def _exchange(self, request: dict, seconds: float) -> dict:
+        left = memoryview(json.dumps(request).encode() + b"\n")
+        stdin = self._process.stdin.fileno()
         try:
-            self._process.stdin.write(json.dumps(request).encode() + b"\n")
-            self._process.stdin.flush()
+            while left:
+                # A process that does not read must not make the judge wait for ever.
+                if not select.select([], [stdin], [], GRACE_SECONDS)[1]:
+                    self._lost("it stopped listening")
+                left = left[os.write(stdin, left) :]
         except OSError:
             self._lost("it has ended")
         return self._receive(seconds + GRACE_SECONDS)
