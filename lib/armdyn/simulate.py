@@ -42,8 +42,9 @@ def simulate(
 
     Returns (..., T, N). Raises ValueError for times that do not increase, for states, inputs or
     derivatives that are not numbers of the right shape and for an unknown method;
-    whatever f raises, such as numpy.linalg.LinAlgError at a singular M; FloatingPointError, with the time, where the states stop being finite or SciPy's method cannot
-    go on. NumPy's warnings of overflow in f are silent: that error stands for them.
+    FloatingPointError, with the time, where the states stop being finite or SciPy's method cannot
+    go on; and whatever f raises, such as numpy.linalg.LinAlgError at a singular M. NumPy's warnings
+    of overflow in f are silent: FloatingPointError stands for them.
     """
     x0, t = all_finite("x0", real_array("x0", x0)), _times(t)
     if x0.ndim == 0 or x0.size == 0:
