@@ -59,7 +59,7 @@ class Room:
     """A running sandbox. Use as a context manager; `close` leaves no process behind.
 
     run(source) gives a cell's outputs, ask(calls) the replies to calls. Both raise RoomLostError
-    when the process does not survive them.
+    when the process does not survive them. OSError where the sandbox does not start.
     """
 
     def __init__(self, bubblewrap: bool | None = None):
@@ -77,7 +77,11 @@ class Room:
         )
         os.set_blocking(self._process.stdin.fileno(), False)
         self._buffer = b""
-        self._receive(START_SECONDS)
+        try:
+            self._receive(START_SECONDS)
+        except RoomLostError as error:
+            # Nothing of the student's has run yet.
+            raise OSError(f"the sandbox did not start: {error}") from None
 
     def __enter__(self):
         return self
