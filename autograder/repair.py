@@ -25,9 +25,9 @@ def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode
     at = _last_places(notebook, known, notes)
     for index, cell in enumerate(notebook.cells):
         claimed = grade_id(cell)
-        if claimed and at.get(claimed) != index:
+        if "nbgrader" in cell.metadata and (claimed is None or at.get(claimed) != index):
             del cell.metadata["nbgrader"]
-            if claimed not in known:
+            if claimed and claimed not in known:
                 notes.append(f"a cell that claims to be {claimed}, which the source does not have")
     placed = {name: notebook.cells[index] for name, index in at.items()}
     for name, original in known.items():
