@@ -96,7 +96,7 @@ def outputs_for(verdict: Verdict, points: float) -> list[NotebookNode]:
         text = "this cell could not be judged and has no score yet"
         error = new_output("error", ename="CheckFailed", evalue=text, traceback=[text])
         return [shown, error]
-    credit = min(max(float(verdict.credit), 0.0), 1.0)
+    credit = min(max(0.0, float(verdict.credit)), 1.0)  # in this order NaN is 0 as well
     score = repr(credit * float(points))
     return [shown, new_output("execute_result", data={"text/plain": score}, execution_count=1)]
 
