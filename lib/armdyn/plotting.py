@@ -162,7 +162,7 @@ def _png(figure: Figure) -> bytes:
     drawn, small = io.BytesIO(), io.BytesIO()
     figure.savefig(drawn, format="png", dpi=OVERSAMPLING * PIXELS_PER_INCH)
     with Image.open(drawn) as image:
-        colours = image.convert("RGB").quantize(64, dither=Image.Dither.NONE)
+        colours = image.convert("RGB").quantize(64, Image.Quantize.FASTOCTREE)
     colours.save(small, format="png", optimize=True)
     return small.getvalue()
 
