@@ -68,6 +68,7 @@ def _put_right(cell, original, notes) -> None:
         cell.cell_type = original.cell_type
         if cell.cell_type == "code":
             cell.outputs, cell.execution_count = [], None
+            cell.pop("attachments", None)
         else:
             cell.pop("outputs", None)
             cell.pop("execution_count", None)
@@ -92,6 +93,8 @@ def _put_back(notebook, known, placed, notes) -> None:
             text = original.source if is_locked(original) else ""
             cell = NEW_CELL[original.cell_type](source=text)
             cell.metadata = copy.deepcopy(original.metadata)
+            if notebook.nbformat_minor < 5:
+                del cell["id"]
             position = 0 if before is None else _index(notebook.cells, before) + 1
             notebook.cells.insert(position, cell)
             placed[name] = cell
