@@ -1,0 +1,72 @@
+"""JupyterLab as `make lab` starts it, in a copy of the course, and a real browser to look at it."""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import sync_playwright
+
+ROOT = Path(__file__).parents[2]
+AUTOGRADER = Path(sys.executable).with_name("autograder")
+# Chromium's own calls home are shut off: a test asks nothing of the network.
+CHROMIUM = (
+    "--no-sandbox",  # as root, Chromium has none
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+
+
+@pytest.fixture(scope="module")
+def course(tmp_path_factory):
+    """A student's copy of the course, in a path with a space and letters beyond ASCII."""
+    root = tmp_path_factory.mktemp("browser") / "Räume und Momente"
+    root.mkdir()
+    for folder in ("lessons", "solutions"):
+        shutil.copytree(ROOT / folder, root / folder)
+    shutil.copy(ROOT / "nbgrader_config.py", root)
+    subprocess.run([AUTOGRADER, "problems"], cwd=root, check=True, capture_output=True)
+    return root
+
+
+@pytest.fixture(scope="module")
+def address(course):
+    """What `autograder lab` says to open, while it runs."""
+    log = course / "jupyter.log"
+    with (
+        log.open("w") as errors,
+        subprocess.Popen(
+            [AUTOGRADER, "lab", "--no-browser", "--port=0"],
+            cwd=course,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            text=True,
+        ) as server,
+    ):
+        try:
+            said = (re.search(r"Open (\S+)", line) for line in server.stdout)
+            found = next(filter(None, said), None)
+            assert found, log.read_text()
+            yield found.group(1)
+        finally:
+            server.terminate()
+
+
+@pytest.fixture(scope="module")
+def page(needs, address):
+    """The address opened in Chromium, as a student first sees it."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=needs("chromium"), headless=True, args=CHROMIUM
+        )
+        page = browser.new_page(viewport={"width": 1600, "height": 1000})
+        page.set_default_timeout(30_000)
+        page.goto(address)
+        yield page
+        browser.close()
