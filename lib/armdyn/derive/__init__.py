@@ -1,0 +1,17 @@
+"""Symbolic derivation: from energies, or from links and joints, to M, C (Christoffel) and g."""
+
+from armdyn.derive.derivation import Derivation, christoffel_symbols
+from armdyn.derive.energies import from_energies, from_lagrangian
+from armdyn.derive.links import Link, from_links
+from armdyn.derive.planar import planar_2r, planar_chain
+
+__all__ = [
+    "Derivation",
+    "Link",
+    "christoffel_symbols",
+    "from_energies",
+    "from_lagrangian",
+    "from_links",
+    "planar_2r",
+    "planar_chain",
+]
