@@ -207,7 +207,7 @@ def _failing_line(error: BaseException) -> str:
     own = [
         frame
         for frame in traceback.extract_tb(error.__traceback__)
-        if "ipykernel_" in frame.filename or frame.filename.startswith("<")
+        if "ipykernel_" in frame.filename or frame.filename.startswith("<ipython-input")
     ]
     if not own:
         return ""
