@@ -100,7 +100,7 @@ def _run(shell, source, seconds, wall):
             kind, value, lines = TimeoutError, f"this cell ran longer than {seconds:g} s", []
         elif isinstance(value, SyntaxError):
             value, lines = f"{value.msg}, line {value.lineno}: {(value.text or '').strip()}", []
-        text = wall.shortened(str(value))
+        text = wall.shortened(value if isinstance(value, str) else wall.said_by(value))
         lines = [str(line) for line in lines] or [f"{kind.__name__}: {text}"]
         outputs.append(
             {"output_type": "error", "ename": kind.__name__, "evalue": text, "traceback": lines}
