@@ -5,6 +5,7 @@ One request a line on standard input, one reply a line on standard output, both 
 moved out of the way first, so that what the student's code prints cannot mix with the replies.
 """
 
+import base64
 import builtins
 import json
 import os
@@ -93,7 +94,7 @@ def _run(shell, source, seconds, wall):
         if text
     ]
     for output in captured.outputs[:MOST_OUTPUTS]:
-        data = {kind: str(output.data[kind]) for kind in SHOWN if kind in output.data}
+        data = {kind: _text(output.data[kind]) for kind in SHOWN if kind in output.data}
         outputs.append({"output_type": "display_data", "data": data, "metadata": {}})
     for kind, value, lines in errors[:1]:
         if kind is wall.TimeLimitError:
@@ -106,6 +107,11 @@ def _run(shell, source, seconds, wall):
             {"output_type": "error", "ename": kind.__name__, "evalue": text, "traceback": lines}
         )
     return outputs
+
+
+def _text(data):
+    """Output data as a notebook stores it; some objects give their picture as raw bytes."""
+    return base64.b64encode(data).decode() if isinstance(data, bytes) else str(data)
 
 
 def _show_figures():
