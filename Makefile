@@ -28,7 +28,7 @@ define install
 @echo "Installing $(1) into .venv; the first time takes some minutes (log: $(LOG))"
 @.venv/bin/python -m pip --disable-pip-version-check install -c constraints.txt -e ".[$(1)]" \
   >$(LOG) 2>&1 || { echo "make: installing failed; is the network there? The reason is at the" \
-  "end of $(LOG): $$(grep -i error $(LOG) | tail -n 1)" >&2; exit 1; }
+  "end of $(LOG): $$(grep ERROR $(LOG) | tail -n 1)" >&2; exit 1; }
 @touch $@
 endef
 
@@ -49,8 +49,9 @@ endif
 	else set -- python3 python3.13 python3.12 python3.11 python; fi; \
 	chosen=; why=; \
 	for python do \
-	  if ! said=$$("$$python" --version 2>&1); then continue; fi; \
-	  if ! "$$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then \
+	  if ! said=$$("$$python" --version 2>&1); then \
+	    why="$${why:-$${PYTHON:+$$python does not run. }}"; \
+	  elif ! "$$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then \
 	    why="$${why:-$$python is $$said. }"; \
 	  elif ! "$$python" -c 'import ensurepip, venv' 2>/dev/null; then \
 	    why="$${why:-$$python lacks venv (Debian, Ubuntu: apt install python3-venv). }"; \

@@ -111,7 +111,7 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     except TimeLimitError:
         return Reply(fault=Fault(FaultKind.TIMED_OUT, f"{CALL_SECONDS:g} s"))
     except (Exception, SystemExit) as error:
-        message = shortened(f"{type(error).__name__}: {error}")
+        message = shortened(f"{type(error).__name__}: {said_by(error)}")
         return Reply(fault=Fault(FaultKind.RAISED, message, _failing_line(error)))
 
 
@@ -207,11 +207,19 @@ def _failing_line(error: BaseException) -> str:
     own = [
         frame
         for frame in traceback.extract_tb(error.__traceback__)
-        if "ipykernel_" in frame.filename or frame.filename.startswith("<")
+        if "ipykernel_" in frame.filename or frame.filename.startswith("<ipython-input")
     ]
     if not own:
         return ""
     return shortened(f"line {own[-1].lineno}: {own[-1].line}".rstrip(": "))
+
+
+def said_by(error: BaseException) -> str:
+    """The message of an error, whose class may be a student's own."""
+    try:
+        return str(error)
+    except Exception:
+        return "(a message that cannot be read)"
 
 
 def shortened(text: str, most: int = MOST_CHARACTERS) -> str:

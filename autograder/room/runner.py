@@ -5,6 +5,7 @@ One request a line on standard input, one reply a line on standard output, both 
 moved out of the way first, so that what the student's code prints cannot mix with the replies.
 """
 
+import base64
 import builtins
 import json
 import os
@@ -93,19 +94,24 @@ def _run(shell, source, seconds, wall):
         if text
     ]
     for output in captured.outputs[:MOST_OUTPUTS]:
-        data = {kind: str(output.data[kind]) for kind in SHOWN if kind in output.data}
+        data = {kind: _text(output.data[kind]) for kind in SHOWN if kind in output.data}
         outputs.append({"output_type": "display_data", "data": data, "metadata": {}})
     for kind, value, lines in errors[:1]:
         if kind is wall.TimeLimitError:
             kind, value, lines = TimeoutError, f"this cell ran longer than {seconds:g} s", []
         elif isinstance(value, SyntaxError):
             value, lines = f"{value.msg}, line {value.lineno}: {(value.text or '').strip()}", []
-        text = wall.shortened(str(value))
+        text = wall.shortened(value if isinstance(value, str) else wall.said_by(value))
         lines = [str(line) for line in lines] or [f"{kind.__name__}: {text}"]
         outputs.append(
             {"output_type": "error", "ename": kind.__name__, "evalue": text, "traceback": lines}
         )
     return outputs
+
+
+def _text(data):
+    """Output data as a notebook stores it; some objects give their picture as raw bytes."""
+    return base64.b64encode(data).decode() if isinstance(data, bytes) else str(data)
 
 
 def _show_figures():

@@ -35,7 +35,10 @@ class Problem:
         self.page.keyboard.press("Control+Enter")
         expect(prompt).not_to_have_text(before)
         expect(prompt).to_have_text(re.compile(r"\[\d+\]:"))
-        return cell.locator(".armdyn-verdict")
+        card = cell.locator(".armdyn-verdict")
+        if card.count():
+            card.scroll_into_view_if_needed()
+        return card
 
     def write(self, function: str, answer: str) -> None:
         """Replace the source of the cell that defines the function, and run it."""
