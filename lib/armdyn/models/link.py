@@ -1,0 +1,135 @@
+"""A rigid link and the joint that carries it, as a serial chain is made of them."""
+
+import reprlib
+from dataclasses import dataclass, field
+from typing import Literal, get_args
+
+import numpy as np
+
+from armdyn.parameters import LARGEST, all_finite, nonnegative, real_array
+
+Joint = Literal["revolute", "prismatic"]
+IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+ZERO = (0.0, 0.0, 0.0)
+# What a file with ten digits leaves of an exact axis, rotation or triangle inequality.
+TOLERANCE = 1e-9
+# What double precision leaves of it; beyond this it is made exact.
+ROUNDING = 1e-14
+
+
+@dataclass(frozen=True)
+class Link:
+    """A joint and the rigid link that it moves.
+
+    The joint's frame lies at (rotation, translation) in the frame of the link before, or of the
+    base. The link's own frame is the joint's, turned by q about `axis` or moved by q along it.
+
+    Raises ValueError, naming the link (where it has a name) and the argument: for a joint that is
+    neither "revolute" nor "prismatic"; an axis that is not of length 1; a rotation that is not
+    orthogonal or is a reflection; a negative mass; an inertia that is not symmetric, has a negative
+    principal moment, or has one that is greater than the sum of the other two, as no distribution
+    of mass can. These are judged to 1e-9, for numbers from a file.
+    """
+
+    joint: Joint = field(metadata={"doc": "how the link moves"})
+    mass: float = field(metadata={"unit": "kg", "doc": "mass"})
+    com: tuple[float, ...] = field(
+        default=ZERO, metadata={"unit": "m", "doc": "(3,), centre of mass in the link's frame"}
+    )
+    inertia: tuple[tuple[float, ...], ...] = field(
+        default=(ZERO, ZERO, ZERO),
+        metadata={
+            "unit": "kg·m²",
+            "doc": "(3, 3), about the centre of mass, along the axes of the link's frame",
+        },
+    )
+    axis: tuple[float, ...] = field(
+        default=(0.0, 0.0, 1.0),
+        metadata={"unit": "1", "doc": "(3,), unit vector along the joint, in the joint's frame"},
+    )
+    rotation: tuple[tuple[float, ...], ...] = field(
+        default=IDENTITY,
+        metadata={"unit": "1", "doc": "(3, 3), columns: the joint's axes in the frame before"},
+    )
+    translation: tuple[float, ...] = field(
+        default=ZERO, metadata={"unit": "m", "doc": "(3,), the joint's origin in the frame before"}
+    )
+    name: str = field(default="", metadata={"doc": "for messages"})
+
+    def __post_init__(self):
+        try:
+            self._check()
+        except ValueError as error:
+            if not isinstance(self.name, str) or not self.name:
+                raise
+            raise ValueError(f"link {self.name!r}: {error}") from None
+
+    def _check(self):
+        if not isinstance(self.name, str):
+            raise ValueError(f"name = {self.name!r}: needs text")
+        if self.joint not in get_args(Joint):
+            raise ValueError(f"joint = {self.joint!r}: needs 'revolute' or 'prismatic'")
+        exact = {
+            "mass": nonnegative("mass", self.mass, "kg"),
+            "com": _numbers("com", self.com, (3,), "m"),
+            "inertia": _inertia(self.inertia),
+            "axis": _axis(self.axis),
+            "rotation": _rotation(self.rotation),
+            "translation": _numbers("translation", self.translation, (3,), "m"),
+        }
+        for name, value in exact.items():
+            # Tuples whatever came, so that links compare and hash by their numbers.
+            object.__setattr__(self, name, _tuples(value))
+
+
+def _numbers(name, value, shape, unit) -> np.ndarray:
+    needs = f"real numbers of shape {shape}, in {unit}"
+    array = all_finite(name, real_array(name, value, needs))
+    if array.shape != shape:
+        raise ValueError(f"{name}: got shape {array.shape}, needs {needs}")
+    if np.max(np.abs(array)) > LARGEST:
+        raise ValueError(f"{name} = {reprlib.repr(value)}: needs at most {LARGEST:.0e} {unit}")
+    return array
+
+
+def _axis(value) -> np.ndarray:
+    axis = _numbers("axis", value, (3,), "1")
+    length = np.linalg.norm(axis)
+    if abs(length - 1) > TOLERANCE:
+        raise ValueError(f"axis = {axis.tolist()}: needs length 1, has {length:.6g}")
+    return axis if abs(length - 1) <= ROUNDING else axis / length
+
+
+def _rotation(value) -> np.ndarray:
+    R = _numbers("rotation", value, (3, 3), "1")
+    error = np.max(np.abs(R.T @ R - np.eye(3))) if np.max(np.abs(R)) < 2 else np.inf
+    if error > TOLERANCE:
+        raise ValueError(f"rotation = {R.tolist()}: needs orthogonal columns of length 1")
+    if np.linalg.det(R) < 0:
+        raise ValueError(f"rotation = {R.tolist()}: a reflection (determinant −1), not a rotation")
+    if error <= ROUNDING:
+        return R
+    left, _, right = np.linalg.svd(R)
+    return left @ right
+
+
+def _inertia(value) -> np.ndarray:
+    inertia = _numbers("inertia", value, (3, 3), "kg·m²")
+    size = np.max(np.abs(inertia))
+    shown = f"inertia = {inertia.tolist()} kg·m²"
+    if np.max(np.abs(inertia - inertia.T)) > TOLERANCE * size:
+        raise ValueError(f"{shown}: needs a symmetric matrix")
+    inertia = (inertia + inertia.T) / 2
+    a, b, c = np.linalg.eigvalsh(inertia)
+    if a < -TOLERANCE * size:
+        raise ValueError(f"{shown}: has the negative principal moment {a:.6g}")
+    if c > a + b + TOLERANCE * size:
+        raise ValueError(
+            f"{shown}: the principal moments {a:.6g}, {b:.6g}, {c:.6g} break the triangle "
+            "inequality: no distribution of mass has one greater than the sum of the others"
+        )
+    return inertia
+
+
+def _tuples(value):
+    return tuple(map(_tuples, value)) if np.ndim(value) else float(value)

@@ -1,0 +1,291 @@
+"""A spatial arm of revolute and prismatic joints, one after the other."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from armdyn.friction import joint_friction
+from armdyn.manipulator import ROUNDING, Manipulator
+from armdyn.models.link import Link
+from armdyn.parameters import finite, per_joint, state_vector, state_vectors
+from armdyn.spatial import (
+    force_cross,
+    motion_cross,
+    motion_transform,
+    rigid_inertia,
+    rotation,
+    swapped_cross,
+)
+
+
+@dataclass(frozen=True)
+class SerialChain(Manipulator):
+    """n links, each carried by the one before, the first by the base.
+
+    q holds the joints' angles (rad) and displacements (m); M, C, g and u have the units that go
+    with them, N·m for a revolute and N for a prismatic joint.
+
+    Velocities and forces are 6-vectors, angular part first, in the coordinates of the link they
+    belong to: see `armdyn.spatial`. M, C and g come from the links' Jacobians, as they are defined;
+    `rnea`, `crba` and `aba` are the recursive algorithms, which need no Jacobians.
+
+    Raises ValueError, naming the argument, for one that is not as described. Masses and inertias may
+    be zero, and M(q) may then be singular: see `Manipulator.dynamics`.
+    """
+
+    links: tuple[Link, ...] = field(metadata={"doc": "from the base to the tip"})
+    gravity: tuple[float, ...] = field(
+        default=(0.0, 0.0, -9.81),
+        metadata={"unit": "m/s²", "doc": "(3,), gravitational acceleration in the base's frame"},
+    )
+    viscous: tuple[float, ...] | None = field(
+        default=None,
+        metadata={"unit": "N·m·s/rad or N·s/m", "doc": "viscous friction of each joint"},
+    )
+    coulomb: tuple[float, ...] | None = field(
+        default=None, metadata={"unit": "N·m or N", "doc": "Coulomb friction of each joint"}
+    )
+
+    def __post_init__(self):
+        links = tuple(self.links) if isinstance(self.links, Sequence) else ()
+        if not links:
+            raise ValueError(f"links = {self.links!r}: needs one Link or more")
+        for k, link in enumerate(links):
+            if not isinstance(link, Link):
+                raise ValueError(f"links[{k}] = {link!r}: needs a Link")
+        gravity = state_vector("gravity", self.gravity, 3)
+        if gravity.ndim != 1:
+            raise ValueError(f"gravity: got shape {gravity.shape}, needs (3,)")
+        kept = {
+            "links": links,
+            "gravity": tuple(finite(f"gravity[{i}]", g, "m/s²") for i, g in enumerate(gravity)),
+        }
+        for name in ("viscous", "coulomb"):
+            value = getattr(self, name)
+            zero = (0.0,) * len(links)
+            unit = self.__dataclass_fields__[name].metadata["unit"]
+            kept[name] = zero if value is None else per_joint(name, value, len(links), unit)
+        # Floats and tuples whatever came, so that arms compare and hash by their numbers.
+        for name, value in kept.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def n(self) -> int:
+        return len(self.links)
+
+    def M(self, q) -> np.ndarray:
+        """Σ_k J_kᵀ I_k J_k over the links, (n, n)."""
+        q = state_vector("q", q, self.n)
+        M = np.zeros((*q.shape, self.n))
+        for I, J in zip(self._inertias, self._jacobians(self._transforms(q)), strict=True):
+            M += np.swapaxes(J, -1, -2) @ I @ J
+        return (M + np.swapaxes(M, -1, -2)) / 2
+
+    def C(self, q, qd) -> np.ndarray:
+        """Christoffel form, (n, n): Σ_k J_kᵀ (I_k J̇_k + B_k J_k) over the links.
+
+        J̇_k is the rate of the Jacobian's entries in the link's own coordinates, and
+        B = ½ (v×* I + I v× + (I v)×̄*) is skew-symmetric with B v = v×* I v, so that Ṁ = C + Cᵀ.
+
+        Source: S. Echeandia, P. M. Wensing (2021), Numerical Methods to Compute the Coriolis Matrix
+        and Christoffel Symbols for Rigid-Body Systems, Journal of Computational and Nonlinear
+        Dynamics 16(9), for B.
+        """
+        q, qd = state_vectors(self.n, q=q, qd=qd)
+        C = np.zeros((*np.broadcast_shapes(q.shape, qd.shape), self.n))
+        transforms = self._transforms(q)
+        J_dot = np.zeros((*qd.shape[:-1], 6, self.n))
+        before = np.zeros((6, self.n))
+        for k, (I, J) in enumerate(zip(self._inertias, self._jacobians(transforms), strict=True)):
+            carried = transforms[k] @ before
+            turn = motion_cross(self._screws[k] * qd[..., k : k + 1])
+            J_dot = transforms[k] @ J_dot - turn @ carried
+            v = np.matvec(J, qd)
+            B = (force_cross(v) @ I + I @ motion_cross(v) + swapped_cross(np.matvec(I, v))) / 2
+            C += np.swapaxes(J, -1, -2) @ (I @ J_dot + B @ J)
+            before = J
+        return C
+
+    def g_vec(self, q) -> np.ndarray:
+        """−Σ_k J_kᵀ I_k [0; g⃗] over the links, with g⃗ in the link's coordinates, (n,)."""
+        q = state_vector("q", q, self.n)
+        transforms = self._transforms(q)
+        pull = np.array([0.0, 0.0, 0.0, *self.gravity])
+        result = np.zeros(q.shape)
+        for X, I, J in zip(transforms, self._inertias, self._jacobians(transforms), strict=True):
+            pull = np.matvec(X, pull)
+            result -= np.vecmat(np.matvec(I, pull), J)
+        return result
+
+    def f_vec(self, qd) -> np.ndarray:
+        """Viscous and Coulomb friction of each joint, (n,)."""
+        return joint_friction(state_vector("qd", qd, self.n), self.viscous, self.coulomb)
+
+    def potential_energy(self, q) -> np.ndarray:
+        """−Σ_k m_k g⃗ᵀ p_k with p_k the centre of mass: zero with all of them at the base, J."""
+        R, p = self.link_placements(q)
+        com = p + np.matvec(R, np.array([link.com for link in self.links]))
+        mass = np.array([link.mass for link in self.links])
+        return -np.matvec(com, np.array(self.gravity)) @ mass
+
+    def link_placements(self, q) -> tuple[np.ndarray, np.ndarray]:
+        """Of each link's frame in the base's: rotation (n, 3, 3), and origin (n, 3), m."""
+        q = state_vector("q", q, self.n)
+        turns, origins = [], []
+        R, p = np.eye(3), np.zeros(3)
+        for k in range(self.n):
+            R_k, p_k = self._placement(k, q[..., k])
+            R, p = R @ R_k, p + np.matvec(R, p_k)
+            turns.append(R)
+            origins.append(np.broadcast_to(p, (*q.shape[:-1], 3)))
+        return np.stack(turns, axis=-3), np.stack(origins, axis=-2)
+
+    def link_jacobians(self, q) -> np.ndarray:
+        """J_k of each link, (n, 6, n): J_k q̇ = [ω; v] of link k at its frame, in its coordinates."""
+        q = state_vector("q", q, self.n)
+        return np.stack(list(self._jacobians(self._transforms(q))), axis=-3)
+
+    def link_inertias(self) -> np.ndarray:
+        """Spatial inertia of each link about its frame, (n, 6, 6): M = Σ_k J_kᵀ I_k J_k."""
+        return self._inertias.copy()
+
+    def rnea(self, q, qd, qdd) -> np.ndarray:
+        """u = M q̈ + C q̇ + g + f, (n,), in a number of operations proportional to n.
+
+        The recursive Newton–Euler algorithm. Source: J. Y. S. Luh, M. W. Walker, R. P. C. Paul
+        (1980), On-Line Computational Scheme for Mechanical Manipulators, Journal of Dynamic Systems,
+        Measurement, and Control 102(2).
+        """
+        q, qd, qdd = state_vectors(self.n, q=q, qd=qd, qdd=qdd)
+        transforms = self._transforms(q)
+        v, forces = np.zeros(6), []
+        # A base that accelerates upwards stands for gravity.
+        a = np.array([0.0, 0.0, 0.0, *(-np.array(self.gravity))])
+        for k, (X, I) in enumerate(zip(transforms, self._inertias, strict=True)):
+            moved = self._screws[k] * qd[..., k : k + 1]
+            v = np.matvec(X, v) + moved
+            a = np.matvec(X, a) + self._screws[k] * qdd[..., k : k + 1]
+            a = a + np.matvec(motion_cross(v), moved)
+            forces.append(np.matvec(I, a) + np.matvec(force_cross(v), np.matvec(I, v)))
+        u = self.f_vec(qd) + np.zeros(np.broadcast_shapes(q.shape, qd.shape, qdd.shape))
+        force = np.zeros(6)
+        for k in reversed(range(self.n)):
+            force = force + forces[k]
+            u[..., k] += force @ self._screws[k]
+            force = np.vecmat(force, transforms[k])
+        return u
+
+    def crba(self, q) -> np.ndarray:
+        """M, (n, n), from the inertias of the links from k outwards taken as one body.
+
+        The composite-rigid-body algorithm. Source: R. Featherstone (2008), Rigid Body Dynamics
+        Algorithms, section 6.2.
+        """
+        q = state_vector("q", q, self.n)
+        transforms = self._transforms(q)
+        M = np.empty((*q.shape, self.n))
+        composite = np.zeros((6, 6))
+        for k in reversed(range(self.n)):
+            composite = composite + self._inertias[k]
+            force = composite @ self._screws[k]
+            M[..., k, k] = force @ self._screws[k]
+            for j in reversed(range(k)):
+                force = np.vecmat(force, transforms[j + 1])
+                M[..., j, k] = M[..., k, j] = force @ self._screws[j]
+            composite = _carried(composite, transforms[k])
+        return M
+
+    def aba(self, q, qd, u) -> np.ndarray:
+        """q̈ = M⁻¹ (u − C q̇ − g − f), (n,), in a number of operations proportional to n.
+
+        The articulated-body algorithm. Raises numpy.linalg.LinAlgError, naming the joint, where
+        the links from that joint outwards put up no resistance to its motion, to rounding.
+
+        Source: R. Featherstone (1983), The Calculation of Robot Dynamics Using Articulated-Body
+        Inertias, International Journal of Robotics Research 2(1).
+        """
+        q, qd, u = state_vectors(self.n, q=q, qd=qd, u=u)
+        transforms = self._transforms(q)
+        v, drifts, biases = np.zeros(6), [], []
+        for k, (X, I) in enumerate(zip(transforms, self._inertias, strict=True)):
+            moved = self._screws[k] * qd[..., k : k + 1]
+            v = np.matvec(X, v) + moved
+            drifts.append(np.matvec(motion_cross(v), moved))
+            biases.append(np.matvec(force_cross(v), np.matvec(I, v)))
+        effort = u - self.f_vec(qd)
+        outwards = []
+        inertia, bias = np.zeros((6, 6)), np.zeros(6)
+        for k in reversed(range(self.n)):
+            inertia, bias = inertia + self._inertias[k], bias + biases[k]
+            held = inertia @ self._screws[k]
+            resistance = (held @ self._screws[k])[..., np.newaxis]
+            self._refuse_idle(k, resistance[..., 0], inertia)
+            free = (effort[..., k : k + 1] - (bias @ self._screws[k])[..., np.newaxis]) / resistance
+            drag = held / resistance
+            outwards.insert(0, (free, drag))
+            rest = inertia - held[..., :, np.newaxis] * drag[..., np.newaxis, :]
+            bias = bias + np.matvec(rest, drifts[k]) + held * free
+            bias = np.vecmat(bias, transforms[k])
+            inertia = _carried(rest, transforms[k])
+        qdd = np.empty(np.broadcast_shapes(q.shape, qd.shape, u.shape))
+        a = np.array([0.0, 0.0, 0.0, *(-np.array(self.gravity))])
+        for k, (free, drag) in enumerate(outwards):
+            a = np.matvec(transforms[k], a) + drifts[k]
+            qdd[..., k] = free[..., 0] - np.vecdot(drag, a)
+            a = a + self._screws[k] * qdd[..., k : k + 1]
+        return qdd
+
+    def _refuse_idle(self, k, resistance, inertia) -> None:
+        # Against the entries of the same unit, so that a very small or large arm is not refused.
+        part = slice(0, 3) if self.links[k].joint == "revolute" else slice(3, 6)
+        size = np.max(np.abs(inertia[..., part, part]), axis=(-2, -1))
+        if np.any(resistance <= self.n * ROUNDING * size):
+            raise np.linalg.LinAlgError(
+                f"M(q) is singular: the links from joint {k + 1} outwards do not resist its motion, "
+                "so q̈ is not determined"
+            )
+
+    @cached_property
+    def _inertias(self) -> np.ndarray:
+        return np.stack(
+            [rigid_inertia(b.mass, np.array(b.com), np.array(b.inertia)) for b in self.links]
+        )
+
+    @cached_property
+    def _screws(self) -> np.ndarray:
+        """(n, 6): the velocity of each link for q̇ = 1, in its own coordinates."""
+        none = (0.0, 0.0, 0.0)
+        return np.array(
+            [
+                (*link.axis, *none) if link.joint == "revolute" else (*none, *link.axis)
+                for link in self.links
+            ]
+        )
+
+    def _placement(self, k, q_k) -> tuple[np.ndarray, np.ndarray]:
+        """Of link k's frame in that of the link before: (..., 3, 3) and (..., 3)."""
+        link = self.links[k]
+        R, p = np.array(link.rotation), np.array(link.translation)
+        if link.joint == "revolute":
+            return R @ rotation(link.axis, q_k), p
+        return np.broadcast_to(R, (*q_k.shape, 3, 3)), p + q_k[..., np.newaxis] * (R @ link.axis)
+
+    def _transforms(self, q) -> list[np.ndarray]:
+        """X_k, (..., 6, 6): from the coordinates of the link before to those of link k."""
+        placements = (self._placement(k, q[..., k]) for k in range(self.n))
+        return [motion_transform(R, np.broadcast_to(p, R.shape[:-1])) for R, p in placements]
+
+    def _jacobians(self, transforms) -> Iterator[np.ndarray]:
+        """Link by link, (..., 6, n): a new array each, since the next is made from it."""
+        J = np.zeros((6, self.n))
+        for k, X in enumerate(transforms):
+            J = X @ J
+            J[..., k] = self._screws[k]
+            yield J
+
+
+def _carried(inertia, X) -> np.ndarray:
+    """The inertia in the coordinates of the link before, Xᵀ I X."""
+    return np.swapaxes(X, -1, -2) @ inertia @ X
