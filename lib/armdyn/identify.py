@@ -1,0 +1,204 @@
+"""Inertial parameters from measured motion and torque, by linear least squares.
+
+Only the base parameters can be told from joint torques, so only they are estimated: see
+`armdyn.base_parameters`.
+"""
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse.csgraph import connected_components
+
+from armdyn.base_parameters import BaseParameters, base_parameters
+from armdyn.consistency import Consistency, consistent_parameters
+from armdyn.parameters import state_vectors
+from armdyn.regressor import friction_columns, reach, regressor
+
+# A singular value below this share of the largest, columns scaled to length 1, counts as 0.
+DEFICIENT = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Excitation:
+    """How well a motion shows the parameters.
+
+    names: of the base parameters, then of friction. rank: of the stacked regressor's columns, at
+    most len(names). condition: the ratio of its singular values, each column scaled to length 1, so
+    that units do not enter; infinite where the rank falls short. confused: groups of parameters
+    that the motion cannot tell apart; a group of one has no effect on the torques at all.
+    """
+
+    names: tuple[str, ...]
+    rank: int
+    condition: float
+    confused: tuple[tuple[str, ...], ...]
+
+    @property
+    def sufficient(self) -> bool:
+        return self.rank == len(self.names)
+
+    def __str__(self):
+        if self.sufficient:
+            return f"shows all {self.rank} parameters, condition number {self.condition:.3g}"
+        groups = "; ".join(
+            f"{group[0]} has no effect"
+            if len(group) == 1
+            else f"{', '.join(group)}: not told apart"
+            for group in self.confused
+        )
+        return f"shows {self.rank} of {len(self.names)} parameters ({groups})"
+
+
+@dataclass(frozen=True, eq=False)
+class Identification:
+    """What least squares found.
+
+    names: of the estimates, the base parameters first, then with friction "viscous1" … and
+    "coulomb1" …. estimate, standard_error: (p,), in the units of π, N·m·s/rad and N·m. residual: the
+    standard deviation of u that is left, N·m, with the degrees of freedom taken off.
+
+    consistency: whether bodies exist that have exactly the estimated base parameters, and if so
+    one full π of theirs. It judges the estimate, not its error bars: where noise alone has made a
+    light link's inertia negative, it says that no such body exists, and a nearby one may.
+    """
+
+    base: BaseParameters
+    names: tuple[str, ...]
+    estimate: np.ndarray
+    standard_error: np.ndarray
+    residual: float
+    excitation: Excitation
+    consistency: Consistency
+
+    @property
+    def rank(self) -> int:
+        return self.excitation.rank
+
+    @property
+    def condition(self) -> float:
+        return self.excitation.condition
+
+    @property
+    def consistent(self) -> bool:
+        return self.consistency.exists
+
+    @property
+    def friction(self) -> np.ndarray:
+        """Viscous coefficients, then Coulomb torques, (2n,); empty if friction was not asked for."""
+        return self.estimate[self.base.rank :]
+
+    def __str__(self):
+        width = max(map(len, self.names))
+        rows = (
+            f"{name:<{width}}  {value: .5g} ± {error:.1g}"
+            for name, value, error in zip(
+                self.names, self.estimate, self.standard_error, strict=True
+            )
+        )
+        bodies = "exist" if self.consistent else "do not exist"
+        return "\n".join(
+            [*rows, f"residual {self.residual:.3g} N·m; bodies with these parameters {bodies}"]
+        )
+
+
+def excitation(model, q, qd, qdd, friction=False, columns=None) -> Excitation:
+    """What a motion shows of the parameters, before any torque is measured.
+
+    Arguments and errors as for `identify`, but for too few samples, which show as a lower rank.
+    """
+    q, qd, qdd = _samples(model, q=q, qd=qd, qdd=qdd)
+    base = base_parameters(model, columns)
+    W, names = _stacked(model, base, q, qd, qdd, friction)
+    return _excitation(W, names)
+
+
+def identify(model, q, qd, qdd, u, friction=False, columns=None) -> Identification:
+    """Base parameters, and with `friction` the friction of each joint, by least squares.
+
+    model: gives the geometry and gravity; its masses, inertias and friction do not enter.
+    q, qd, qdd, u: samples of a motion, (..., n), rad, rad/s, rad/s², N·m. columns: as for
+    `base_parameters`.
+
+    The standard errors are those of ordinary least squares: u has independent noise of the same
+    variance at each sample and joint, and q, q̇, q̈ have none. Noise in q̈ biases the estimates
+    towards 0, and no error bar shows it.
+
+    Raises ValueError for bad samples, for samples too few to leave a residual, and for a motion
+    that cannot tell the parameters apart, naming them.
+
+    Source: C. G. Atkeson, C. H. An, J. M. Hollerbach (1986), Estimation of Inertial Parameters of
+    Manipulator Loads and Links.
+    """
+    q, qd, qdd, u = _samples(model, q=q, qd=qd, qdd=qdd, u=u)
+    base = base_parameters(model, columns)
+    W, names = _stacked(model, base, q, qd, qdd, friction)
+    equations, unknowns = W.shape
+    if equations <= unknowns:
+        raise ValueError(
+            f"q: {q.size // model.n} samples give {equations} equations; {unknowns} parameters and "
+            f"their standard errors need at least {unknowns // model.n + 1} samples"
+        )
+    shown = _excitation(W, names)
+    if not shown.sufficient:
+        raise ValueError(
+            f"q, qd, qdd: the motion {shown}; needs a motion that moves more of the arm"
+        )
+
+    size = np.linalg.norm(W, axis=0)
+    left, values, right = np.linalg.svd(W / size, full_matrices=False)
+    estimate = right.T @ (left.T @ u.ravel() / values) / size
+    rest = u.ravel() - W @ estimate
+    residual = np.sqrt(rest @ rest / (equations - unknowns))
+    standard_error = residual * np.linalg.norm(right.T / values, axis=1) / size
+    consistency = consistent_parameters(
+        base.combination, estimate[: base.rank], base.columns, model.n, reach(model)
+    )
+    return Identification(base, names, estimate, standard_error, residual, shown, consistency)
+
+
+def _samples(model, **named) -> list[np.ndarray]:
+    arrays = np.broadcast_arrays(*state_vectors(model.n, **named))
+    if arrays[0].size == 0:
+        raise ValueError(
+            f"{', '.join(named)}: got shape {arrays[0].shape}, needs at least 1 sample"
+        )
+    return arrays
+
+
+def _stacked(model, base, q, qd, qdd, friction) -> tuple[np.ndarray, tuple[str, ...]]:
+    """The columns of the unknowns, one row per sample and joint, and their names."""
+    Y = regressor(model, q, qd, qdd)[..., list(base.independent)]
+    names = tuple(map(_shortened, base.descriptions))
+    if friction:
+        Y = np.concatenate([Y, friction_columns(qd)], axis=-1)
+        joints = range(1, model.n + 1)
+        names += tuple(f"{kind}{i}" for kind in ("viscous", "coulomb") for i in joints)
+    return Y.reshape(-1, len(names)), names
+
+
+def _shortened(sum_: str) -> str:
+    """The first term is the base parameter's own; in space dozens may follow."""
+    return sum_ if len(sum_) <= 48 else sum_[: re.search(" [+−] ", sum_).start()] + " + …"
+
+
+def _excitation(W, names) -> Excitation:
+    size = np.linalg.norm(W, axis=0)
+    size = np.where(size > DEFICIENT**1.5 * np.max(size), size, np.inf)
+    triangle = np.linalg.qr(np.vstack([W / size, np.zeros((len(names), len(names)))]), mode="r")
+    _, values, right = np.linalg.svd(triangle)
+    shown = values > DEFICIENT * values[0]
+    rank = int(np.count_nonzero(shown))
+    if rank == len(names):
+        return Excitation(names, rank, float(values[0] / values[-1]), ())
+    # Two parameters are confused when some motion-free change of π changes both: the projector on
+    # the null space couples them.
+    hidden = right[~shown].T @ right[~shown]
+    count, label = connected_components(np.abs(hidden) > 1e-6, directed=False)
+    groups = (np.flatnonzero(label == k) for k in range(count))
+    confused = tuple(
+        tuple(names[j] for j in group)
+        for group in groups
+        if np.any(np.abs(hidden[group, group]) > 1e-6)
+    )
+    return Excitation(names, rank, np.inf, confused)
