@@ -25,13 +25,14 @@ def from_energies(K, P, q, qd=None) -> Derivation:
                 f"P = {P}: depends on {velocity}; a potential energy is a function of q alone"
             )
     P = P.subs(dict.fromkeys(qd, 0))
+    M = _hessian("K", K, qd)
     low = K.subs(dict.fromkeys(qd, 0))
     if not _vanishes(low):
         raise ValueError(
             f"K: the term {_first(low, lambda term: not _vanishes(term))} does not depend on q̇; "
             "subtract it from P instead"
         )
-    return from_inertia(_hessian("K", K, qd), P, q, qd, parameters_of((K, P), q, qd))
+    return from_inertia(M, P, q, qd, parameters_of((K, P), q, qd))
 
 
 def from_lagrangian(L, q, qd=None) -> Derivation:
@@ -95,8 +96,8 @@ def _vanishes(expression) -> bool:
     if expression == 0:
         return True
     expression = expression.expand()
-    if expression.is_number or not expression.free_symbols:
-        return expression == 0 or abs(expression.evalf(30)) < 1e-25
+    if expression == 0:
+        return True
     for trial in range(3):
         # Irrational, so that no identity holds by accident; positive, so that roots stay real.
         values = {
@@ -104,7 +105,7 @@ def _vanishes(expression) -> bool:
             for k, s in enumerate(sorted(expression.free_symbols, key=str))
         }
         value = expression.subs(values).evalf(30)
-        if not value.is_number or not abs(value) < 1e-20:
+        if not value.is_finite or abs(value) > 1e-20:
             return False
     return True
 

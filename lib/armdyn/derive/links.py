@@ -84,10 +84,12 @@ def from_links(links, gravity=None, q=None, qd=None) -> Derivation:
         drift = into * (drift + _crossed(spin, step))
         spin = into * spin
         R = R * into.T
+        at_k = sp.zeros(1, n)
+        at_k[k] = 1
         if link.joint == "revolute":
-            spin[:, k] = link.axis
+            spin += link.axis * at_k
         else:
-            drift[:, k] = link.axis
+            drift += link.axis * at_k
         velocity = drift + _crossed(spin, link.com)
         M += link.mass * velocity.T * velocity + spin.T * link.inertia * spin
         P -= link.mass * down.dot(height + R * link.com)
