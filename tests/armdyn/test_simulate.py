@@ -157,10 +157,14 @@ BAD = {
     "x0 none": ({"x0": None}, r"^x0 = None"),
     "x0 text": ({"x0": "abcd"}, r"^x0 = 'abcd'"),
     "x0 complex": ({"x0": [1j, 0, 0, 0]}, r"^x0 = .*not complex128"),
-    "x0 many": ({"x0": [START, START], "method": "RK45"}, r"^x0: got shape \(2, 4\).*one state"),
+    "x0 odd": (
+        {"x0": [1.0], "f": lambda x, u: -x, "method": "semi_implicit_euler"},
+        r"^x0: got shape \(1,\); semi_implicit_euler needs \(\.\.\., 2n\)",
+    ),
     "u too long": ({"u": [0.0, 0.0, 0.0]}, r"u: got shape \(3,\).*\(\.\.\., 2\)"),
     "u scalar": ({"u": 0.0}, r"u: got shape \(\)"),
     "u nan": ({"u": [0.0, np.nan]}, r"^u\[1\] = nan"),
+    "u rows": ({"u": np.zeros((2, 2))}, r"^u: got shape \(2, 2\), .*one row per time, \(\.\.\., 3"),
     "u none": ({"u": None}, r"^u = None"),
     "u function shape": ({"u": lambda t, x: [0.0]}, r"u: got shape \(1,\).*\(\.\.\., 2\)"),
     "u function batch": (
@@ -187,9 +191,10 @@ BAD = {
     "t nan": ({"t": [0.0, np.nan]}, r"^t\[1\] = nan"),
     "t inf": ({"t": [0.0, np.inf]}, r"^t\[1\] = inf"),
     "t text": ({"t": "now"}, r"^t = 'now'"),
-    "method": ({"method": "euler"}, r"^method = 'euler': needs 'rk4' or one of RK45"),
+    "method": ({"method": "heun"}, r"^method = 'heun': needs one of euler, .*rk4, .*RK45"),
     "implicit method": ({"method": "BDF"}, r"^method = 'BDF': needs"),
     "method none": ({"method": None}, r"^method = None: needs"),
+    "atol": ({"method": "RK45", "atol": -1e-3}, r"^atol = -0\.001"),
     "rtol": ({"method": "RK45", "rtol": -1e-3}, r"^rtol = -0\.001"),
 }
 
