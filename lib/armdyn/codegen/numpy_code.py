@@ -1,0 +1,245 @@
+"""A derivation as NumPy callables, with batch axes."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import sympy as sp
+from sympy.printing.numpy import NumPyPrinter
+
+from armdyn.codegen import straight_line
+from armdyn.derive import Derivation
+from armdyn.manipulator import Manipulator
+from armdyn.parameters import finite, state_vector, state_vectors
+
+# As many states at a time as keep every temporary in the processor's cache.
+BLOCK = 4096
+
+# A pivot of M below this, relative to its trace: close enough to singular for a careful look.
+SUSPECT = 1e-11
+
+
+def numpy_model(derivation: Derivation, values: Mapping[str, float]) -> "NumpyModel":
+    """The derivation with numbers for its parameters, as a `Manipulator` in NumPy.
+
+    values: a number for each of derivation.parameters, by name. Raises ValueError, naming the
+    parameter, for a missing, unknown or non-finite one, or where a constant has no finite value,
+    and for a derivation with functions that are not given.
+    """
+    return NumpyModel(derivation, values)
+
+
+@dataclass(frozen=True, eq=False)
+class NumpyModel(Manipulator):
+    """M, C, g, P and q̈ of a derivation, as generated NumPy code; without friction.
+
+    Every method takes leading batch axes, as those of `Manipulator`; a large batch is worked
+    through in blocks that fit the cache.
+    """
+
+    derivation: Derivation = field(metadata={"doc": "what is computed"})
+    values: Mapping[str, float] = field(metadata={"doc": "a number for each parameter"})
+
+    def __post_init__(self):
+        object.__setattr__(self, "values", _checked(self.derivation, self.values))
+
+    def __reduce__(self):
+        return type(self), (self.derivation, self.values)
+
+    @property
+    def n(self) -> int:
+        """The number of coordinates."""
+        return self.derivation.n
+
+    def M(self, q) -> np.ndarray:
+        """Joint-space inertia matrix, (n, n); q: (n,)."""
+        return self._inertia(state_vector("q", q, self.n))
+
+    def C(self, q, qd) -> np.ndarray:
+        """Coriolis and centrifugal matrix in Christoffel form, (n, n); q, qd: (n,)."""
+        return self._coriolis(*state_vectors(self.n, q=q, qd=qd))
+
+    def g_vec(self, q) -> np.ndarray:
+        """Gravity vector ∂P/∂q, (n,); q: (n,)."""
+        return self._gravity(state_vector("q", q, self.n))
+
+    def potential_energy(self, q) -> np.ndarray:
+        """Potential energy P, scalar, J; q: (n,)."""
+        return self._potential(state_vector("q", q, self.n))[()]
+
+    def dynamics(self, q, qd, u) -> np.ndarray:
+        """q̈ = M⁻¹ (u − C q̇ − g), (n,), by M = L D Lᵀ written out; raises as `Manipulator`."""
+        states = state_vectors(self.n, q=q, qd=qd, u=u)
+        found = self._forward(*states)
+        pivot, trace = found[..., -2], found[..., -1]
+        if not (pivot > SUSPECT * trace).all():
+            return super().dynamics(*states)
+        return found[..., :-2]
+
+    @cached_property
+    def _inertia(self):
+        return self._callable("q", self.derivation.M)
+
+    @cached_property
+    def _coriolis(self):
+        return self._callable("qv", self.derivation.C)
+
+    @cached_property
+    def _gravity(self):
+        return self._callable("q", list(self.derivation.g_vec))
+
+    @cached_property
+    def _potential(self):
+        return self._callable("q", self.derivation.P)
+
+    @cached_property
+    def _forward(self):
+        program = straight_line.forward_dynamics(self.derivation)
+        return _Callable(program, self._constants(program), "qvu", self.n, (self.n + 2,))
+
+    def _callable(self, arguments, expressions):
+        if isinstance(expressions, sp.MatrixBase):
+            shape, expressions = expressions.shape, list(expressions)
+        elif isinstance(expressions, list):
+            shape = (len(expressions),)
+        else:
+            shape, expressions = (), [expressions]
+        program = straight_line.terms(self.derivation, expressions)
+        return _Callable(program, self._constants(program), arguments, self.n, shape)
+
+    def _constants(self, program):
+        return constants(program, self.derivation, self.values)
+
+
+class _Callable:
+    """Straight-line code as a function of q, v, u (those of them it takes), each (..., n).
+
+    Gives (..., *shape). The same source runs on arrays with NumPy and on one state with `math`,
+    which is many times faster on single numbers.
+    """
+
+    def __init__(self, program, numbers, arguments, n, shape):
+        source = _source(program, arguments, n)
+        self.shape, self.n = shape, n
+        self.on_arrays = _compiled(source, _ARRAYS)(*numbers)
+        self.on_floats = _compiled(source, _FLOATS)(*numbers)
+
+    def __call__(self, *states):
+        batch = np.broadcast_shapes(*(s.shape[:-1] for s in states))
+        size = math.prod(self.shape)
+        if not batch:
+            return self._one(states).reshape(self.shape)
+        count = math.prod(batch)
+        rows = [
+            # One row for the whole batch stays one row.
+            s.reshape(-1, self.n)
+            if s.size == self.n or s.shape[:-1] == batch
+            else np.broadcast_to(s, (*batch, self.n)).reshape(-1, self.n)
+            for s in states
+        ]
+        found = np.empty((count, size))
+        for start in range(0, count, BLOCK):
+            part = slice(start, start + BLOCK)
+            columns = [np.ascontiguousarray((r[part] if len(r) == count else r).T) for r in rows]
+            results = self.on_arrays(*(column for c in columns for column in c))
+            for i, result in enumerate(results):
+                found[part, i] = result
+        return found.reshape(*batch, *self.shape)
+
+    def _one(self, states):
+        try:
+            return np.array(self.on_floats(*(x for s in states for x in s.tolist())), dtype=float)
+        except (ArithmeticError, ValueError):
+            # `math` raises where NumPy gives inf or NaN, or warns as the user told it to.
+            return np.array(self.on_arrays(*(x for s in states for x in s)), dtype=float)
+
+
+def constants(program, derivation, values) -> list[float]:
+    """The numbers of the program's constants; ValueError, naming the expression, if not finite."""
+    names = [p.name for p in derivation.parameters]
+    compute = sp.lambdify(derivation.parameters, list(program.constants), "math", cse=True)
+    try:
+        found = [float(c) for c in compute(*(values[name] for name in names))]
+    except (ArithmeticError, ValueError, TypeError):
+        found = [np.nan]
+    if not np.isfinite(found).all():
+        raise ValueError(f"values = {dict(values)}: a constant of the model has no finite value")
+    return found
+
+
+def _checked(derivation, values):
+    names = [p.name for p in derivation.parameters]
+    if not isinstance(values, Mapping):
+        raise ValueError(f"values = {values!r}: needs a mapping of names to numbers")
+    for what, odd in (
+        ("needs a number for", [name for name in names if name not in values]),
+        ("the derivation has no parameter", [name for name in values if name not in names]),
+    ):
+        if odd:
+            raise ValueError(
+                f"values: {what} {', '.join(map(str, odd))}; its parameters are "
+                f"{', '.join(names) or 'none'}"
+            )
+    return {
+        name: finite(f"values[{name!r}]", values[name], "the derivation's units") for name in names
+    }
+
+
+class _Printer(NumPyPrinter):
+    def __init__(self):
+        super().__init__({"fully_qualified_modules": False})
+
+    def _print_Pow(self, expr, rational=False, **kwargs):
+        base, power = expr.as_base_exp()
+        if power in (-1, 2, 3):
+            text = f"({self._print(base)})"
+            return f"(1/{text})" if power == -1 else "*".join([text] * int(power))
+        return super()._print_Pow(expr, rational=rational)
+
+    def _print_Min(self, expr):
+        text = self._print(expr.args[0])
+        for arg in expr.args[1:]:
+            text = f"minimum({text}, {self._print(arg)})"
+        return text
+
+
+def _source(program, arguments, n):
+    text = _Printer().doprint
+    given = ", ".join(f"{name}_{i}" for name in arguments for i in range(n))
+    lines = [f"{s} = {text(e)}" for s, e in program.angle_steps]
+    lines += [f"{s}, {c} = sincos({text(angle)})" for s, c, angle in program.angles]
+    lines += [f"{s} = {text(e)}" for s, e in program.steps]
+    results = "".join(f"{text(e)}, " for e in program.outputs)
+    names = ", ".join(f"k_{i}" for i in range(len(program.constants)))
+    body = "".join(f"        {line}\n" for line in lines)
+    return (
+        f"def with_constants({names}):\n"
+        f"    def compute({given}):\n{body}        return ({results})\n"
+        "    return compute\n"
+    )
+
+
+def _compiled(source, names):
+    space = dict(names)
+    exec(compile(source, "<armdyn.codegen>", "exec"), space)
+    return space["with_constants"]
+
+
+def _sincos(x):
+    """(sin x, cos x) from tan(x/2), which is several times faster in NumPy than sin and cos."""
+    t = np.tan(0.5 * x)
+    square = t * t
+    r = 1 / (1 + square)
+    return 2 * t * r, (1 - square) * r
+
+
+_ARRAYS = {**vars(np), "sincos": _sincos}
+_FLOATS = {
+    **vars(np),
+    **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan")},
+    **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh", "pi")},
+    "minimum": min,
+    "sincos": lambda x: (math.sin(x), math.cos(x)),
+}
