@@ -1,0 +1,207 @@
+"""A derivation as a compiled C callable: one state, many states, a whole RK4 loop."""
+
+import operator
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from armdyn.codegen import build, c_code, straight_line
+from armdyn.codegen.numpy_code import SUSPECT, NumpyModel
+from armdyn.derive import Derivation
+from armdyn.manipulator import ROUNDING, Manipulator
+from armdyn.parameters import finite, state_vector, state_vectors
+
+
+def c_model(derivation: Derivation, values: Mapping[str, float]) -> "CompiledModel":
+    """The derivation with numbers for its parameters, its dynamics compiled from C.
+
+    The code depends on the derivation alone: other values use the same compiled module, which is
+    kept in the user's cache folder, or in $ARMDYN_CACHE if that is set.
+    Raises `NoCompilerError`, saying what to install, if there is no C compiler, and ValueError as
+    `numpy_model`.
+    """
+    model = CompiledModel(derivation, values)
+    _ = model._compiled
+    return model
+
+
+_DOUBLE = np.dtype(float)
+
+
+@dataclass(frozen=True, eq=False)
+class CompiledModel(NumpyModel):
+    """A `NumpyModel` whose q̈ and RK4 loop run in C.
+
+    M, C, g and P stay NumPy's. Where M is close to singular, or an input not finite, the C code
+    says so and `Manipulator.dynamics` decides: the answers and the errors are the same.
+    """
+
+    def dynamics(self, q, qd, u) -> np.ndarray:
+        """q̈ = M⁻¹ (u − C q̇ − g), (n,); raises as `Manipulator.dynamics`."""
+        run, shape = self._one_state
+        try:
+            if (
+                q.shape == qd.shape == u.shape == shape
+                and q.dtype is qd.dtype is u.dtype is _DOUBLE
+            ):
+                return run(q, qd, u)
+        except (AttributeError, ArithmeticError, ValueError, BufferError):
+            pass
+        return self._checked_dynamics(q, qd, u)
+
+    def dynamics_many(self, q, qd, u, out=None) -> np.ndarray:
+        """q̈ of many states, (..., n), as `dynamics`; into `out` if given.
+
+        out: float64, C-contiguous, of the shape of the result; ValueError for another.
+        """
+        states = state_vectors(self.n, q=q, qd=qd, u=u)
+        shape = np.broadcast_shapes(*(s.shape for s in states))
+        if out is None:
+            out = np.empty(shape)
+        elif not (
+            isinstance(out, np.ndarray)
+            and out.dtype == float
+            and out.shape == shape
+            and out.flags.c_contiguous
+            and out.flags.writeable
+        ):
+            raise ValueError(f"out: needs a C-contiguous, writable float64 array of shape {shape}")
+        if not self._run_many(states, out):
+            out[...] = Manipulator.dynamics(self, *states)
+        return out
+
+    @cached_property
+    def dynamics_floats(self):
+        """q̈ from 3n plain numbers q1, …, q̇1, …, u1, …: a tuple of n floats. The quickest call.
+
+        Raises TypeError for another number of arguments, and otherwise as `dynamics`.
+        """
+        module, k = self._compiled
+        of_floats, unpack, n = module.lib.of_floats, module.ffi.unpack, self.n
+
+        def dynamics_floats(*numbers):
+            found = unpack(of_floats(k, SUSPECT, *numbers).a, n)
+            if found[0] != found[0]:  # NaN is what C answers where it leaves the answer to us
+                q, qd, u = np.array(numbers, dtype=float).reshape(3, n)
+                found = self._checked_dynamics(q, qd, u).tolist()
+            return tuple(found)
+
+        return dynamics_floats
+
+    def rk4(self, x0, u, dt: float, steps: int, final: bool = False) -> np.ndarray:
+        """States by the classical Runge–Kutta method, `steps` steps of `dt` s with constant input.
+
+        x0: (2n,), the coordinates, then the velocities. u: (n,), N·m. Leading batch axes are many
+        arms at once. Gives (steps + 1, 2n) from x0 on, or with `final` the last state only, (2n,).
+        Raises ValueError, naming the argument; numpy.linalg.LinAlgError where M is singular to
+        rounding on the way; FloatingPointError, saying when, where the state stops being finite.
+
+        Source: W. Kutta (1901), Beitrag zur näherungsweisen Integration totaler
+        Differentialgleichungen.
+        """
+        n = self.n
+        x0, u = state_vector("x0", x0, 2 * n), state_vector("u", u, n)
+        dt = finite("dt", dt, "s")
+        try:
+            steps = operator.index(steps)
+        except TypeError:
+            steps = -1
+        if steps < 0:
+            raise ValueError(
+                f"steps = {steps!r}: needs a number of steps, an integer of at least 0"
+            )
+        try:
+            batch = np.broadcast_shapes(x0.shape[:-1], u.shape[:-1])
+        except ValueError:
+            raise ValueError(
+                f"x0 {x0.shape}, u {u.shape}: needs batch axes that broadcast to one shape"
+            ) from None
+        states = np.empty((*batch, 2 * n) if final else (*batch, steps + 1, 2 * n))
+        if states.size == 0:
+            return states
+        module, k = self._compiled
+        rows = [_rows(x0, batch, 2 * n), _rows(u, batch, n)]
+        (x_data, x_step), (u_data, u_step) = (self._pointer(*row) for row in rows)
+        stopped = module.lib.rk4(
+            k, n * ROUNDING, int(np.prod(batch, dtype=int)), x_data, x_step, u_data, u_step,
+            dt, steps, not final, self._pointer(states, 0)[0],
+        )  # fmt: skip
+        if stopped >= 0:
+            self._explain(x0, u, batch, dt, *divmod(stopped, steps + 1))
+        return states
+
+    @cached_property
+    def _compiled(self):
+        program = straight_line.forward_dynamics(self.derivation)
+        module = build.compiled(c_code.declarations(self.n), c_code.source(program, self.n))
+        return module, module.ffi.new("double[]", [*self._constants(program), 0.0])
+
+    @cached_property
+    def _one_state(self):
+        module, k = self._compiled
+        one, from_buffer = module.lib.one, module.ffi.from_buffer
+        doubles, empty, n = module.ffi.typeof("double[]"), np.empty, self.n
+
+        def run(q, qd, u):
+            a = empty(n)
+            if one(
+                k,
+                SUSPECT,
+                from_buffer(doubles, q),
+                from_buffer(doubles, qd),
+                from_buffer(doubles, u),
+                from_buffer(doubles, a),
+            ):
+                return a
+            raise ArithmeticError
+
+        return run, (n,)
+
+    def _checked_dynamics(self, q, qd, u):
+        states = state_vectors(self.n, q=q, qd=qd, u=u)
+        found = np.empty(np.broadcast_shapes(*(s.shape for s in states)))
+        return found if self._run_many(states, found) else Manipulator.dynamics(self, *states)
+
+    def _run_many(self, states, out) -> bool:
+        """q̈ of all states into `out`; False where C leaves one of them to `Manipulator`."""
+        if out.size == 0:
+            return True
+        module, k = self._compiled
+        batch = out.shape[:-1]
+        rows = [_rows(s, batch, self.n) for s in states]
+        pointers = [part for row in rows for part in self._pointer(*row)]
+        count = out.size // self.n
+        return module.lib.many(k, SUSPECT, count, *pointers, self._pointer(out, 0)[0]) < 0
+
+    def _pointer(self, array, step):
+        return self._compiled[0].ffi.from_buffer("double[]", array), step
+
+    def _explain(self, x0, u, batch, dt, arm, step):
+        """Raises what stopped the RK4 loop of one arm at one step."""
+        n = self.n
+        x = np.broadcast_to(x0, (*batch, 2 * n)).reshape(-1, 2 * n)[arm]
+        torque = np.broadcast_to(u, (*batch, n)).reshape(-1, n)[arm]
+        at = tuple(int(i) for i in np.unravel_index(arm, batch)) if batch else ()
+        where = f" (state {', '.join(map(str, at))} of the batch)" if at else ""
+        for _ in range(step):
+            try:
+                with np.errstate(all="ignore"):
+                    x = self._one_step(x, torque, dt)
+            except ValueError:  # no longer finite
+                break
+        raise FloatingPointError(f"the state stopped being finite at t = {step * dt:.6g} s{where}")
+
+    def _one_step(self, x, u, dt):
+        slopes = [self.state_derivative(x, u)]
+        for reach in (dt / 2, dt / 2, dt):
+            slopes.append(self.state_derivative(x + reach * slopes[-1], u))
+        return x + dt / 6 * (slopes[0] + 2 * slopes[1] + 2 * slopes[2] + slopes[3])
+
+
+def _rows(array, batch, width):
+    """(the array's rows in one block, the step from row to row): 0 where all rows are one."""
+    if array.size == width:
+        return np.ascontiguousarray(array), 0
+    return np.ascontiguousarray(np.broadcast_to(array, (*batch, width))), width
