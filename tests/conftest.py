@@ -7,10 +7,15 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-# Debian package → the names its program may have.
+# Debian package → the names its program may have, or a file of a package without a program.
 PROGRAMS = {
     "bubblewrap": ("bwrap",),
     "chromium": ("chromium", "chromium-browser", "google-chrome"),
+    "default-jdk-headless": ("javac",),
+    "g++": ("g++",),
+    "libeigen3-dev": ("/usr/include/eigen3/Eigen/Dense",),
+    "libejml-java": ("/usr/share/java/ejml-simple.jar",),
+    "octave": ("octave-cli",),
 }
 
 np.seterr(all="raise", under="ignore")  # underflow to zero is right for a decayed state
@@ -24,8 +29,11 @@ settings.load_profile("ci" if os.environ.get("CI") else "local")
 def needs():
     """`needs("chromium")`: the path of that Debian package's program; skips where it is missing."""
 
+    def locate(name: str) -> str | None:
+        return name if name.startswith("/") and os.path.exists(name) else shutil.which(name)
+
     def path(package: str) -> str:
-        found = next(filter(None, map(shutil.which, PROGRAMS[package])), None)
+        found = next(filter(None, map(locate, PROGRAMS[package])), None)
         if found is None:
             pytest.skip(f"needs {package}: apt install {package}")
         return found

@@ -1,0 +1,79 @@
+"""A derivation as definitions in the Wolfram Language."""
+
+from sympy.printing.mathematica import MCodePrinter, known_functions
+
+from armdyn.codegen.program import Program, Routine, code, program, rows, wrapped
+
+RESERVED = {
+    *"CDEIKNO",  # symbols of the system, protected
+    *("Pi", "Module", "LinearSolve", "Dot", "List"),
+    *(head for cases in known_functions.values() for _, head in cases),
+}
+
+
+def wolfram(derivation, name: str = "arm") -> str:
+    """Wolfram Language source: definitions, symbolic in the parameters, whose names begin with `name`.
+
+    nameM[q], nameC[q, qd], nameGVec[q], namePotentialEnergy[q] and nameDynamics[q, qd, u] take
+    lists, of symbols or of numbers; parameters are given values with /. {l1 -> 1, …}. There are no
+    underscores in the language's names: l_1 becomes l1. A name that the system has taken gets
+    `Sym` behind it; the first comment says which.
+    Raises ValueError for names and expressions that cannot be written: see `program`.
+    """
+    model = program(derivation, name, RESERVED, mark="Sym", underscores=False)
+    return "\n".join([*(f"(* {line} *)" for line in model.header()), *_file(model), ""])
+
+
+def _file(model: Program):
+    q, qd = (", ".join(f"{s.name}_" for s in symbols) for symbols in (model.q, model.qd))
+    if model.parameters:
+        yield "(* The parameters are symbols:"
+        yield from model.fields("     {}", " ")
+        yield "   give them values by a rule, as in expression /. {g -> 9.81}. *)"
+    yield "\n(* The inertia matrix. *)"
+    yield from _definition(f"{model.name}M[{{{q}}}]", model.M)
+    yield "\n(* The Coriolis and centrifugal matrix, in Christoffel form. *)"
+    yield from _definition(f"{model.name}C[{{{q}}}, {{{qd}}}]", model.C)
+    yield "\n(* The gravity vector, the gradient of the potential energy. *)"
+    yield from _definition(f"{model.name}GVec[{{{q}}}]", model.g_vec)
+    yield "\n(* The potential energy, J. *)"
+    yield from _definition(f"{model.name}PotentialEnergy[{{{q}}}]", model.P)
+    yield "\n(* The accelerations qdd for the inputs u. *)"
+    yield f"{model.name}Dynamics[q_, qd_, u_] := LinearSolve[{model.name}M[q],"
+    yield f"  u - {model.name}C[q, qd] . qd - {model.name}GVec[q]]"
+
+
+def _definition(head, routine: Routine):
+    if not routine.steps:
+        yield from (f"{head} :=", *_result(routine.result))
+        return
+    local = ", ".join(symbol.name for symbol, _ in routine.steps)
+    yield from wrapped(f"{head} := Module[{{{local}}},", 0)
+    for symbol, term in routine.steps:
+        yield from wrapped(f"{symbol.name} = {_code(term)};", 2)
+    *lines, last = _result(routine.result)
+    yield from (*lines, f"{last}]")
+
+
+def _result(result):
+    if not hasattr(result, "shape"):
+        return wrapped(_code(result), 2)
+    if result.cols == 1:
+        return wrapped(f"{{{', '.join(map(_code, result))}}}", 2)
+    return ["  {" + ",\n   ".join(f"{{{row}}}" for row in rows(result, _code)) + "}"]
+
+
+class _WolframPrinter(MCodePrinter):
+    """SymPy's printer, with numbers that Wolfram reads as the same double."""
+
+    def _print_Float(self, expression):
+        mantissa, _, exponent = repr(float(expression)).partition("e")
+        if "." not in mantissa:
+            mantissa += "."  # 1*^-9 would be an exact fraction
+        # Many digits alone would make a number of that many digits' precision.
+        mark = "`" if len(mantissa) > 16 else ""
+        return mantissa + mark + (f"*^{int(exponent)}" if exponent else "")
+
+
+def _code(expression):
+    return code(_WolframPrinter(), expression, "Wolfram")
