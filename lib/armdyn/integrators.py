@@ -93,13 +93,13 @@ def implicit_midpoint(rate: Rate, t: float, x, dt: float) -> np.ndarray:
         new = rate(t + dt / 2, x + dt / 2 * k)
         change = np.max(np.abs(dt * (new - k)), axis=-1)
         size = np.max(np.abs(x) + np.abs(dt * new), axis=-1)
+        if not np.isfinite(size).all():
+            break
         k = new
         # Rounding inside the rate may keep the change above ROUNDING: then it stops shrinking.
         done |= (change <= ROUNDING * size) | ((change >= last) & (change <= NEARLY * size))
         if done.all():
             return x + dt * k
-        if not np.isfinite(k).all():
-            break
         last = change
     raise FloatingPointError(
         f"implicit_midpoint did not converge in the step of {dt:.3g} s from t = {t:.6g} s: its "
