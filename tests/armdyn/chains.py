@@ -52,7 +52,7 @@ def spatial_chains(draw, most=4, friction=frictions):
 def spatial(planar) -> SerialChain:
     """A PlanarChain in the plane z = 0 of space.
 
-    Moments of inertia about axes in the plane do no work there; I/2 each makes the body flat.
+    Moments of inertia about axes in the plane do no work there: those of a ball will do.
     """
     before = (0.0, *planar.l[:-1])
     return SerialChain(
@@ -61,7 +61,7 @@ def spatial(planar) -> SerialChain:
                 "revolute",
                 mass=m,
                 com=(lc, ly, 0),
-                inertia=np.diag([I / 2, I / 2, I]),
+                inertia=np.diag([I, I, I]),
                 translation=(l, 0, 0),
             )
             for m, lc, ly, I, l in zip(
