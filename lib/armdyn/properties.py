@@ -44,10 +44,30 @@ class Finding:
     def __str__(self):
         verdict = "holds" if self.holds else "does not hold"
         where = ", ".join(
-            f"{name} = {np.array2string(np.asarray(value), precision=4)}"
+            f"{name} = {' '.join(np.array2string(np.asarray(value), precision=4).split())}"
             for name, value in self.witness.items()
         )
         return f"{self.claim}: {verdict}; {self.violation:.1e} against {self.floor:.1e}, at {where}"
+
+
+@dataclass(frozen=True, eq=False)
+class CoriolisFinding(Finding):
+    """Whether C is the Christoffel choice, with a second finding: whether C q̇ at least is right.
+
+    Many C give the same C q̇, and with it the same motion; one of them is Σ_k h_ijk q̇_k.
+    """
+
+    torque: Finding
+
+    @property
+    def kind(self) -> str:
+        """One of "Christoffel", "merely valid" (C q̇ is right) and "neither"."""
+        if self.holds:
+            return "Christoffel"
+        return "merely valid" if self.torque.holds else "neither"
+
+    def __str__(self):
+        return f"{super().__str__()}\n{self.torque}"
 
 
 def symmetry(model, q) -> Finding:
@@ -88,18 +108,51 @@ def skew_symmetry(model, q, qd) -> Finding:
     (..., n).
     """
     q, qd = _states(model, q=q, qd=qd)
-    C = model.C(q, qd)
-    M_dot = _rate_of(model.M, q, qd)
+    C, M_dot, scale = _rates(model, q, qd)
     N = M_dot - 2 * C
     sum_ = N + np.swapaxes(N, -1, -2)
-    scale = np.maximum(_largest(M_dot), _largest(C)) + _largest(model.M(q)) * _largest_entry(qd)
-    return _worst(
-        "Ṁ − 2C is skew-symmetric",
-        _largest(sum_),
-        scale,
+    shown = {"q": q, "qd": qd, "N + Nᵀ": sum_}
+    return _worst("Ṁ − 2C is skew-symmetric", _largest(sum_), scale, DIFFERENCE_FLOOR, **shown)
+
+
+def inertia_rate(model, q, qd) -> Finding:
+    """Ṁ = C + Cᵀ: the same as skew-symmetry, as long as M is symmetric.
+
+    The violation is max |Ṁ − C − Cᵀ| over the scale of `skew_symmetry`, with Ṁ by differences of M;
+    the witness holds both sides. q (rad), qd (rad/s): (..., n).
+    """
+    q, qd = _states(model, q=q, qd=qd)
+    C, M_dot, scale = _rates(model, q, qd)
+    sum_ = C + np.swapaxes(C, -1, -2)
+    shown = {"q": q, "qd": qd, "Ṁ": M_dot, "C + Cᵀ": sum_}
+    return _worst("Ṁ = C + Cᵀ", _largest(M_dot - sum_), scale, DIFFERENCE_FLOOR, **shown)
+
+
+def christoffel_form(model, q, qd) -> CoriolisFinding:
+    """C_ij = Σ_k h_ijk q̇_k with h_ijk = ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), or merely valid.
+
+    The derivatives are differences of M, so that C is judged by M alone. The violation is
+    max |C − Σ h q̇| over the scale of `skew_symmetry`, that of `torque` |C q̇ − (Σ h q̇) q̇| over the
+    same times |q̇|; the witnesses hold both sides. q (rad), qd (rad/s): (..., n).
+    """
+    q, qd = _states(model, q=q, qd=qd)
+    C, _, scale = _rates(model, q, qd)
+    # slopes[..., k, i, j] = ∂M_ij/∂q_k
+    slopes = np.stack([_rate_of(model.M, q, axis) for axis in np.eye(model.n)], axis=-3)
+    h = np.einsum("...kij->...ijk", slopes) + np.einsum("...jik->...ijk", slopes)
+    h = (h - slopes) / 2  # slopes[..., i, j, k] = ∂M_jk/∂q_i
+    expected = np.einsum("...ijk,...k->...ij", h, qd)
+    torque, expected_torque = np.matvec(C, qd), np.matvec(expected, qd)
+    valid = _worst(
+        "C q̇ = Σ h q̇ q̇",
+        _largest_entry(torque - expected_torque),
+        scale * _largest_entry(qd),
         DIFFERENCE_FLOOR,
-        **{"q": q, "qd": qd, "N + Nᵀ": sum_},
+        **{"q": q, "qd": qd, "C q̇": torque, "Σ h q̇ q̇": expected_torque},
     )
+    shown = {"q": q, "qd": qd, "C": C, "Σ h q̇": expected}
+    finding = _worst("C = Σ h q̇", _largest(C - expected), scale, DIFFERENCE_FLOOR, **shown)
+    return CoriolisFinding(**vars(finding), torque=valid)
 
 
 def gravity_gradient(model, q) -> Finding:
@@ -112,7 +165,7 @@ def gravity_gradient(model, q) -> Finding:
     gradient = np.stack(
         [_rate_of(model.potential_energy, q, axis) for axis in np.eye(model.n)], axis=-1
     )
-    scale = _largest_entry(g_vec) + _potential_size(model, q)
+    scale = (_largest_entry(g_vec) + _potential_size(model, q)) * _turns(q)
     off = _largest_entry(g_vec - gradient)
     return _worst("g = ∂P/∂q", off, scale, DIFFERENCE_FLOOR, q=q, g=g_vec, gradient=gradient)
 
@@ -126,11 +179,22 @@ def power_balance(model, q, qd, u) -> Finding:
     q, qd, u = _states(model, q=q, qd=qd, u=u)
     qdd = model.dynamics(q, qd, u)
     x, slope = np.concatenate([q, qd], axis=-1), np.concatenate([qd, qdd], axis=-1)
-    stored = _rate_of(lambda x: model.energy(x[..., : model.n], x[..., model.n :]), x, slope)
+
+    def energy(x):
+        return model.energy(x[..., : model.n], x[..., model.n :])
+
+    stored = _rate_of(energy, x, slope)
     given = np.vecdot(qd, u - model.f_vec(qd))
-    energies = np.abs(model.kinetic_energy(q, qd)) + _potential_size(model, q)
-    scale = np.abs(given) + np.abs(np.vecdot(qd, np.matvec(model.M(q), qdd)))
-    scale = scale + energies * _largest_entry(slope)
+    M = model.M(q)
+    inertia, speed = _largest(M), _largest_entry(qd)
+    # Where q̇ carries little energy for its size, K is a small sum of large terms, each rounded; at
+    # rest there still are the speeds of the difference's own steps. The solution for q̈ leaves a
+    # residual of the size of M q̈.
+    terms = inertia * (speed + 4 * STEP) ** 2 / 30 + _terms_of(energy, x, slope)
+    residual = model.n * ROUNDING / DIFFERENCE_FLOOR * inertia * speed * _largest_entry(qdd)
+    energies = np.abs(model.kinetic_energy(q, qd)) + terms + _potential_size(model, q)
+    scale = np.abs(given) + np.abs(np.vecdot(qd, np.matvec(M, qdd))) + residual
+    scale = (scale + energies * _largest_entry(slope)) * _turns(q)
     return _worst(
         "dE/dt = q̇ᵀ(u − f)", np.abs(stored - given), scale, DIFFERENCE_FLOOR, q=q, qd=qd, u=u
     )
@@ -143,20 +207,54 @@ def _states(model, **named) -> list[np.ndarray]:
     return arrays
 
 
+def _rates(model, q, qd) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """C, Ṁ by differences, and the size that rounding and truncation of both are measured in."""
+    C, M_dot = model.C(q, qd), _rate_of(model.M, q, qd)
+    scale = np.maximum(_largest(M_dot), _largest(C)) + _largest(model.M(q)) * _largest_entry(qd)
+    return C, M_dot, scale * _turns(q)
+
+
+def _turns(q) -> np.ndarray:
+    """By how much rounding of q itself, which grows with q, adds to that of a difference."""
+    return 1 + _largest_entry(q) / 10
+
+
 def _potential_size(model, q) -> np.ndarray:
-    """|P| and its change over one unit of each coordinate: not 0 at an equilibrium where P = 0."""
-    P = model.potential_energy(q)
-    changes = sum(np.abs(model.potential_energy(q + axis) - P) for axis in np.eye(model.n))
-    return np.abs(P) + changes
+    """|P|, its change over one unit of each coordinate, and the terms that may cancel in it.
+
+    The change is not 0 at an equilibrium where P = 0. Of an arm balanced by counterweights P and ∂P/∂q
+    are nothing but rounding, and only the size of the terms that cancel tells that g is right.
+    """
+    P, axes = model.potential_energy, np.eye(model.n)
+    changes = sum(np.abs(P(q + axis) - P(q)) for axis in axes)
+    # Rounding may spare one place, or one direction: look at several.
+    terms = sum(_terms_of(P, q + k, axes[k % model.n]) for k in range(max(6, model.n)))
+    return np.abs(P(q)) + changes + terms
+
+
+def _terms_of(function, x, direction) -> np.ndarray:
+    """The size of the terms whose sum the function is, from how its values are rounded.
+
+    Sixth differences over the steps of `_rate_of` leave nothing else of a smooth function.
+    """
+    unit, _ = _unit(direction)
+    # One more step ahead than behind: a value that is odd about x has no even difference there.
+    samples = np.stack([function(x + k * STEP * unit) for k in range(-3, 5)])
+    return np.max(np.abs(np.diff(samples, n=6, axis=0)), axis=0) / (10 * EPS)
 
 
 def _rate_of(function, x, direction) -> np.ndarray:
     """d/ds function(x + s·direction) at s = 0, by fourth-order central differences."""
-    size = _largest_entry(direction)[..., np.newaxis]
-    unit = direction / np.where(size > 0, size, 1)
+    unit, size = _unit(direction)
     sample = {k: function(x + k * STEP * unit) for k in (-2, -1, 1, 2)}
     slope = (sample[-2] - 8 * sample[-1] + 8 * sample[1] - sample[2]) / (12 * STEP)
     return slope * size.reshape(size.shape[:-1] + (1,) * (slope.ndim - size.ndim + 1))
+
+
+def _unit(direction) -> tuple[np.ndarray, np.ndarray]:
+    """The direction with a largest entry of 1, and that entry, (..., 1)."""
+    size = _largest_entry(direction)[..., np.newaxis]
+    return direction / np.where(size > 0, size, 1), size
 
 
 def _largest(matrices) -> np.ndarray:
