@@ -1,14 +1,17 @@
-"""Compiles C source to a Python module, once: the result is kept under its contents' hash."""
+"""Compiles the C source of a Python module, once: the result is kept under its contents' hash."""
 
 import hashlib
 import importlib.util
 import os
 import platform
 import shutil
+import subprocess
 import sys
 import sysconfig
 import tempfile
 from pathlib import Path
+
+import numpy as np
 
 FLAGS = {
     "nt": (("/O2", "/fp:precise"),),
@@ -20,6 +23,7 @@ FLAGS = {
     ),
 }
 MODULE = "armdyn_compiled"
+_loaded = {}
 
 
 class NoCompilerError(RuntimeError):
@@ -47,49 +51,82 @@ def cache_folder() -> Path:
     return Path(base) / "armdyn"
 
 
-def compiled(declarations: str, source: str):
-    """The module (`ffi`, `lib`) of this C source, compiled now or taken from the cache.
+def compiled(source: str):
+    """The Python module armdyn_compiled of this C source, compiled now or taken from the cache.
 
     Raises NoCompilerError if it has to be compiled and cannot be.
     """
-    key = hashlib.sha256(repr((declarations, source, FLAGS, _machine())).encode()).hexdigest()[:32]
-    name = f"{MODULE}_{key}"
-    if name in sys.modules:
-        return sys.modules[name]
-    path = cache_folder() / f"{name}{sysconfig.get_config_var('EXT_SUFFIX')}"
-    if not path.is_file():
-        _compile(name, declarations, source, path)
-    spec = importlib.util.spec_from_file_location(name, path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    sys.modules[name] = module
-    return module
+    key = hashlib.sha256(repr((source, FLAGS, _machine())).encode()).hexdigest()[:32]
+    if key not in _loaded:
+        path = cache_folder() / key / f"{MODULE}{sysconfig.get_config_var('EXT_SUFFIX')}"
+        if not path.is_file():
+            _compile(source, path)
+        spec = importlib.util.spec_from_file_location(MODULE, path)
+        _loaded[key] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(_loaded[key])
+    return _loaded[key]
 
 
-def _compile(name, declarations, source, path):
-    if os.name == "posix":
-        command = os.environ.get("CC") or sysconfig.get_config_var("CC") or "cc"
-        if shutil.which(command.split()[0]) is None:
-            raise NoCompilerError(f"{command.split()[0]} was not found")
-    # Only here: setuptools takes longer to import than a cached module to load.
-    from cffi import FFI
-
+def _compile(source, path):
     path.parent.mkdir(parents=True, exist_ok=True)
-    problem = None
-    for flags in FLAGS[os.name]:
-        builder = FFI()
-        builder.cdef(declarations)
-        builder.set_source(name, source, extra_compile_args=list(flags))
-        with tempfile.TemporaryDirectory(dir=path.parent) as folder:
+    build = _with_setuptools if os.name == "nt" else _with_command
+    with tempfile.TemporaryDirectory(dir=path.parent) as folder:
+        file = Path(folder) / f"{MODULE}.c"
+        file.write_text(source, encoding="utf-8")
+        for flags in FLAGS[os.name][:-1]:
             try:
-                made = builder.compile(tmpdir=folder)
-            except Exception as error:  # setuptools and cffi raise half a dozen kinds
-                problem = error
+                made = build(file, flags)
+                break
+            except NoCompilerError:
                 continue
-            # Renamed into place: another process never sees half a file.
-            os.replace(made, path)
-            return
-    raise NoCompilerError(f"{type(problem).__name__}: {problem}") from problem
+        else:
+            made = build(file, FLAGS[os.name][-1])
+        # Renamed into place: another process never sees half a file.
+        os.replace(made, path)
+
+
+def _with_command(file, flags):
+    """The shared library of the C file, by the compiler's own command, $CC if that is set."""
+    command = (os.environ.get("CC") or sysconfig.get_config_var("CC") or "cc").split()
+    if shutil.which(command[0]) is None:
+        raise NoCompilerError(f"{command[0]} was not found")
+    made = file.with_suffix(".so")
+    shared = (
+        ("-bundle", "-undefined", "dynamic_lookup") if sys.platform == "darwin" else ("-shared",)
+    )
+    folders = [f"-I{folder}" for folder in _include_folders()]
+    done = subprocess.run(
+        [*command, *flags, "-fPIC", *shared, *folders, str(file), "-o", str(made), "-lm"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode:
+        complaint = (done.stderr.strip() or f"exit status {done.returncode}").splitlines()
+        told = next((line for line in complaint if "error" in line), complaint[0])
+        raise NoCompilerError(f"{command[0]} failed with '{told}'")
+    return made
+
+
+def _with_setuptools(file, flags):
+    """The same by setuptools, which finds Microsoft's compiler."""
+    try:
+        from setuptools import Distribution, Extension
+
+        extension = Extension(
+            MODULE, [str(file)], include_dirs=_include_folders(), extra_compile_args=list(flags)
+        )
+        build = Distribution({"ext_modules": [extension]}).get_command_obj("build_ext")
+        build.build_lib = build.build_temp = str(file.parent)
+        build.ensure_finalized()
+        build.run()
+    except Exception as error:  # a dozen kinds, from ImportError to the compiler's own
+        raise NoCompilerError(f"{type(error).__name__}: {error}") from error
+    return build.get_ext_fullpath(MODULE)
+
+
+def _include_folders():
+    return [sysconfig.get_path("include"), np.get_include()]
 
 
 def _machine():
@@ -100,4 +137,4 @@ def _machine():
         lines = []
     kinds = ("model name", "flags", "Features", "CPU part")
     processor = sorted({line for line in lines if line.startswith(kinds)})
-    return (sys.version, platform.platform(), processor or platform.processor())
+    return (sys.version, np.__version__, platform.platform(), processor or platform.processor())

@@ -13,29 +13,14 @@ from armdyn.codegen.straight_line import StraightLine
 LANES = 32
 
 
-def declarations(n: int) -> str:
-    """What the compiled module offers, in C; see `source` for the meaning."""
-    numbers = ", ".join(f"double {name}_{i}" for name in "qvu" for i in range(n))
-    return f"""
-typedef struct {{ double a[{n}]; }} accelerations;
-accelerations of_floats(const double *k, double least, {numbers});
-int one(const double *k, double least, const double *q, const double *v, const double *u,
-        double *a);
-ptrdiff_t many(const double *k, double least, ptrdiff_t count, const double *q, ptrdiff_t q_step,
-               const double *v, ptrdiff_t v_step, const double *u, ptrdiff_t u_step, double *a);
-ptrdiff_t rk4(const double *k, double least, ptrdiff_t arms, const double *x0, ptrdiff_t x_step,
-              const double *u, ptrdiff_t u_step, double dt, ptrdiff_t steps, int keep, double *x);
-"""
-
-
 def source(program: StraightLine, n: int) -> str:
-    """C99 for a program of `straight_line.forward_dynamics`.
+    """C99 for a program of `straight_line.forward_dynamics`; it knows nothing of Python.
 
     k: the program's constants. least: the smallest pivot of M, relative to its trace, that counts
     as regular. `one` and `many` give q̈ of one state and of `count` states, row by row, with
     `*_step` numbers from row to row (0: the same row for all); `one` returns whether M was regular
-    and q̈ finite, `many` the first row where not, or −1. `of_floats` gives NaN there. `rk4` keeps
-    every state, (arms, steps + 1, 2n), or with keep = 0 the last, (arms, 2n); it returns −1, or
+    and q̈ finite, `many` the first row where not, or −1. `rk4` keeps every state,
+    (arms, steps + 1, 2n), or with keep = 0 the last, (arms, 2n); it returns −1, or
     arm·(steps + 1) + step where it stopped.
     """
     text = _Printer().expression
@@ -54,8 +39,6 @@ def source(program: StraightLine, n: int) -> str:
     passed = [f"{name}[{i} * lanes + l]" for name in "qvu" for i in range(n)]
     passed += [f"{name}[{i} * lanes + l]" for i in range(count) for name in ("s", "c")]
     passed += [f"a + {i} * lanes + l" for i in range(n)] + ["pivot + l", "trace + l"]
-    numbers = ", ".join(f"double {name}_{i}" for name in "qvu" for i in range(n))
-    copies = "\n    ".join(f"const double {name}[{n}] = {{{_row(name, n)}}};" for name in "qvu")
     return f"""#include <math.h>
 #include <stddef.h>
 
@@ -67,7 +50,6 @@ def source(program: StraightLine, n: int) -> str:
 #endif
 
 enum {{ N = {n}, LANES = {LANES}, ANGLES = {max(count, 1)} }};
-{declarations(n)}
 {_sincos()}
 INLINE double least_of(double a, double b)
 {{
@@ -99,17 +81,7 @@ INLINE int forward(const int lanes, const double *restrict k, double least,
     return regular;
 }}
 
-accelerations of_floats(const double *k, double least, {numbers})
-{{
-    {copies}
-    accelerations found;
-    if (!forward(1, k, least, q, v, u, found.a))
-        for (int i = 0; i < N; i++)
-            found.a[i] = NAN;
-    return found;
-}}
-
-int one(const double *k, double least, const double *q, const double *v, const double *u,
+static int one(const double *k, double least, const double *q, const double *v, const double *u,
         double *a)
 {{
     return forward(1, k, least, q, v, u, a);
@@ -128,7 +100,7 @@ INLINE void gather(int lanes, int width, const double *rows, ptrdiff_t step, dou
             to[i * LANES + l] = rows[(lanes - 1) * step + i];
 }
 
-ptrdiff_t many(const double *k, double least, ptrdiff_t count, const double *q, ptrdiff_t q_step,
+static ptrdiff_t many(const double *k, double least, ptrdiff_t count, const double *q, ptrdiff_t q_step,
                const double *v, ptrdiff_t v_step, const double *u, ptrdiff_t u_step, double *a)
 {
     double ql[N * LANES], vl[N * LANES], ul[N * LANES], al[N * LANES];
@@ -199,7 +171,7 @@ INLINE ptrdiff_t rk4_block(const int lanes, int used, const double *k, double le
     return -1;
 }
 
-ptrdiff_t rk4(const double *k, double least, ptrdiff_t arms, const double *x0, ptrdiff_t x_step,
+static ptrdiff_t rk4(const double *k, double least, ptrdiff_t arms, const double *x0, ptrdiff_t x_step,
               const double *u, ptrdiff_t u_step, double dt, ptrdiff_t steps, int keep, double *x)
 {
     double xl[2 * N * LANES], ul[N * LANES];
@@ -226,10 +198,6 @@ ptrdiff_t rk4(const double *k, double least, ptrdiff_t arms, const double *x0, p
     return -1;
 }
 """
-
-
-def _row(name, n):
-    return ", ".join(f"{name}_{i}" for i in range(n))
 
 
 def _lines(lines, indent):

@@ -1,13 +1,14 @@
 """A derivation as a compiled C callable: one state, many states, a whole RK4 loop."""
 
+import math
 import operator
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
-from armdyn.codegen import build, c_code, straight_line
+from armdyn.codegen import build, c_code, c_module, straight_line
 from armdyn.codegen.numpy_code import SUSPECT, NumpyModel
 from armdyn.derive import Derivation
 from armdyn.manipulator import ROUNDING, Manipulator
@@ -22,34 +23,26 @@ def c_model(derivation: Derivation, values: Mapping[str, float]) -> "CompiledMod
     Raises `NoCompilerError`, saying what to install, if there is no C compiler, and ValueError as
     `numpy_model`.
     """
-    model = CompiledModel(derivation, values)
-    _ = model._compiled
-    return model
-
-
-_DOUBLE = np.dtype(float)
+    return CompiledModel(derivation, values)
 
 
 @dataclass(frozen=True, eq=False)
 class CompiledModel(NumpyModel):
     """A `NumpyModel` whose q̈ and RK4 loop run in C.
 
-    M, C, g and P stay NumPy's. Where M is close to singular, or an input not finite, the C code
-    says so and `Manipulator.dynamics` decides: the answers and the errors are the same.
+    Raises `NoCompilerError` when made, if there is no C compiler. M, C, g and P stay NumPy's. Where
+    M is close to singular, or an input not finite, the C code says so and `Manipulator.dynamics`
+    decides: the answers and the errors are the same.
     """
+
+    def __post_init__(self):
+        super().__post_init__()
+        _ = self._compiled, self._k
 
     def dynamics(self, q, qd, u) -> np.ndarray:
         """q̈ = M⁻¹ (u − C q̇ − g), (n,); raises as `Manipulator.dynamics`."""
-        run, shape = self._one_state
-        try:
-            if (
-                q.shape == qd.shape == u.shape == shape
-                and q.dtype is qd.dtype is u.dtype is _DOUBLE
-            ):
-                return run(q, qd, u)
-        except (AttributeError, ArithmeticError, ValueError, BufferError):
-            pass
-        return self._checked_dynamics(q, qd, u)
+        found = self._one(self._k, q, qd, u)
+        return self._checked_dynamics(q, qd, u) if found is None else found
 
     def dynamics_many(self, q, qd, u, out=None) -> np.ndarray:
         """q̈ of many states, (..., n), as `dynamics`; into `out` if given.
@@ -76,19 +69,10 @@ class CompiledModel(NumpyModel):
     def dynamics_floats(self):
         """q̈ from 3n plain numbers q1, …, q̇1, …, u1, …: a tuple of n floats. The quickest call.
 
-        Raises TypeError for another number of arguments, and otherwise as `dynamics`.
+        Raises TypeError for another number of arguments or what is no number, and otherwise as
+        `dynamics`.
         """
-        module, k = self._compiled
-        of_floats, unpack, n = module.lib.of_floats, module.ffi.unpack, self.n
-
-        def dynamics_floats(*numbers):
-            found = unpack(of_floats(k, SUSPECT, *numbers).a, n)
-            if found[0] != found[0]:  # NaN is what C answers where it leaves the answer to us
-                q, qd, u = np.array(numbers, dtype=float).reshape(3, n)
-                found = self._checked_dynamics(q, qd, u).tolist()
-            return tuple(found)
-
-        return dynamics_floats
+        return partial(self._compiled.of_floats, self._k, self._checked_floats)
 
     def rk4(self, x0, u, dt: float, steps: int, final: bool = False) -> np.ndarray:
         """States by the classical Runge–Kutta method, `steps` steps of `dt` s with constant input.
@@ -121,43 +105,40 @@ class CompiledModel(NumpyModel):
         states = np.empty((*batch, 2 * n) if final else (*batch, steps + 1, 2 * n))
         if states.size == 0:
             return states
-        module, k = self._compiled
-        rows = [_rows(x0, batch, 2 * n), _rows(u, batch, n)]
-        (x_data, x_step), (u_data, u_step) = (self._pointer(*row) for row in rows)
-        stopped = module.lib.rk4(
-            k, n * ROUNDING, int(np.prod(batch, dtype=int)), x_data, x_step, u_data, u_step,
-            dt, steps, not final, self._pointer(states, 0)[0],
-        )  # fmt: skip
+        stopped = self._compiled.rk4(
+            self._k,
+            n * ROUNDING,
+            _rows(x0, batch, 2 * n),
+            _rows(u, batch, n),
+            dt,
+            steps,
+            not final,
+            states.reshape(math.prod(batch), -1),
+        )
         if stopped >= 0:
             self._explain(x0, u, batch, dt, *divmod(stopped, steps + 1))
         return states
 
     @cached_property
-    def _compiled(self):
-        program = straight_line.forward_dynamics(self.derivation)
-        module = build.compiled(c_code.declarations(self.n), c_code.source(program, self.n))
-        return module, module.ffi.new("double[]", [*self._constants(program), 0.0])
+    def _program(self):
+        return straight_line.forward_dynamics(self.derivation)
 
     @cached_property
-    def _one_state(self):
-        module, k = self._compiled
-        one, from_buffer = module.lib.one, module.ffi.from_buffer
-        doubles, empty, n = module.ffi.typeof("double[]"), np.empty, self.n
+    def _compiled(self):
+        code = c_code.source(self._program, self.n)
+        return build.compiled(c_module.source(code, SUSPECT))
 
-        def run(q, qd, u):
-            a = empty(n)
-            if one(
-                k,
-                SUSPECT,
-                from_buffer(doubles, q),
-                from_buffer(doubles, qd),
-                from_buffer(doubles, u),
-                from_buffer(doubles, a),
-            ):
-                return a
-            raise ArithmeticError
+    @cached_property
+    def _k(self):
+        return np.array(self._constants(self._program), dtype=float)
 
-        return run, (n,)
+    @cached_property
+    def _one(self):
+        return self._compiled.one
+
+    def _checked_floats(self, *numbers):
+        states = np.array(numbers, dtype=float).reshape(3, self.n)
+        return tuple(self._checked_dynamics(*states).tolist())
 
     def _checked_dynamics(self, q, qd, u):
         states = state_vectors(self.n, q=q, qd=qd, u=u)
@@ -168,15 +149,8 @@ class CompiledModel(NumpyModel):
         """q̈ of all states into `out`; False where C leaves one of them to `Manipulator`."""
         if out.size == 0:
             return True
-        module, k = self._compiled
-        batch = out.shape[:-1]
-        rows = [_rows(s, batch, self.n) for s in states]
-        pointers = [part for row in rows for part in self._pointer(*row)]
-        count = out.size // self.n
-        return module.lib.many(k, SUSPECT, count, *pointers, self._pointer(out, 0)[0]) < 0
-
-    def _pointer(self, array, step):
-        return self._compiled[0].ffi.from_buffer("double[]", array), step
+        rows = [_rows(s, out.shape[:-1], self.n) for s in states]
+        return self._compiled.many(self._k, *rows, out.reshape(-1, self.n))
 
     def _explain(self, x0, u, batch, dt, arm, step):
         """Raises what stopped the RK4 loop of one arm at one step."""
@@ -201,7 +175,7 @@ class CompiledModel(NumpyModel):
 
 
 def _rows(array, batch, width):
-    """(the array's rows in one block, the step from row to row): 0 where all rows are one."""
+    """The array's rows, (N, width), contiguous; (1, width) where all rows are one."""
     if array.size == width:
-        return np.ascontiguousarray(array), 0
-    return np.ascontiguousarray(np.broadcast_to(array, (*batch, width))), width
+        return np.ascontiguousarray(array).reshape(1, width)
+    return np.ascontiguousarray(np.broadcast_to(array, (*batch, width))).reshape(-1, width)
