@@ -118,7 +118,7 @@ def test_only_known_models_and_single_states_are_drawn():
         n = 1
         M = C = g_vec = potential_energy = None
 
-    with pytest.raises(TypeError, match="draws a Pendulum or a Planar2R, got Cart"):
+    with pytest.raises(TypeError, match="draws a Pendulum, a Planar2R or a PlanarChain, got Cart"):
         drawn(Cart(), [0.0])
     with pytest.raises(ValueError, match=r"q: got shape \(3, 2\); one arm at a time"):
         drawn(ARM, np.zeros((3, 2)))

@@ -1,0 +1,43 @@
+"""Figures of arms, of the terms of their equation of motion and of how they move.
+
+The only part of armdyn with matplotlib. Importing it sets the course's figure style in
+matplotlib.rcParams. No pyplot: a figure is an object like any other, drawn when it is asked for,
+with nothing to close. A notebook shows one as a `Picture`, or a motion as an `Animation`, which
+carry a description for those who do not see them.
+
+Colours: M. Okabe, K. Ito (2008), Color Universal Design, told apart with any colour vision; maps
+of a quantity use cividis, whose lightness rises evenly. Lines also differ by dashes, bars by hatch
+and points by shape, so that nothing rests on colour alone.
+"""
+
+from armdyn.plotting.animation import Animation
+from armdyn.plotting.arm import draw_arm, draw_trace, tip
+from armdyn.plotting.ellipse import draw_inertia_ellipse, inertia_ellipses
+from armdyn.plotting.landscape import energy_landscape
+from armdyn.plotting.phase import draw_phase, phase_portrait
+from armdyn.plotting.picture import OVERSAMPLING, PIXELS_PER_INCH, Picture
+from armdyn.plotting.style import DASHES, LINES, OKABE_ITO, STYLE, figure
+from armdyn.plotting.torques import TERMS, terms, torque_terms
+
+__all__ = [
+    "DASHES",
+    "LINES",
+    "OKABE_ITO",
+    "OVERSAMPLING",
+    "PIXELS_PER_INCH",
+    "STYLE",
+    "TERMS",
+    "Animation",
+    "Picture",
+    "draw_arm",
+    "draw_inertia_ellipse",
+    "draw_phase",
+    "draw_trace",
+    "energy_landscape",
+    "figure",
+    "inertia_ellipses",
+    "phase_portrait",
+    "terms",
+    "tip",
+    "torque_terms",
+]

@@ -1,0 +1,156 @@
+"""A motion to play in a notebook: a canvas and its data, with a still figure beside it."""
+
+import hashlib
+import json
+from dataclasses import dataclass
+from importlib import resources
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from armdyn.parameters import all_finite, positive, real_array, state_vector
+from armdyn.plotting.arm import draw_links, plane
+from armdyn.plotting.picture import check_alt, encoded_png, image_tag, size_in_pixels
+from armdyn.plotting.pose import pose, skeleton
+from armdyn.plotting.style import DASHES, LINES, OKABE_ITO, figure
+
+FRAMES_PER_SECOND = 30
+# Below this the eye sees jumps, and straight lines between the angles of two frames miss the motion.
+FEWEST_PER_SECOND = 12
+# Numbers a notebook carries, at most: with the figure they stay under 50 KB.
+LARGEST = 4000
+STANDS = 5
+
+
+@dataclass(frozen=True)
+class Animation:
+    """An arm that moves, or several; as a cell's last line it shows itself, with play and a slider.
+
+    model: a Pendulum, a Planar2R or a PlanarChain. t: (T,), increasing, s. q: (T, n), rad, or
+    (B, T, n) for up to 5 motions of the arm in one picture; the first n columns of the states that
+    `simulate` gives. alt: a sentence that says what is to be seen, for those who do not see it.
+    speed: seconds of motion per second of watching. names: one short text per motion, at its tip.
+
+    A notebook stores some 10 to 40 KB: the angles at up to 30 frames a second, a player that asks
+    nothing of the network, and a still figure with the way of the tip and a few postures. Where no
+    script runs (a notebook not trusted, a code host, paper) the figure is what remains.
+
+    Raises ValueError, naming the argument, for shapes that do not fit, for an empty alt, and for a
+    motion so long that its frames do not fit: show a part of it, or raise the speed. TypeError for
+    another model.
+    """
+
+    model: object
+    t: np.ndarray
+    q: np.ndarray
+    alt: str
+    speed: float = 1.0
+    names: tuple[str, ...] = ()
+
+    def __post_init__(self):
+        skeleton(self.model)
+        check_alt(self.alt)
+        n = self.model.n
+        t = all_finite("t", real_array("t", self.t))
+        if t.ndim != 1 or len(t) < 2 or np.any(np.diff(t) <= 0):
+            raise ValueError(f"t: got shape {t.shape}, needs two or more increasing times, (T,), s")
+        q = state_vector("q", self.q, n)
+        if (
+            q.ndim not in (2, 3)
+            or q.shape[-2] != len(t)
+            or (q.ndim == 3 and not 1 <= len(q) <= len(LINES))
+        ):
+            raise ValueError(
+                f"q: got shape {q.shape}, needs ({len(t)}, {n}), or (B, {len(t)}, {n}) with B up "
+                f"to {len(LINES)}"
+            )
+        motions = q if q.ndim == 3 else q[np.newaxis]
+        names = tuple(self.names)
+        if names and len(names) != len(motions):
+            raise ValueError(f"names = {names}: needs {len(motions)}, one per motion")
+        object.__setattr__(self, "t", t)
+        object.__setattr__(self, "q", motions)
+        object.__setattr__(self, "speed", positive("speed", self.speed, "1"))
+        object.__setattr__(self, "names", names)
+        self._times()
+
+    def still(self) -> Figure:
+        """The way of each tip, and the arm at a few times, from light to dark and thin to thick."""
+        fig, ax = figure(4.2, 4.2)
+        alone = len(self.q) == 1
+        when = np.linspace(self.t[0], self.t[-1], STANDS if alone else 2)
+        shades = np.linspace(0.8, 0.2, len(when))
+        for k, motion in enumerate(self.q):
+            color = OKABE_ITO[LINES[k]]
+            tips = pose(self.model, motion).joints[:, -1]
+            label = self.names[k] if self.names else "way of the tip"
+            ax.plot(*tips.T, color=color, linestyle=DASHES[k], linewidth=1, label=label)
+            joints = pose(self.model, self._at(when)[k]).joints
+            for shade, stand in zip(shades, joints, strict=True):
+                draw_links(ax, stand, str(shade) if alone else color, 2 + 2 * (1 - shade))
+            ax.plot(*joints[0, -1], "o", color=color, markerfacecolor="white", markersize=8)
+            ax.plot(*joints[-1, -1], "s", color=color, markersize=7)
+        plane(ax, 1.15 * skeleton(self.model).reach)
+        ax.set_title(f"from t = {self.t[0]:.3g} s (○) to {self.t[-1]:.3g} s (■)")
+        if self.names:
+            fig.legend(loc="outside lower center", ncols=3, frameon=False)
+        return fig
+
+    def _repr_mimebundle_(self, include=None, exclude=None):
+        still = self.still()
+        png = encoded_png(still, oversampling=1.0, colours=32)
+        width, height = size_in_pixels(still)
+        data = self._data()
+        key = hashlib.sha256(data.encode()).hexdigest()[:12]
+        player = resources.files(__package__).joinpath("animation.js").read_text(encoding="utf-8")
+        page = (
+            f'<div data-armdyn-animation="{key}" style="display:flex;flex-wrap:wrap;gap:16px">'
+            f"<div>{image_tag(png, self.alt, width)}"
+            "<p data-still-only>A still figure: run the cell, or trust the notebook, to see it "
+            "move.</p></div></div>"
+            f"<script>{player.replace('@KEY@', key).replace('@DATA@', data)}</script>"
+        )
+        bundle = {"text/html": page, "image/png": png, "text/plain": self.alt}
+        return bundle, {"image/png": {"alt": self.alt, "width": width, "height": height}}
+
+    def _times(self) -> np.ndarray:
+        """The times of the frames, s, evenly from t[0] to t[-1]."""
+        watched = (self.t[-1] - self.t[0]) / self.speed
+        most = LARGEST // (len(self.q) * self.model.n)
+        frames = min(round(watched * FRAMES_PER_SECOND) + 1, most)
+        if (frames - 1) < FEWEST_PER_SECOND * watched - 1:
+            longest = most / FEWEST_PER_SECOND
+            raise ValueError(
+                f"t: {watched:.3g} s of watching do not fit into a notebook, {longest:.3g} s do: "
+                "show a part of the motion or raise speed"
+            )
+        return np.linspace(self.t[0], self.t[-1], max(frames, 2))
+
+    def _at(self, times) -> np.ndarray:
+        """q at the times, (B, len(times), n), rad, straight between those given."""
+        return np.stack(
+            [
+                np.stack([np.interp(times, self.t, column) for column in motion.T], axis=-1)
+                for motion in self.q
+            ]
+        )
+
+    def _data(self) -> str:
+        times = self._times()
+        parts = skeleton(self.model)
+        thousandths = np.rint(1000 * parts.angles(self._at(times))).astype(int)
+        deltas = np.diff(thousandths, axis=1, prepend=0)
+        data = {
+            "lengths": parts.l.tolist(),
+            "arms": deltas.reshape(len(self.q), -1).tolist(),
+            "frames": len(times),
+            "start": times[0],
+            "step": (times[-1] - times[0]) / (len(times) - 1),
+            "speed": self.speed,
+            "reach": parts.reach,
+            "colours": [OKABE_ITO[name] for name in LINES],
+            "names": self.names,
+            "alt": self.alt,
+        }
+        # "<" could close the script's element.
+        return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")

@@ -1,0 +1,64 @@
+"""The potential energy over the two joint angles, with the equilibria in it."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from armdyn.equilibria import equilibria
+from armdyn.plotting.style import angle_ticks, figure
+
+POINTS = 121
+MARKS = {"minimum": "o", "saddle": "D", "maximum": "^"}
+
+
+def energy_landscape(model, limits: tuple[float, float] = (-np.pi, np.pi)) -> Figure:
+    """P over (q1, q2), J, from limits[0] to limits[1] (rad) both ways, and its equilibria.
+
+    Where P has a minimum the arm rests without torque and stays; from a saddle or a maximum it
+    leaves. model: with two joints. Raises ValueError for another number of joints, for limits that
+    are not two increasing numbers, and as `equilibria` where the equilibria are not isolated.
+    """
+    if model.n != 2:
+        raise ValueError(f"model: needs two joints, has {model.n}")
+    low, high = limits
+    if not low < high:
+        raise ValueError(f"limits = {limits}: needs two increasing numbers, in rad")
+    angles = np.linspace(low, high, POINTS)
+    P = model.potential_energy(np.stack(np.meshgrid(angles, angles), axis=-1))
+    fig, ax = figure(6.4, 4.6)
+    filled = ax.contourf(angles, angles, P, levels=14, cmap="cividis")
+    ax.contour(angles, angles, P, levels=filled.levels, colors="black", linewidths=0.3)
+    fig.colorbar(filled, ax=ax, label="P (J)")
+    found = equilibria(model)
+    for kind, marker in MARKS.items():
+        places = [
+            place for point in found if point.kind == kind for place in _seen(point.q, limits)
+        ]
+        style = {"markersize": 11, "markerfacecolor": "white", "markeredgecolor": "black"}
+        if places:
+            ax.plot(
+                *np.transpose(places),
+                marker,
+                label=f"equilibrium: {kind}",
+                clip_on=False,
+                zorder=5,
+                **style,
+            )
+    ax.set(xlabel="$q_1$ (rad)", ylabel="$q_2$ (rad)", xlim=limits, ylim=limits)
+    ax.set_aspect("equal")
+    ax.grid(False)
+    angle_ticks(ax.xaxis, limits)
+    angle_ticks(ax.yaxis, limits)
+    fig.legend(loc="outside lower center", ncols=3, frameon=False)
+    return fig
+
+
+def _seen(q, limits) -> list[np.ndarray]:
+    """q and its copies, whole turns away, within the limits."""
+    low, high = limits
+    turns = 2 * np.pi
+    inside = [
+        angle
+        + turns * np.arange(np.ceil((low - angle) / turns - 1e-9), (high - angle) / turns + 1e-9)
+        for angle in q
+    ]
+    return [np.array([q1, q2]) for q1 in inside[0] for q2 in inside[1]]

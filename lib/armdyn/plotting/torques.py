@@ -1,0 +1,54 @@
+"""The terms of the equation of motion as bars."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from armdyn.parameters import state_vector
+from armdyn.plotting.arm import draw_arm
+from armdyn.plotting.style import OKABE_ITO
+
+# The terms of the equation of motion: name in mathtext, colour, hatch.
+TERMS = (
+    (r"$M\ddot q$", OKABE_ITO["sky"], "//"),
+    (r"$C\dot q$", OKABE_ITO["orange"], "\\\\"),
+    (r"$g$", OKABE_ITO["green"], ".."),
+    (r"$f$", OKABE_ITO["purple"], "xx"),
+    (r"$u$", OKABE_ITO["yellow"], ""),
+)
+
+
+def torque_terms(model, q, qd, qdd, limit: float | None = None) -> Figure:
+    """The arm at q, and beside it each joint's M q̈, C q̇, g, f and their sum u as bars, in N·m.
+
+    q (rad), qd (rad/s), qdd (rad/s²): (n,). limit: the bars' axes run from −limit to limit (N·m),
+    for figures that are compared; a longer bar is cut, its number is not. Without it, bars fit.
+    """
+    values = terms(model, q, qd, qdd)
+    limit = 1.25 * max(np.abs(values).max(), 1e-9) if limit is None else limit
+    fig = Figure(figsize=(8, 3.8))
+    arm, bars = fig.subfigures(1, 2, width_ratios=(1, 1.15))
+    draw_arm(arm.subplots(), model, q)
+    axes = bars.subplots(model.n, 1, sharex=True, squeeze=False)[:, 0]
+    for joint, ax in enumerate(axes):
+        _draw_bars(ax, values[:, joint], limit)
+        ax.set_ylabel(f"joint {joint + 1} (N·m)" if model.n > 1 else "torque (N·m)")
+    return fig
+
+
+def terms(model, q, qd, qdd) -> np.ndarray:
+    """M q̈, C q̇, g, f and u = their sum, as the rows of a (5, n) array, N·m."""
+    qd, qdd = state_vector("qd", qd, model.n), state_vector("qdd", qdd, model.n)
+    parts = [model.M(q) @ qdd, model.C(q, qd) @ qd, model.g_vec(q), model.f_vec(qd)]
+    return np.stack([*parts, sum(parts)])
+
+
+def _draw_bars(ax, values, limit) -> None:
+    for place, (value, (_, colour, hatch)) in enumerate(zip(values, TERMS, strict=True)):
+        ax.bar(place, value, 0.6, color=colour, hatch=hatch, edgecolor="black", linewidth=0.8)
+        height = np.clip(value, -0.8 * limit, 0.8 * limit)
+        gap, side = (0.03, "bottom") if value >= 0 else (-0.03, "top")
+        # + 0.0 turns a rounded −0.0 into 0.0
+        label = f"{round(value, 1) + 0.0:.1f}"
+        ax.text(place, height + gap * limit, label, ha="center", va=side, fontsize=9)
+    ax.axhline(0, color="black", linewidth=1)
+    ax.set(ylim=(-limit, limit), xticks=range(len(TERMS)), xticklabels=[name for name, *_ in TERMS])
