@@ -1,6 +1,8 @@
 """The planar arm with two revolute joints (2R), in closed form."""
 
 from dataclasses import dataclass, field, fields
+from functools import cached_property
+from math import cos, inf, isfinite, sin
 
 import numpy as np
 
@@ -95,6 +97,44 @@ class Planar2R(Manipulator):
     def f_vec(self, qd) -> np.ndarray:
         """Viscous and Coulomb friction of each joint, (2,), N·m."""
         return joint_friction(state_vector("qd", qd, 2), self.viscous, self.coulomb)
+
+    def dynamics(self, q, qd, u) -> np.ndarray:
+        """Acceleration q̈ = M⁻¹ (u − C q̇ − g − f), (2,), rad/s²; errors as in `Manipulator`.
+
+        One state without friction is summed in plain floats, and M solved by Cramer's rule: for two
+        joints NumPy's calls would cost ten times the arithmetic. All else goes the general way, and
+        so does what is near a singular M or not finite, to be judged there.
+        """
+        try:
+            if q.nbytes == qd.nbytes == u.nbytes == 16:  # two doubles each
+                (q1, q2), (qd1, qd2), (u1, u2) = q.tolist(), qd.tolist(), u.tolist()
+                a, b, k, G1, G2, least = self._lumped
+                coupling, minus_h, g2 = k * cos(q2), k * sin(q2), G2 * cos(q1 + q2)
+                det = a * b - coupling * coupling
+                if det > least:
+                    M12 = b + coupling
+                    rest1 = u1 + minus_h * qd2 * (qd1 + qd1 + qd2) - G1 * cos(q1) - g2
+                    rest2 = u2 - minus_h * qd1 * qd1 - g2
+                    qdd1 = (b * rest1 - M12 * rest2) / det
+                    qdd2 = ((a + M12 + coupling) * rest2 - M12 * rest1) / det
+                    if isfinite(qdd1 + qdd2):
+                        return np.array([qdd1, qdd2])
+        except (AttributeError, TypeError, ValueError):
+            pass  # not arrays of numbers: the general way says what is wrong with them
+        return super().dynamics(q, qd, u)
+
+    @cached_property
+    def _lumped(self) -> tuple[float, ...]:
+        """M11 = a + b + 2 k cos q2, M12 = b + k cos q2, M22 = b, g1 = G1 cos q1 + g2, g2 = G2 cos q12.
+
+        Last the determinant a b − (k cos q2)² below which it has lost too many digits.
+        """
+        a = self.I1 + self.m1 * self.lc1**2 + self.m2 * self.l1**2
+        b = self.I2 + self.m2 * self.lc2**2
+        k = self.m2 * self.l1 * self.lc2
+        G1, G2 = (self.m1 * self.lc1 + self.m2 * self.l1) * self.g, self.m2 * self.lc2 * self.g
+        frictionless = not any(self.viscous + self.coulomb)
+        return a, b, k, G1, G2, 1e-3 * a * b if frictionless else inf
 
     def potential_energy(self, q) -> np.ndarray:
         """Zero with both centres of mass at the height of joint 1, J."""

@@ -1,0 +1,233 @@
+"""armdyn's speed beside its peers', in one process: python tests/benchmarks/library.py [FILE].
+
+Prints the table, and writes it to FILE if one is given. Each figure is a ratio of least times,
+measured in turn. The agreement of the results is checked before anything is timed.
+"""
+
+import platform
+import sys
+import time
+from pathlib import Path
+
+import mujoco
+import numba
+import numpy as np
+import pinocchio as pin
+import sympy as sp
+from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
+from timing import Row, in_turn, table
+
+from armdyn import Planar2R, codegen, derive
+
+ARM = {"l1": 1.0, "l2": 0.8, "lc1": 0.5, "lc2": 0.4, "m1": 3.0, "m2": 2.0, "I1": 0.25, "I2": 0.11}
+STATES = 1_000_000
+LOOPED = 20_000  # of the states, as many as a Python loop gets through in reasonable time
+
+
+def pinocchio_2r():
+    """The 2R in Pinocchio: gravity along −y, joints about z."""
+    model = pin.Model()
+    model.gravity.linear = np.array([0.0, -9.81, 0.0])
+    at, place = 0, pin.SE3.Identity()
+    for i in ("1", "2"):
+        at = model.addJoint(at, pin.JointModelRZ(), place, f"joint{i}")
+        com = np.array([ARM["lc" + i], 0.0, 0.0])
+        inertia = np.diag([0.0, 0.0, ARM["I" + i]])
+        model.appendBodyToJoint(at, pin.Inertia(ARM["m" + i], com, inertia), pin.SE3.Identity())
+        place = pin.SE3(np.eye(3), np.array([ARM["l" + i], 0.0, 0.0]))
+    return model, model.createData()
+
+
+def one_state(ours: Planar2R, compiled) -> list[Row]:
+    model, data = pinocchio_2r()
+    q, qd, u = np.array([0.3, 0.4]), np.array([1.0, 2.0]), np.array([0.1, 0.2])
+    numbers = (*q.tolist(), *qd.tolist(), *u.tolist())
+    expected = pin.aba(model, data, q, qd, u)
+    for found in (ours.dynamics(q, qd, u), compiled.dynamics(q, qd, u)):
+        np.testing.assert_allclose(found, expected, rtol=1e-12)
+    np.testing.assert_allclose(compiled.dynamics_floats(*numbers), expected, rtol=1e-12)
+    rows = []
+    for what, call, goal in (
+        ("2R forward dynamics, one state: Planar2R, arrays", lambda: ours.dynamics(q, qd, u), 1.3),
+        ("the same, generated C, arrays", lambda: compiled.dynamics(q, qd, u), 1.0),
+        ("the same, generated C, floats", lambda: compiled.dynamics_floats(*numbers), 0.4),
+    ):
+        times = in_turn(call, lambda: pin.aba(model, data, q, qd, u), number=5000, rounds=40)
+        rows.append(Row(what, times[0], "Pinocchio aba", times[1], goal))
+    return rows
+
+
+def many_states(generated, compiled) -> list[Row]:
+    model, data = pinocchio_2r()
+    rng = np.random.default_rng(0)
+    q, qd, u = rng.uniform(-3, 3, size=(3, STATES, 2))
+
+    def loop():
+        for k in range(LOOPED):
+            pin.aba(model, data, q[k], qd[k], u[k])
+
+    expected = [pin.aba(model, data, q[k], qd[k], u[k]) for k in range(100)]
+    rows = []
+    for name, call, goal in (
+        ("NumPy", lambda: generated.dynamics(q, qd, u), 30),
+        ("generated C", lambda: compiled.dynamics_many(q, qd, u), 100),
+    ):
+        np.testing.assert_allclose(call()[:100], expected, rtol=1e-10)
+        ours, looped = in_turn(call, loop, rounds=8)
+        peer = looped * STATES / LOOPED
+        rows.append(Row(f"a million 2R states, {name}", ours, "looped aba", peer, 1 / goal))
+    return rows
+
+
+def lagranges_method(n: int):
+    """SymPy's own route for the planar chain: LagrangesMethod, then lambdify."""
+    q = dynamicsymbols(f"q1:{n + 1}")
+    t, g = dynamicsymbols._t, sp.Symbol("g")
+    l, lc, m, I = (sp.symbols(f"{name}1:{n + 1}") for name in ("l", "lc", "m", "I"))
+    K, P, joint, angle = 0, 0, sp.Matrix([0, 0]), 0
+    for i in range(n):
+        angle += q[i]
+        along = sp.Matrix([sp.cos(angle), sp.sin(angle)])
+        com = joint + lc[i] * along
+        velocity = com.diff(t)
+        K += m[i] * velocity.dot(velocity) / 2 + I[i] * angle.diff(t) ** 2 / 2
+        P += m[i] * g * com[1]
+        joint = joint + l[i] * along
+    method = LagrangesMethod(K - P, q)
+    method.form_lagranges_equations()
+    arguments = [*q, *(x.diff(t) for x in q), g, *l, *lc, *m, *I]
+    return sp.lambdify(arguments, [method.mass_matrix, method.forcing], cse=True)
+
+
+def ours_derived(n: int):
+    """The same by armdyn: derivation, code, and the first call, which compiles it."""
+    derivation = derive.planar_chain(n)
+    values = {symbol.name: 9.81 if symbol.name == "g" else 1.0 for symbol in derivation.parameters}
+    model = codegen.numpy_model(derivation, values)
+    zero = np.zeros(n)
+    model.M(zero), model.C(zero, zero), model.g_vec(zero)
+    return model
+
+
+def seconds(function, *arguments) -> float:
+    """The time of one call, with nothing left over in SymPy's cache."""
+    sp.core.cache.clear_cache()
+    start = time.perf_counter()
+    function(*arguments)
+    return time.perf_counter() - start
+
+
+def derivations() -> list[Row]:
+    peer = "LagrangesMethod"
+    six, four = seconds(lagranges_method, 6), seconds(lagranges_method, 4)
+    return [
+        Row("planar chain to a callable, n = 6", seconds(ours_derived, 6), peer, six, 1 / 15),
+        Row("n = 10, beside that route's n = 4", seconds(ours_derived, 10), peer, four, 1.0),
+    ]
+
+
+MJCF = """
+<mujoco>
+  <option timestep="0.001" gravity="0 -9.81 0" integrator="RK4"><flag contact="disable"/></option>
+  <worldbody><body><joint type="hinge" axis="0 0 1"/>
+    <inertial pos="{lc1} 0 0" mass="{m1}" diaginertia="{I1} {I1} {I1}"/>
+    <body pos="{l1} 0 0"><joint type="hinge" axis="0 0 1"/>
+      <inertial pos="{lc2} 0 0" mass="{m2}" diaginertia="{I2} {I2} {I2}"/>
+    </body></body></worldbody>
+</mujoco>
+"""
+
+
+def simulations(arm: Planar2R, compiled) -> list[Row]:
+    model = mujoco.MjModel.from_xml_string(MJCF.format(**ARM))
+    data = mujoco.MjData(model)
+    steps, dt, x0, u = 10_000, 1e-3, np.array([0.5, 0.3, 0.0, 0.0]), np.zeros(2)
+
+    def stepped():
+        mujoco.mj_resetData(model, data)
+        data.qpos[:], data.qvel[:] = x0[:2], x0[2:]
+        for _ in range(steps):
+            mujoco.mj_step(model, data)
+
+    def drift(x):
+        return abs(float(arm.energy(x[:2], x[2:]) - arm.energy(x0[:2], x0[2:])))
+
+    ours, theirs = in_turn(lambda: compiled.rk4(x0, u, dt, steps), stepped, rounds=5)
+    end = compiled.rk4(x0, u, dt, steps, final=True)
+    drifts = drift(end), drift(np.concatenate([data.qpos, data.qvel]))
+    rows = [Row("10 s of the free 2R, RK4 at 1 ms", ours, "MuJoCo", theirs, 1 / 20)]
+    print(f"energy drift of that run: ours {drifts[0]:.2e} J, MuJoCo {drifts[1]:.2e} J")
+
+    arms = np.random.default_rng(1).uniform(-1, 1, size=(1000, 4))
+    loop = numba_loop(arm)
+    few = 1000
+    np.testing.assert_allclose(
+        compiled.rk4(arms, u, dt, 100, final=True), loop(arms, dt, 100), rtol=1e-9, atol=1e-11
+    )
+    ours, theirs = in_turn(
+        lambda: compiled.rk4(arms, u, dt, few, final=True), lambda: loop(arms, dt, few), rounds=5
+    )
+    rows.append(Row("a thousand free arms, 1 s at 1 ms", ours, "the same in numba", theirs, 1 / 5))
+    return rows
+
+
+def numba_loop(arm: Planar2R):
+    """The same loop, written out in Python and compiled by numba."""
+    a = arm.I1 + arm.m1 * arm.lc1**2 + arm.m2 * arm.l1**2
+    b, k = arm.I2 + arm.m2 * arm.lc2**2, arm.m2 * arm.l1 * arm.lc2
+    G1, G2 = (arm.m1 * arm.lc1 + arm.m2 * arm.l1) * arm.g, arm.m2 * arm.lc2 * arm.g
+
+    # In plain floats: numba is fastest without temporary arrays.
+    @numba.njit
+    def acceleration(q1, q2, qd1, qd2):
+        coupling, h = k * np.cos(q2), -k * np.sin(q2)
+        g2 = G2 * np.cos(q1 + q2)
+        rest1 = -h * qd2 * (2 * qd1 + qd2) - G1 * np.cos(q1) - g2
+        rest2 = h * qd1 * qd1 - g2
+        M12 = b + coupling
+        det = a * b - coupling * coupling
+        return (b * rest1 - M12 * rest2) / det, ((a + M12 + coupling) * rest2 - M12 * rest1) / det
+
+    @numba.njit
+    def run(x0, dt, steps):
+        end = np.empty_like(x0)
+        half = dt / 2
+        for i in range(len(x0)):
+            q1, q2, v1, v2 = x0[i, 0], x0[i, 1], x0[i, 2], x0[i, 3]
+            for _ in range(steps):
+                a1, a2 = acceleration(q1, q2, v1, v2)
+                w1, w2 = v1 + half * a1, v2 + half * a2
+                b1, b2 = acceleration(q1 + half * v1, q2 + half * v2, w1, w2)
+                y1, y2 = v1 + half * b1, v2 + half * b2
+                c1, c2 = acceleration(q1 + half * w1, q2 + half * w2, y1, y2)
+                z1, z2 = v1 + dt * c1, v2 + dt * c2
+                d1, d2 = acceleration(q1 + dt * y1, q2 + dt * y2, z1, z2)
+                q1 += dt / 6 * (v1 + 2 * w1 + 2 * y1 + z1)
+                q2 += dt / 6 * (v2 + 2 * w2 + 2 * y2 + z2)
+                v1 += dt / 6 * (a1 + 2 * b1 + 2 * c1 + d1)
+                v2 += dt / 6 * (a2 + 2 * b2 + 2 * c2 + d2)
+            end[i, 0], end[i, 1], end[i, 2], end[i, 3] = q1, q2, v1, v2
+        return end
+
+    return run
+
+
+def main(files: list[str]) -> None:
+    arm = Planar2R(**ARM)
+    derivation = derive.planar_2r()
+    values = {symbol.name: getattr(arm, symbol.name) for symbol in derivation.parameters}
+    generated = codegen.numpy_model(derivation, values)
+    compiled = codegen.c_model(derivation, values)
+    rows = one_state(arm, compiled)
+    rows += many_states(generated, compiled)
+    rows += derivations()
+    rows += simulations(arm, compiled)
+    machine = f"Python {platform.python_version()}, NumPy {np.__version__}, {platform.machine()}"
+    text = f"Library, {machine}\n\n{table(rows)}"
+    print(text)
+    for file in files:
+        Path(file).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
