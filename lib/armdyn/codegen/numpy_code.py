@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import sympy as sp
 from sympy.printing.numpy import NumPyPrinter
+from sympy.printing.precedence import PRECEDENCE
 
 from armdyn.codegen import straight_line
 from armdyn.derive import Derivation
@@ -15,7 +16,7 @@ from armdyn.manipulator import Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
 
 # As many states at a time as keep every temporary in the processor's cache.
-BLOCK = 4096
+BLOCK = 8192
 
 # A pivot of M below this, relative to its trace: close enough to singular for a careful look.
 SUSPECT = 1e-11
@@ -71,12 +72,16 @@ class NumpyModel(Manipulator):
 
     def dynamics(self, q, qd, u) -> np.ndarray:
         """q̈ = M⁻¹ (u − C q̇ − g), (n,), by M = L D Lᵀ written out; raises as `Manipulator`."""
-        states = state_vectors(self.n, q=q, qd=qd, u=u)
-        found = self._forward(*states)
-        pivot, trace = found[..., -2], found[..., -1]
-        if not (pivot > SUSPECT * trace).all():
-            return super().dynamics(*states)
-        return found[..., :-2]
+        states = (q, qd, u)
+        # Plain arrays need no look before: what is not finite shows in q̈.
+        if not all(_plain(s, self.n) for s in states):
+            states = state_vectors(self.n, q=q, qd=qd, u=u)
+        try:
+            with np.errstate(all="ignore"):
+                found = self._forward(*states)
+        except ValueError:  # batch axes that do not broadcast: `Manipulator` says so
+            found = None
+        return super().dynamics(*states) if found is None else found
 
     @cached_property
     def _inertia(self):
@@ -97,7 +102,7 @@ class NumpyModel(Manipulator):
     @cached_property
     def _forward(self):
         program = straight_line.forward_dynamics(self.derivation)
-        return _Callable(program, self._constants(program), "qvu", self.n, (self.n + 2,))
+        return _Callable(program, self._constants(program), "qvu", self.n, (self.n,), _regular)
 
     def _callable(self, arguments, expressions):
         if isinstance(expressions, sp.MatrixBase):
@@ -116,21 +121,22 @@ class NumpyModel(Manipulator):
 class _Callable:
     """Straight-line code as a function of q, v, u (those of them it takes), each (..., n).
 
-    Gives (..., *shape). The same source runs on arrays with NumPy and on one state with `math`,
+    Gives (..., *shape), of the code's first results; or None where `judge` says no to all of them.
+    The same source runs on arrays with NumPy and on one state with `math`,
     which is many times faster on single numbers.
     """
 
-    def __init__(self, program, numbers, arguments, n, shape):
+    def __init__(self, program, numbers, arguments, n, shape, judge=None):
         source = _source(program, arguments, n)
-        self.shape, self.n = shape, n
+        self.shape, self.n, self.judge = shape, n, judge
+        self.size = math.prod(shape)
         self.on_arrays = _compiled(source, _ARRAYS)(*numbers)
         self.on_floats = _compiled(source, _FLOATS)(*numbers)
 
     def __call__(self, *states):
         batch = np.broadcast_shapes(*(s.shape[:-1] for s in states))
-        size = math.prod(self.shape)
         if not batch:
-            return self._one(states).reshape(self.shape)
+            return self._one(states)
         count = math.prod(batch)
         rows = [
             # One row for the whole batch stays one row.
@@ -139,21 +145,37 @@ class _Callable:
             else np.broadcast_to(s, (*batch, self.n)).reshape(-1, self.n)
             for s in states
         ]
-        found = np.empty((count, size))
+        found = np.empty((count, self.size))
         for start in range(0, count, BLOCK):
             part = slice(start, start + BLOCK)
             columns = [np.ascontiguousarray((r[part] if len(r) == count else r).T) for r in rows]
             results = self.on_arrays(*(column for c in columns for column in c))
-            for i, result in enumerate(results):
-                found[part, i] = result
+            if self.judge and not self.judge(results):
+                return None
+            for i in range(self.size):
+                found[part, i] = results[i]
         return found.reshape(*batch, *self.shape)
 
     def _one(self, states):
         try:
-            return np.array(self.on_floats(*(x for s in states for x in s.tolist())), dtype=float)
+            results = self.on_floats(*(x for s in states for x in s.tolist()))
         except (ArithmeticError, ValueError):
             # `math` raises where NumPy gives inf or NaN, or warns as the user told it to.
-            return np.array(self.on_arrays(*(x for s in states for x in s)), dtype=float)
+            results = self.on_arrays(*(x for s in states for x in s))
+        if self.judge and not self.judge(results):
+            return None
+        return np.array(results[: self.size], dtype=float).reshape(self.shape)
+
+
+def _plain(array, n):
+    return isinstance(array, np.ndarray) and array.dtype == float and array.shape[-1:] == (n,)
+
+
+def _regular(results):
+    """Whether every q̈ is finite and no M close to singular; the last two are pivot and trace."""
+    *accelerations, pivot, trace = results
+    fine = pivot > SUSPECT * trace
+    return np.all(fine) and all(np.isfinite(np.sum(a)) for a in accelerations)
 
 
 def constants(program, derivation, values) -> list[float]:
@@ -198,6 +220,16 @@ class _Printer(NumPyPrinter):
             return f"(1/{text})" if power == -1 else "*".join([text] * int(power))
         return super()._print_Pow(expr, rational=rational)
 
+    def _print_Add(self, expr, order=None):
+        # A sum that opens with a minus costs one more pass over the arrays.
+        terms = sorted(expr.args, key=lambda term: term.could_extract_minus_sign())
+        text = self.parenthesize(terms[0], PRECEDENCE["Add"])
+        for term in terms[1:]:
+            sign = "-" if term.could_extract_minus_sign() else "+"
+            size = -term if sign == "-" else term
+            text += f" {sign} {self.parenthesize(size, PRECEDENCE['Mul'])}"
+        return text
+
     def _print_Min(self, expr):
         text = self._print(expr.args[0])
         for arg in expr.args[1:]:
@@ -230,9 +262,8 @@ def _compiled(source, names):
 def _sincos(x):
     """(sin x, cos x) from tan(x/2), which is several times faster in NumPy than sin and cos."""
     t = np.tan(0.5 * x)
-    square = t * t
-    r = 1 / (1 + square)
-    return 2 * t * r, (1 - square) * r
+    r = 2 / (1 + t * t)
+    return t * r, r - 1
 
 
 _ARRAYS = {**vars(np), "sincos": _sincos}

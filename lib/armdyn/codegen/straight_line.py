@@ -43,14 +43,15 @@ def forward_dynamics(derivation: Derivation) -> StraightLine:
     lifted = _Lifting(derivation)
     lower = [(i, j) for i in range(n) for j in range(i + 1)]
     velocity = [lifted(v) for v in derivation.qd]
-    bias = []
+    torques = []
     for i in range(n):
         products = [lifted(derivation.C[i, j]) * velocity[j] for j in range(n)]
-        bias.append(_sum([*products, lifted(derivation.g_vec[i])]))
+        bias = [_fewest(_sum(products), n), lifted(derivation.g_vec[i])]
+        torques.append(_sum([sp.Symbol(f"u_{i}"), *(-b for b in bias)]))
     entries = [lifted(derivation.M[i, j]) for i, j in lower]
-    steps, found = _shared([*entries, *bias], "x_")
+    steps, found = _shared([*entries, *torques], "x_")
     M = dict(zip(lower, found, strict=False))
-    rest = [sp.Symbol(f"u_{i}") - b for i, b in enumerate(found[len(lower) :])]
+    rest = found[len(lower) :]
 
     def keep(name, expression):
         if expression.is_Atom:
@@ -59,15 +60,16 @@ def forward_dynamics(derivation: Derivation) -> StraightLine:
         steps.append((symbol, expression))
         return symbol
 
-    L, inverse, pivots = {}, [], []
+    # Column by column: W = L D as it comes, before its division by the pivot.
+    L, W, inverse, pivots = {}, {}, [], []
     M = {at: keep("M_{}_{}".format(*at), entry) for at, entry in M.items()}
     for j in range(n):
-        scaled = [keep(f"w_{j}_{k}", L[j, k] * pivots[k]) for k in range(j)]
-        pivots.append(keep(f"D_{j}", M[j, j] - _sum([L[j, k] * scaled[k] for k in range(j)])))
-        inverse.append(keep(f"i_{j}", 1 / pivots[j]))
+        pivots.append(keep(f"D_{j}", M[j, j] - _sum([L[j, k] * W[j, k] for k in range(j)])))
+        # The last is divided by once only.
+        inverse.append(keep(f"i_{j}", 1 / pivots[j]) if j < n - 1 else 1 / pivots[j])
         for i in range(j + 1, n):
-            left = M[i, j] - _sum([L[i, k] * scaled[k] for k in range(j)])
-            L[i, j] = keep(f"L_{i}_{j}", left * inverse[j])
+            W[i, j] = keep(f"W_{i}_{j}", M[i, j] - _sum([L[i, k] * W[j, k] for k in range(j)]))
+            L[i, j] = keep(f"L_{i}_{j}", W[i, j] * inverse[j])
     for i in range(n):
         rest[i] = keep(f"y_{i}", rest[i] - _sum([L[i, j] * rest[j] for j in range(i)]))
     solution = [None] * n
@@ -145,6 +147,14 @@ class _Lifting:
 
     def _has_turned(self, e):
         return any(s.name.startswith(("s_", "c_")) for s in e.free_symbols)
+
+
+def _fewest(expression, n):
+    """C q̇ collected where that is shorter, as −h (2 q̇1 + q̇2) q̇2 in the 2R; slow for a large n."""
+    if n > 3:
+        return expression
+    collected = sp.factor_terms(expression.expand())
+    return min(expression, collected, key=sp.count_ops)
 
 
 def _pair(place):

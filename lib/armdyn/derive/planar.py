@@ -93,7 +93,7 @@ def planar_2r() -> Derivation:
     speed2 = l1**2 * w1**2 + lc[1] ** 2 * w2**2 + 2 * l1 * lc[1] * w1 * w2 * sp.cos(q[1])
     K = (m[0] * speed1 + m[1] * speed2 + I[0] * w1**2 + I[1] * w2**2) / 2
     P = g * (m[0] * lc[0] + m[1] * l1) * sp.sin(q[0]) + m[1] * g * lc[1] * sp.sin(q[0] + q[1])
-    derived = from_energies(K, P, q, qd)
+    derived = from_energies(K.expand(), P, q, qd)
     return Derivation(q, qd, (*l, *lc, *m, *I, g), derived.M, derived.C, derived.g_vec, derived.P)
 
 
