@@ -72,7 +72,8 @@ def simulate(
     Where Coulomb friction holds a joint at rest those steps become very short, and "rk4" is better.
     events: functions g(t, x), or `Event`s, one or a list, whose zeros are located, for one arm. A
     fixed-step method locates them by a shorter step of its own.
-    progress: whether a run past a second shows a bar, where stderr is a terminal or a notebook.
+    progress: whether a run past a second shows a bar, where stderr is a terminal or a
+    notebook with a person before it.
 
     Returns (..., T, N), or, with events, a `Trajectory`. Raises ValueError for times that do not
     increase, for states, inputs, events or derivatives that are not numbers of the right shape and

@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+from jupyter_client.manager import start_new_kernel
 from tqdm import tqdm
 
 from armdyn.simulate import simulate
@@ -15,10 +16,6 @@ from armdyn.simulate import simulate
 class Terminal(io.StringIO):
     def isatty(self):
         return True
-
-
-# A notebook's stderr is no terminal, and is known by where its class comes from.
-Notebook = type("OutStream", (io.StringIO,), {"__module__": "ipykernel.iostream"})
 
 
 @pytest.fixture
@@ -38,10 +35,9 @@ def shown(monkeypatch):
     return run
 
 
-@pytest.mark.parametrize("stream", [Terminal, Notebook])
 @pytest.mark.parametrize("method", ["rk4", "RK45"])
-def test_a_long_run_shows_how_far_it_is_and_cleans_up(shown, stream, method):
-    text = shown(stream(), 0.3, method=method)
+def test_a_long_run_shows_how_far_it_is_and_cleans_up(shown, method):
+    text = shown(Terminal(), 0.3, method=method)
     seen = [float(n) for n in re.findall(r"simulated (\S+) of 2 s", text)]
     assert len(seen) > 5
     assert seen == sorted(seen)
@@ -50,9 +46,8 @@ def test_a_long_run_shows_how_far_it_is_and_cleans_up(shown, stream, method):
     assert text.split("\r")[-2].strip() == ""
 
 
-@pytest.mark.parametrize("stream", [Terminal, Notebook])
-def test_a_run_of_less_than_a_second_is_silent(shown, stream):
-    assert shown(stream(), 0.02) == ""
+def test_a_run_of_less_than_a_second_is_silent(shown):
+    assert shown(Terminal(), 0.02) == ""
 
 
 def test_it_can_be_switched_off(shown):
@@ -83,3 +78,37 @@ def test_no_thread_is_started(shown):
     """A thread would make every later fork of the process a risk."""
     assert shown(Terminal(), 0.3)
     assert tqdm.monitor is None
+
+
+@pytest.fixture(scope="module")
+def kernel():
+    manager, client = start_new_kernel(kernel_name="python3")
+    yield client
+    client.stop_channels()
+    manager.shutdown_kernel(now=True)
+
+
+SLOW = """
+import time
+from armdyn.simulate import simulate
+def f(x, u):
+    time.sleep(0.05)
+    return -x
+x = simulate(f, [1.0], 0.0, [0.1 * k for k in range(9)])
+"""
+
+
+@pytest.mark.filterwarnings("ignore")  # of jupyter_client's sockets and loops
+@pytest.mark.parametrize("person", [True, False])
+def test_in_a_notebook_it_is_for_a_person(kernel, person):
+    """JupyterLab can ask the user; nbconvert, nbval and graders say that they cannot."""
+    written = []
+
+    def note(message):
+        if message["msg_type"] == "stream":
+            written.append((message["content"]["name"], message["content"]["text"]))
+
+    reply = kernel.execute_interactive(SLOW, allow_stdin=person, timeout=60, output_hook=note)
+    assert reply["content"]["status"] == "ok", reply["content"]
+    assert all(name == "stderr" for name, _ in written)
+    assert ("simulated" in "".join(text for _, text in written)) is person

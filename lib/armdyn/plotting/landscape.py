@@ -48,7 +48,8 @@ def energy_landscape(model, limits: tuple[float, float] = (-np.pi, np.pi)) -> Fi
     ax.grid(False)
     angle_ticks(ax.xaxis, limits)
     angle_ticks(ax.yaxis, limits)
-    fig.legend(loc="outside lower center", ncols=3, frameon=False)
+    if ax.lines:
+        fig.legend(loc="outside lower center", ncols=3, frameon=False)
     return fig
 
 

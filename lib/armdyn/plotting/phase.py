@@ -20,7 +20,7 @@ def phase_portrait(
     `simulate` gives them; drawn from a hollow circle to a square. q_limits in rad; q̇ from −qd_limit
     to qd_limit, rad/s: without it, a third more than the velocity with which a swing from the top
     passes the bottom. Raises ValueError for another number of joints, states of another shape and
-    limits that do not increase.
+    limits that do not increase, and as `equilibria` for an arm without gravity.
     """
     if model.n != 1:
         raise ValueError(f"model: needs one joint, has {model.n}; see draw_phase for the others")
@@ -51,7 +51,8 @@ def phase_portrait(
     ax.set(xlim=q_limits, ylim=(-top, top))
     _name_axes(ax, "q", r"\dot q")
     angle_ticks(ax.xaxis, q_limits)
-    fig.legend(loc="outside lower center", ncols=2, frameon=False)
+    if ax.get_legend_handles_labels()[0]:
+        fig.legend(loc="outside lower center", ncols=2, frameon=False)
     return fig
 
 
