@@ -39,6 +39,7 @@ int main() {
     std::istringstream text(line);
     std::vector<double> x;
     for (double number; text >> number;) x.push_back(number);
+    if (x.empty()) continue;
 %(cases)s
   }
 }
@@ -61,8 +62,9 @@ class Driver {
   public static void main(String[] arguments) {
     Scanner in = new Scanner(System.in);
     while (in.hasNextLine()) {
-      double[] x =
-          Arrays.stream(in.nextLine().split(" ")).mapToDouble(Double::parseDouble).toArray();
+      String line = in.nextLine();
+      if (line.isEmpty()) continue;
+      double[] x = Arrays.stream(line.split(" ")).mapToDouble(Double::parseDouble).toArray();
 %(cases)s
       System.out.println();
     }
@@ -84,10 +86,15 @@ JAVA_CASE = """      if (x[0] == %(place)d) {
 """
 
 OCTAVE = """
-warning("error", "all");
 while ischar(line = fgetl(stdin))
+  if isempty(line)
+    continue
+  end
   x = sscanf(line, "%%g");
 %(cases)s
+  if !isempty(lastwarn)
+    error(lastwarn)
+  end
   printf("%%.17g ", answer);
   printf("\\n");
   fflush(stdout);
@@ -150,7 +157,7 @@ def octave_program(models, folder: Path, needs) -> list[str]:
 def _case(place, model):
     name, derivation = model
     n, count = derivation.n, len(derivation.parameters)
-
+    # The cart's mass M has a mark: M is the inertia matrix.
     written = [{"M": "M_"}.get(s.name, s.name) for s in derivation.parameters]
     return {
         "place": place,
@@ -184,7 +191,8 @@ class Conversation:
         return self
 
     def __call__(self, numbers) -> list[float]:
-        self.program.stdin.write(" ".join(repr(float(x)) for x in numbers) + "\n")
+        # Octave gives a line when it has seen what follows it.
+        self.program.stdin.write(" ".join(repr(float(x)) for x in numbers) + "\n\n")
         self.program.stdin.flush()
         line = self.program.stdout.readline()
         assert line, "the program ended without an answer; its error is above"

@@ -5,7 +5,11 @@ from collections.abc import Mapping
 
 from armdyn.codegen.build import NoCompilerError
 from armdyn.codegen.compiled import CompiledModel, c_model
+from armdyn.codegen.cpp import cpp
+from armdyn.codegen.java import java
+from armdyn.codegen.matlab import matlab
 from armdyn.codegen.numpy_code import NumpyModel, numpy_model
+from armdyn.codegen.wolfram import wolfram
 from armdyn.derive import Derivation
 
 __all__ = [
@@ -13,8 +17,12 @@ __all__ = [
     "NoCompilerError",
     "NumpyModel",
     "c_model",
+    "cpp",
     "fastest_model",
+    "java",
+    "matlab",
     "numpy_model",
+    "wolfram",
 ]
 
 

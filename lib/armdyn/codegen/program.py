@@ -198,9 +198,9 @@ def code(printer, expression, language: str) -> str:
 
 
 def wrapped(statement: str, indent: int, onward: str = "") -> list[str]:
-    """The statement's lines, broken after + and − where too wide; `onward` ends a broken line."""
+    """The lines of the statement, broken after +, − and commas; `onward` ends a broken line."""
     lines, line = [], " " * indent
-    for piece in re.split(r"(?<= [+-]) ", statement):
+    for piece in re.split(r"(?<= [+-]) |(?<=,) ", statement):
         if len(line) + len(piece) > WIDTH and line.strip():
             lines.append(line.rstrip() + onward)
             line = " " * (indent + 4)

@@ -64,7 +64,17 @@ def _result(result):
 
 
 class _WolframPrinter(MCodePrinter):
-    """SymPy's printer, with numbers that Wolfram reads as the same double."""
+    """SymPy's printer, with numbers that Wolfram reads as the same double, and with Piecewise."""
+
+    def _print_Piecewise(self, expression):
+        cases = ", ".join(f"{{{self._print(e)}, {self._print(c)}}}" for e, c in expression.args)
+        return f"Piecewise[{{{cases}}}]"
+
+    def _print_BooleanTrue(self, expression):
+        return "True"
+
+    def _print_BooleanFalse(self, expression):
+        return "False"
 
     def _print_Float(self, expression):
         mantissa, _, exponent = repr(float(expression)).partition("e")
