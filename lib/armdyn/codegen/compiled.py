@@ -163,6 +163,8 @@ class CompiledModel(NumpyModel):
             try:
                 with np.errstate(all="ignore"):
                     x = self._one_step(x, torque, dt)
+            except np.linalg.LinAlgError:
+                raise
             except ValueError:  # no longer finite
                 break
         raise FloatingPointError(f"the state stopped being finite at t = {step * dt:.6g} s{where}")

@@ -115,7 +115,7 @@ def _expression(name, value):
         expression = sp.sympify(value)
     except sp.SympifyError:
         expression = None
-    if not isinstance(expression, sp.Expr):
+    if not isinstance(expression, sp.Expr) or expression.is_Matrix:
         raise ValueError(f"{name} = {value!r}: needs a SymPy expression")
     return expression
 

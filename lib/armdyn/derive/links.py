@@ -35,7 +35,7 @@ class Link:
             mass = sp.sympify(self.mass)
         except sp.SympifyError:
             mass = None
-        if not isinstance(mass, sp.Expr):
+        if not isinstance(mass, sp.Expr) or mass.is_Matrix:
             raise ValueError(f"mass = {self.mass!r}: needs one number or SymPy expression, in kg")
         object.__setattr__(self, "mass", mass)
         for name in ("axis", "position", "com"):
