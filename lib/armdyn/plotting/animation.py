@@ -18,7 +18,7 @@ FRAMES_PER_SECOND = 30
 # Below this the eye sees jumps, and straight lines between the angles of two frames miss the motion.
 FEWEST_PER_SECOND = 12
 # Numbers a notebook carries, at most: with the figure they stay under 50 KB.
-LARGEST = 4000
+LARGEST = 3000
 STANDS = 5
 
 
@@ -76,7 +76,7 @@ class Animation:
 
     def still(self) -> Figure:
         """The way of each tip, and the arm at a few times, from light to dark and thin to thick."""
-        fig, ax = figure(4.2, 4.2)
+        fig, ax = figure(3.7, 3.7)
         alone = len(self.q) == 1
         when = np.linspace(self.t[0], self.t[-1], STANDS if alone else 2)
         shades = np.linspace(0.8, 0.2, len(when))
