@@ -7,7 +7,9 @@ import numpy as np
 from armdyn.regressor import parameter_names, regressor
 
 # A column whose part outside the span of the others is below this share of it depends on them.
-DEPENDENT = 1e-10
+DEPENDENT = 1e-8
+# A column below this share of the largest is 0 but for rounding.
+NEGLIGIBLE = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,10 +60,10 @@ def base_parameters(model, columns=None) -> BaseParameters:
     columns = _column_indices(columns, len(names))
     W = _random_rows(model)
     size = np.linalg.norm(W, axis=0)
-    W = W / np.where(size > 0, size, 1)
+    W = W / np.where(size > NEGLIGIBLE * np.max(size), size, np.inf)
     independent = _independent(W, sorted(columns, key=lambda j: (_rank_of_wish(names[j]), j)))
     shares = np.linalg.lstsq(W[:, independent], W, rcond=None)[0]
-    shares[np.abs(shares) < DEPENDENT**0.9] = 0
+    shares[np.abs(shares) < DEPENDENT] = 0
     combination = shares * size / size[independent, np.newaxis]
     dropped = np.setdiff1d(np.arange(len(names)), columns)
     combination[:, dropped] = 0

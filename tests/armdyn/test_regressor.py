@@ -1,0 +1,272 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from armdyn import Link, Manipulator, Pendulum, Planar2R, PlanarChain, SerialChain
+from armdyn.base_parameters import base_parameters, on_link_axes
+from armdyn.friction import joint_friction
+from armdyn.regressor import friction_columns, parameter_names, parameters, regressor
+from tests.armdyn.arms import (
+    a_few,
+    arms,
+    arms_and_states,
+    assert_close,
+    between,
+    inertias,
+    lengths,
+    masses,
+    offsets,
+    vectors,
+)
+from tests.armdyn.chains import spatial, spatial_chains
+
+ARM_COLUMNS = ("m1", "m1 cx1", "m1 cy1", "J1", "m2", "m2 cx2", "m2 cy2", "J2")
+ARM = Planar2R(l1=1.3, l2=0.8, lc1=0.5, lc2=0.4, m1=2, m2=1.5, I1=0.2, I2=0.1)
+
+
+@st.composite
+def planar_chains(draw, most=5, least_g=0):
+    n = draw(st.integers(1, most))
+    l, lc, m, I, ly = (
+        draw(st.tuples(*[each] * n)) for each in (lengths, offsets, masses, inertias, offsets)
+    )
+    return PlanarChain(l, lc, m, I, g=draw(between(least_g, 20)), ly=ly)
+
+
+any_arm = arms() | planar_chains() | spatial_chains()
+
+
+def assert_linear(arm, q, qd, qdd):
+    Y, pi = regressor(arm, q, qd, qdd), parameters(arm)
+    assert Y.shape == (*np.shape(q), len(pi))
+    assert len(parameter_names(arm)) == len(pi)
+    # The size of the terms, which may cancel.
+    size = np.max(np.abs(Y) @ np.abs(pi))
+    assert_close(Y @ pi + arm.f_vec(qd), arm.inverse_dynamics(q, qd, qdd), size)
+
+
+@a_few
+@given(arms_and_states(any_arm))
+def test_regressor_times_parameters_is_the_equation_of_motion(case):
+    assert_linear(*case)
+
+
+def varied(arm, factor):
+    """The same geometry, other bodies."""
+    if isinstance(arm, SerialChain):
+        links = (
+            replace(
+                link,
+                mass=factor * link.mass,
+                com=np.add(link.com, [0.1, 0.2, -0.3]),
+                inertia=np.array(link.inertia) * factor + 0.1 * np.eye(3),
+            )
+            for link in arm.links
+        )
+        return replace(arm, links=tuple(links))
+    names = [name for name in ("m1", "m2", "m", "I1", "I2", "I") if hasattr(arm, name)]
+    return replace(
+        arm, **{name: np.multiply(factor, getattr(arm, name)).tolist() for name in names}
+    )
+
+
+@a_few
+@given(arms_and_states(any_arm), between(1.1, 3))
+def test_the_regressor_holds_geometry_alone(case, factor):
+    arm, q, qd, qdd = case
+    other = varied(arm, factor)
+    assert not np.array_equal(parameters(other), parameters(arm))
+    np.testing.assert_array_equal(regressor(other, q, qd, qdd), regressor(arm, q, qd, qdd))
+    assert_linear(other, q, qd, qdd)
+
+
+@a_few
+@given(planar_chains(), st.data())
+def test_the_plane_is_a_part_of_space(arm, data):
+    q, qd, qdd = (data.draw(vectors(arm.n)) for _ in range(3))
+    in_space = spatial(arm)
+    Y = regressor(in_space, q, qd, qdd)
+    names = parameter_names(in_space)
+    # In space, J of the plane is Jzz; nothing out of the plane loads a joint.
+    same = [j for j, name in enumerate(names) if name.startswith(("m", "Jzz")) and "cz" not in name]
+    assert_close(Y[:, same], regressor(arm, q, qd, qdd))
+    assert_close(parameters(in_space)[same], parameters(arm))
+    others = np.setdiff1d(np.arange(len(names)), same)
+    assert np.max(np.abs(Y[:, others])) <= 1e-12 * max(1, np.max(np.abs(Y)))
+
+
+@a_few
+@given(arms_and_states(any_arm))
+def test_a_joint_is_loaded_by_its_own_link_and_those_after(case):
+    arm, q, qd, qdd = case
+    per_link = len(parameters(arm)) // arm.n
+    blocks = regressor(arm, q, qd, qdd).reshape(*q.shape, arm.n, per_link)
+    for joint in range(arm.n):
+        assert not blocks[..., joint, :joint, :].any()
+
+
+@pytest.mark.parametrize(
+    "arm", [ARM, Pendulum(1, 0.5, 1), PlanarChain((1, 1, 1), (0.5,) * 3, (1,) * 3, (0.1,) * 3)]
+)
+def test_batch_axes_broadcast(arm):
+    rng = np.random.default_rng(1)
+    q, qd, qdd = (rng.normal(size=(*batch, arm.n)) for batch in ((4, 1), (3,), (4, 3)))
+    Y = regressor(arm, q, qd, qdd)
+    assert Y.shape == (4, 3, arm.n, 4 * arm.n)
+    np.testing.assert_allclose(Y[2, 1], regressor(arm, q[2, 0], qd[1], qdd[2, 1]), atol=1e-14)
+
+
+def test_parameters_of_the_2r_by_hand():
+    pi = [2, 1.0, 0, 0.2 + 2 * 0.25, 1.5, 0.6, 0, 0.1 + 1.5 * 0.16]
+    np.testing.assert_allclose(parameters(ARM), pi, rtol=1e-15)
+    assert parameter_names(ARM) == ARM_COLUMNS
+
+
+def test_parameters_of_a_body_in_space_are_integrals_over_it():
+    # Point masses: Σ m (|x|² 1 − x xᵀ) about the origin of the frame needs no theorem.
+    rng = np.random.default_rng(2)
+    mass, x = rng.uniform(0.1, 1, 6), rng.normal(size=(6, 3))
+    about = sum(m * (p @ p * np.eye(3) - np.outer(p, p)) for m, p in zip(mass, x, strict=True))
+    com = mass @ x / mass.sum()
+    central = about - mass.sum() * (com @ com * np.eye(3) - np.outer(com, com))
+    link = Link("revolute", mass.sum(), com=com, inertia=(central + central.T) / 2)
+    expected = [mass.sum(), *(mass @ x), *about[[0, 0, 1, 0, 1, 2], [0, 1, 1, 2, 2, 2]]]
+    np.testing.assert_allclose(parameters(SerialChain((link,))), expected, atol=1e-13)
+    names = ("m1", "m1 cx1", "m1 cy1", "m1 cz1", "Jxx1", "Jxy1", "Jyy1", "Jxz1", "Jyz1", "Jzz1")
+    assert parameter_names(SerialChain((link,))) == names
+
+
+@a_few
+@given(arms_and_states(arms(), parts=1))
+def test_friction_has_its_own_columns(case):
+    arm, qd = case
+    coefficients = np.ravel([arm.viscous, arm.coulomb])
+    np.testing.assert_allclose(friction_columns(qd) @ coefficients, arm.f_vec(qd), atol=1e-14)
+
+
+def test_friction_is_no_inertial_parameter():
+    arm = replace(ARM, viscous=(0.3, 0.2), coulomb=(0.1, 0.2))
+    q, qd, qdd = np.random.default_rng(3).normal(size=(3, 50, 2))
+    np.testing.assert_array_equal(parameters(arm), parameters(ARM))
+    # No π explains the friction: it is outside the span of Y.
+    Y = regressor(arm, q, qd, qdd).reshape(100, 8)
+    f = joint_friction(qd, arm.viscous, arm.coulomb).ravel()
+    rest = f - Y @ np.linalg.lstsq(Y, f, rcond=None)[0]
+    assert np.linalg.norm(rest) > 0.5 * np.linalg.norm(f)
+
+
+def test_linear_in_pi_and_not_in_lc():
+    # Trap 5: at a fixed mass and inertia about the centre of mass, lc enters by its square.
+    state = [0.3, 0.4], [1.0, 2.0], [0.5, -0.7]
+    u = [replace(ARM, lc2=lc2).inverse_dynamics(*state) for lc2 in (0.3, 0.4, 0.5)]
+    assert np.max(np.abs(u[0] - 2 * u[1] + u[2])) > 1e-3
+    pi = [parameters(ARM) + step * np.arange(8) for step in (-1, 0, 1)]
+    u = [regressor(ARM, *state) @ p for p in pi]
+    np.testing.assert_allclose(u[0] - 2 * u[1] + u[2], 0, atol=1e-12)
+
+
+def stacked(arm, count=60):
+    states = np.random.default_rng(4).uniform(-3, 3, (3, count, arm.n))
+    Y = regressor(arm, *states)
+    return Y.reshape(-1, Y.shape[-1])
+
+
+@pytest.mark.parametrize(
+    ("g", "on_axes", "rank"), [(9.81, True, 4), (9.81, False, 6), (0, True, 3), (0, False, 4)]
+)
+@pytest.mark.parametrize("l1", [1e-3, 1.3, 1e3])
+def test_base_parameters_of_the_2r(g, on_axes, rank, l1):
+    # Trap 6: these many while l1 is known.
+    arm = replace(ARM, g=g, l1=l1)
+    columns = on_link_axes(arm) if on_axes else None
+    assert base_parameters(arm, columns).rank == rank
+
+
+def test_five_parameters_only_while_l1_is_unknown():
+    # m2 cx2 enters the inertia times l1 and gravity alone: with l1 unknown, as two parameters.
+    with_gravity, without = stacked(ARM), stacked(replace(ARM, g=0))
+    base = [ARM_COLUMNS.index(name) for name in ("J1", "J2", "m1 cx1")]
+    inertial, gravitational = without[:, 5], (with_gravity - without)[:, 5]
+    lumped = np.column_stack([with_gravity[:, base], inertial, gravitational])
+    assert np.linalg.matrix_rank(lumped) == 5
+    known = np.column_stack([with_gravity[:, base], inertial + gravitational])
+    assert np.linalg.matrix_rank(known) == base_parameters(ARM, on_link_axes(ARM)).rank == 4
+
+
+def test_base_parameters_in_words():
+    assert base_parameters(ARM, on_link_axes(ARM)).descriptions == (
+        "m1 cx1 + 1.3 m2",
+        "J1 + 1.69 m2",
+        "m2 cx2",
+        "J2",
+    )
+    assert str(base_parameters(Pendulum(1, 0.5, 1))) == ("3 base parameters: m1 cx1; m1 cy1; J1")
+
+
+@a_few
+@given(planar_chains(least_g=1))
+def test_a_planar_chain_has_three_per_link(chain):
+    base = base_parameters(chain)
+    assert base.rank == 3 * chain.n
+    # Each mass moves into the links before; that of the first is seen by no joint.
+    assert {base.names[j] for j in base.independent} == {
+        name for name in base.names if name.startswith("J") or " c" in name
+    }
+    l = np.array(chain.l)
+    masses_in_J = base.combination[base.independent.index(3), 4::4]
+    np.testing.assert_allclose(masses_in_J, l[0] ** 2, rtol=1e-7)
+    assert not base.combination[:, 0].any()
+
+
+@a_few
+@given(any_arm)
+def test_base_parameters_are_all_that_the_torque_shows(arm):
+    base = base_parameters(arm)
+    Y = stacked(arm)
+    kept = Y[:, list(base.independent)]
+    assert_close(kept @ base.combination, Y, tolerance=1e-6)
+    # Independent: no base parameter can be changed without a trace.
+    size = np.linalg.norm(kept, axis=0)
+    assert np.linalg.svd(kept / size, compute_uv=False)[-1] > 1e-12
+    np.testing.assert_array_equal(base.combination[:, base.independent], np.eye(base.rank))
+
+
+def test_a_standing_chain_with_vertical_first_axis_shows_only_what_turns():
+    link = Link("revolute", 2.0, com=(0.1, 0.2, 0.3), inertia=np.eye(3))
+    assert base_parameters(SerialChain((link,))).descriptions == ("Jzz1",)
+    slide = Link("prismatic", 2.0, com=(0.1, 0.2, 0.3), inertia=np.eye(3))
+    assert base_parameters(SerialChain((slide,))).descriptions == ("m1",)
+    # A second slider in another direction carries, and is carried by, the first.
+    across = replace(slide, axis=(1.0, 0.0, 0.0))
+    assert base_parameters(SerialChain((slide, across))).descriptions == ("m1", "m2")
+
+
+@pytest.mark.parametrize("columns", [(), (0, 0), (8,), (-1,), (0.5,), "m1"])
+def test_bad_columns_are_refused(columns):
+    with pytest.raises(ValueError, match=r"^columns = .* needs distinct indices from 0 to 7"):
+        base_parameters(ARM, columns)
+
+
+def test_bad_arguments_are_named():
+    class Other(Manipulator):
+        n = 1
+        M = C = g_vec = potential_energy = None
+
+    with pytest.raises(ValueError, match=r"^model: got Other, needs a Pendulum"):
+        regressor(Other(), [0.0], [0.0], [0.0])
+    with pytest.raises(ValueError, match=r"^model: got Other, needs a Pendulum"):
+        parameters(Other())
+    with pytest.raises(ValueError, match=r"^model: got SerialChain, needs a planar arm"):
+        on_link_axes(SerialChain((Link("revolute", 1.0),)))
+    with pytest.raises(ValueError, match=r"^qd: got shape \(3,\), needs real numbers"):
+        regressor(ARM, [0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0])
+    with pytest.raises(ValueError, match=r"^qdd\[0\] = nan"):
+        regressor(ARM, [0.0, 0.0], [0.0, 0.0], [np.nan, 0.0])
+    with pytest.raises(ValueError, match="needs batch axes that broadcast"):
+        regressor(ARM, np.zeros((3, 2)), np.zeros((2, 2)), [0.0, 0.0])
+    for bad in (1.0, None, [np.inf, 0.0]):
+        with pytest.raises(ValueError, match=r"^qd"):
+            friction_columns(bad)

@@ -1,0 +1,51 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from armdyn.base_parameters import base_parameters
+from armdyn.regressor import parameters, regressor
+from tests.armdyn.arms import a_few, assert_close, vectors
+from tests.armdyn.chains import spatial_chains
+
+
+def in_pinocchio(chain):
+    pin = pytest.importorskip("pinocchio", reason="needs Pinocchio: pip install pin")
+    joints = {
+        "revolute": pin.JointModelRevoluteUnaligned,
+        "prismatic": pin.JointModelPrismaticUnaligned,
+    }
+    model, last = pin.Model(), 0
+    model.gravity.linear = np.array(chain.gravity)
+    for k, link in enumerate(chain.links):
+        placement = pin.SE3(np.array(link.rotation), np.array(link.translation))
+        joint = joints[link.joint](np.array(link.axis))
+        last = model.addJoint(last, joint, placement, f"joint{k}")
+        body = pin.Inertia(link.mass, np.array(link.com), np.array(link.inertia))
+        model.appendBodyToJoint(last, body, pin.SE3.Identity())
+    return pin, model
+
+
+@a_few
+@given(spatial_chains(most=7), st.data())
+def test_regressor_and_parameters_are_those_of_pinocchio(chain, data):
+    pin, model = in_pinocchio(chain)
+    q, qd, qdd = (data.draw(vectors(chain.n)) for _ in range(3))
+    theirs = pin.computeJointTorqueRegressor(model, model.createData(), q, qd, qdd)
+    # With one joint, theirs has one axis.
+    theirs = theirs.reshape(chain.n, 10 * chain.n)
+    assert_close(regressor(chain, q, qd, qdd), theirs, tolerance=1e-12)
+    pi = np.concatenate([body.toDynamicParameters() for body in list(model.inertias)[1:]])
+    assert_close(parameters(chain), pi)
+
+
+@a_few
+@given(spatial_chains(most=4))
+def test_base_parameters_explain_pinocchio_s_torque(chain):
+    pin, model = in_pinocchio(chain)
+    data, base = model.createData(), base_parameters(chain)
+    for q, qd, qdd in np.random.default_rng(0).normal(size=(5, 3, chain.n)):
+        Y = pin.computeJointTorqueRegressor(model, data, q, qd, qdd).reshape(chain.n, -1)
+        u = pin.rnea(model, data, q, qd, qdd)
+        reduced = Y[:, list(base.independent)] @ (base.combination @ parameters(chain))
+        assert_close(reduced, u, np.max(np.abs(Y) @ np.abs(parameters(chain))), tolerance=1e-6)
