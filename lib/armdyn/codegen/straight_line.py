@@ -112,8 +112,10 @@ class _Lifting:
         return not (e.free_symbols & self.state)
 
     def _constant(self, e):
-        if e.is_number:
+        if not e.free_symbols:
             return e
+        if not isinstance(e, sp.Expr):  # the condition of a Piecewise
+            return e.func(*(self(a) for a in e.args))
         if e not in self.constants:
             self.constants[e] = sp.Symbol(f"k_{len(self.constants)}")
         return self.constants[e]
