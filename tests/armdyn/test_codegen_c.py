@@ -275,3 +275,14 @@ def test_what_c_cannot_say_is_named():
     q, qd = sp.symbols("q qd", real=True)
     with pytest.raises(ValueError, match="not a function of C"):
         c_model(from_energies(qd**2, sp.besselj(0, q), [q], [qd]), {})
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_an_inertia_singular_by_cancellation_is_refused(seed):
+    # Stretched out, with both masses at the ends of massless links: no entry of M is 0, its
+    # determinant is, and what rounding leaves of the last pivot may have either sign.
+    d = planar_2r()
+    model = c_model(d, {**values(d, seed), "I1": 0.0, "I2": 0.0, "lc1": 0.0})
+    q = np.array([0.3, 0.0])
+    with pytest.raises(np.linalg.LinAlgError, match="singular at q"):
+        model.dynamics(q, q, q)

@@ -184,3 +184,14 @@ def test_other_bad_models():
     model = numpy_model(Derivation((q,), (qd,), (), one, one, one, sp.S.Zero), {})
     with pytest.raises(ValueError, match=r"holds h\(q\)"):
         model.M([0.0])
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_an_inertia_singular_by_cancellation_is_refused(seed):
+    # Stretched out, with both masses at the ends of massless links: no entry of M is 0, its
+    # determinant is, and what rounding leaves of the last pivot may have either sign.
+    d = planar_2r()
+    model = numpy_model(d, {**values(d, seed), "I1": 0.0, "I2": 0.0, "lc1": 0.0})
+    q = np.array([0.3, 0.0])
+    with pytest.raises(np.linalg.LinAlgError, match="singular at q"):
+        model.dynamics(q, q, q)
