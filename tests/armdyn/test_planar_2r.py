@@ -6,7 +6,7 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armdyn import Pendulum, Planar2R
+from armdyn import Manipulator, Pendulum, Planar2R
 from armdyn.properties import positive_definiteness
 from tests.armdyn.arms import (
     a_few,
@@ -16,6 +16,7 @@ from tests.armdyn.arms import (
     lengths,
     masses,
     planar_arms,
+    vectors,
 )
 
 NAMES = "l1 l2 lc1 lc2 m1 m2 I1 I2 g"
@@ -180,3 +181,23 @@ def test_gravity_pulls_down_where_the_conventions_say():
     np.testing.assert_allclose(arm.g_vec([-np.pi / 2, 0]), [0, 0], atol=1e-12)
     assert arm.dynamics([0, 0], [0, 0], [0, 0])[0] < 0
     assert arm.potential_energy([np.pi / 2, 0]) > arm.potential_energy([-np.pi / 2, 0])
+
+
+class Weightless(Planar2R):
+    def g_vec(self, q):
+        return 0 * super().g_vec(q)
+
+
+def test_subclass_with_another_term_moves_by_it():
+    arm = Weightless(1.0, 0.8, 0.5, 0.4, 3.0, 2.0, 0.25, 0.11)
+    floating = Planar2R(1.0, 0.8, 0.5, 0.4, 3.0, 2.0, 0.25, 0.11, g=0.0)
+    state = np.array([0.3, 0.4]), np.array([1.0, 2.0]), np.array([0.1, 0.2])
+    np.testing.assert_allclose(arm.dynamics(*state), floating.dynamics(*state), rtol=1e-13)
+
+
+@given(planar_arms(st.just(0.0), st.just(0.0)), vectors(2), vectors(2), vectors(2))
+def test_one_state_in_floats_and_the_general_way_agree(arm, q, qd, u):
+    """The closed form in floats against the general way."""
+    one = arm.dynamics(q, qd, u)
+    general = Manipulator.dynamics(arm, q, qd, u)
+    assert_close(one, general, np.max(np.abs(general)), tolerance=1e-9)

@@ -53,6 +53,12 @@ class Planar2R(Manipulator):
 
     n = 2
 
+    def __init_subclass__(cls, **keywords):
+        super().__init_subclass__(**keywords)
+        # A subclass with another M, C, g or f moves by them, not by the closed form of this one.
+        if {"M", "C", "g_vec", "f_vec"} & vars(cls).keys():
+            cls.dynamics = vars(cls).get("dynamics", Manipulator.dynamics)
+
     def __post_init__(self):
         checks = {"l1": positive, "l2": positive, "lc1": finite, "lc2": finite, "g": finite}
         for parameter in fields(self):
