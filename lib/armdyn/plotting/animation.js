@@ -4,7 +4,6 @@ for (const root of document.querySelectorAll(`[data-armdyn-animation="@KEY@"]:no
   const { lengths, arms, frames, start, step, speed, reach, colours, names, alt } = @DATA@;
   const size = 340, margin = 44, trail = 1.5, end = (frames - 1) * step;
   root.dataset.live = "";
-  root.dataset.lmSuppressShortcuts = "true"; // JupyterLab: the slider's arrow keys are its own
   root.querySelector("[data-still-only]")?.remove();
 
   const n = lengths.length;
@@ -29,6 +28,7 @@ for (const root of document.querySelectorAll(`[data-armdyn-animation="@KEY@"]:no
   button.style.cssText = "width:5em;font:inherit";
   const slider = make("input", { type: "range", min: 0, max: end, step: "any", value: 0, ariaLabel: "time" }, bar);
   slider.style.flex = "1";
+  slider.dataset.lmSuppressShortcuts = "true"; // JupyterLab: its arrow keys are its own
   const clock = make("output", {}, bar);
   clock.style.cssText = "width:5.5em;text-align:right;font-variant-numeric:tabular-nums";
 
