@@ -1,4 +1,8 @@
-"""Timing two things in turn, so that a ratio holds where the machine's speed drifts."""
+"""Timing two things in turn, so that a ratio holds where the machine's speed drifts.
+
+Times are the process's own (CPU) time: all that is timed here runs in one thread, and other work on
+the machine then does not count.
+"""
 
 import time
 from collections.abc import Callable
@@ -34,10 +38,10 @@ def in_turn(
     best = [float("inf"), float("inf")]
     for _ in range(rounds):
         for k, call in enumerate((ours, peer)):
-            start = time.perf_counter()
+            start = time.process_time()
             for _ in range(number):
                 call()
-            best[k] = min(best[k], (time.perf_counter() - start) / number)
+            best[k] = min(best[k], (time.process_time() - start) / number)
     return best[0], best[1]
 
 
