@@ -21,8 +21,7 @@ test: .venv/test.done
 	.venv/bin/python -m pytest --nbval lessons solutions
 
 lessons: .venv/test.done
-	.venv/bin/jupyter nbconvert --to notebook --execute --inplace \
-	  --ExecutePreprocessor.record_timing=False lessons/*.ipynb
+	.venv/bin/python tests/notebooks/store_outputs.py lessons/*.ipynb
 
 define install
 @echo "Installing $(1) into .venv; the first time takes some minutes (log: $(LOG))"
