@@ -11,6 +11,7 @@ from hypothesis import settings
 PROGRAMS = {
     "bubblewrap": ("bwrap",),
     "chromium": ("chromium", "chromium-browser", "google-chrome"),
+    "make": ("make",),
 }
 
 np.seterr(all="raise", under="ignore")  # underflow to zero is right for a decayed state
