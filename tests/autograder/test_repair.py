@@ -182,6 +182,18 @@ def test_notes_say_what_was_mended(release):
     )
 
 
+def test_of_several_copies_the_last_one_counts(release):
+    submission = copy.deepcopy(release)
+    for text in ("first", "second"):
+        cell = copy.deepcopy(p3_pendulum.cell_of(submission, "answer-M"))
+        cell.source = text
+        submission.cells.insert(0 if text == "first" else len(submission.cells), cell)
+    mended, notes = repair(submission, SOURCE)
+    assert p3_pendulum.cell_of(mended, "answer-M").source == "second"
+    assert mended.cells[0].source == "first"
+    assert notes == ["answer-M was there more than once; the last one counts"] * 2
+
+
 def test_an_unknown_claim_is_taken_away_and_told(release):
     submission = copy.deepcopy(release)
     cell = copy.deepcopy(p3_pendulum.cell_of(submission, "p3-M"))
