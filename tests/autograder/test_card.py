@@ -88,6 +88,7 @@ def test_what_comes_from_a_student_is_shown_as_it_is(verdict):
     assert "<b>" not in html
     assert MARK in "".join(Card(html).words)
     assert MARK in str(verdict)
+    assert Card(html).attributes[0]["aria-label"] == verdict.headline
 
 
 @pytest.mark.parametrize("state", State)

@@ -317,6 +317,17 @@ def test_the_time_limit_ends_a_loop_that_swallows_errors(monkeypatch, body):
     assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
 
 
+def test_no_except_exception_sees_the_time_limit(monkeypatch):
+    monkeypatch.setattr(wall, "CALL_SECONDS", 0.2)
+    namespace = {"__name__": "__main__", "seen": []}
+    exec(
+        "def f():\n    try:\n        while True: sum(())\n    except Exception: seen.append(1)",
+        namespace,
+    )
+    assert wall.answer(Call("f", ()), namespace).fault.kind is FaultKind.TIMED_OUT
+    assert namespace["seen"] == []
+
+
 def test_the_time_limit_leaves_a_quick_block_alone():
     with wall.time_limit(0.1):
         pass
