@@ -424,7 +424,6 @@ class TestWalls:
     @pytest.mark.parametrize(
         "path",
         [
-            ROOT,
             ROOT / "autograder" / "judge.py",
             ROOT / "solutions",
             ROOT / "course",
@@ -442,17 +441,22 @@ class TestWalls:
     def test_nothing_of_the_machine_is_there(self, walled, path, tmp_path):
         assert printed(walled, f"import os\nprint(os.path.exists({str(path)!r}))") == "False"
 
-    def test_home_holds_nothing(self, walled):
-        home = Path.home()
-        python = {Path(folder) for folder in sandbox._python_folders()}
+    @pytest.mark.parametrize("folder", [Path.home(), ROOT], ids=str)
+    def test_home_and_checkout_hold_no_more_than_python(self, walled, folder):
+        """Python itself may be installed in either, and comes in alone."""
+        name = str(folder)
         listed = printed(
             walled,
-            f"import os\nprint(*(os.listdir({str(home)!r}) if os.path.exists({str(home)!r}) else []))",
+            f"import os\nprint(*(os.listdir({name!r}) if os.path.exists({name!r}) else []))",
         )
-        for name in listed.split():
-            # Python itself may be installed there, and comes in alone.
-            assert any(folder.is_relative_to(home / name) for folder in python)
-        assert printed(walled, "print(os.path.expanduser('~'), os.getcwd())") == "/tmp /tmp"
+        python = [Path(inside) for inside in sandbox._python_folders()]
+        for entry in listed.split():
+            assert any(inside.is_relative_to(folder / entry) for inside in python)
+
+    def test_home_is_the_room_itself(self, walled):
+        assert (
+            printed(walled, "import os; print(os.path.expanduser('~'), os.getcwd())") == "/tmp /tmp"
+        )
 
     def test_no_file_is_there_but_the_system_python_and_the_runner(self, walled):
         python = ["/proc", "/dev", "/usr", *sandbox._python_folders()]
