@@ -1,12 +1,16 @@
-.PHONY: help lab test lessons
+.PHONY: help lab test lessons bench
 .SUFFIXES:
 
 ARGS =
+# CI has the libraries that armdyn is compared with; elsewhere the tests that need them are skipped.
+comma := ,
+TESTED := $(if $(CI),test$(comma)peers,test)
 LOG := .venv/install.log
 
 help:
 	@echo 'make lab       open JupyterLab on the first lesson; ARGS="--port=8899" goes to JupyterLab'
 	@echo 'make test      ruff, pytest, and every lesson and solution run again by nbval'
+	@echo 'make bench     time the library beside its peers; writes docs/benchmarks.md'
 	@echo 'make lessons   run the lessons and store their outputs'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
 
@@ -14,15 +18,17 @@ lab: .venv/lab.done
 	@.venv/bin/autograder problems
 	@.venv/bin/autograder lab $(ARGS)
 
-test: .venv/test.done
+test: .venv/$(TESTED).done
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
 	.venv/bin/python -m pytest
 	.venv/bin/python -m pytest --nbval lessons solutions
 
-lessons: .venv/test.done
-	.venv/bin/jupyter nbconvert --to notebook --execute --inplace \
-	  --ExecutePreprocessor.record_timing=False lessons/*.ipynb
+lessons: .venv/$(TESTED).done
+	.venv/bin/python tests/notebooks/store_outputs.py lessons/*.ipynb
+
+bench: .venv/bench.done
+	.venv/bin/python tests/benchmarks/library.py docs/benchmarks.md
 
 define install
 @echo "Installing $(1) into .venv; the first time takes some minutes (log: $(LOG))"
@@ -36,8 +42,8 @@ endef
 	$(call install,lab)
 
 # One after the other, also with -j: two installations into one .venv break each other.
-.venv/test.done: .venv/lab.done
-	$(call install,test)
+.venv/$(TESTED).done .venv/bench.done: .venv/lab.done
+	$(call install,$(basename $(@F)))
 
 # An environment knows its own path and its Python: when either has gone, it is made anew.
 ifneq ($(shell { test "$$(cat .venv/path)" = "$$(pwd)" && .venv/bin/python -c "" && echo works; } 2>/dev/null),works)

@@ -30,8 +30,8 @@ def lab(arguments: list[str]) -> int:
         return _fail(str(error))
     if port and not _is_free(port):
         return _fail(
-            f"port {port} is taken; stop what runs there, or choose another one: "
-            f'make lab ARGS="--port={port + 1}" (or: autograder lab --port={port + 1})'
+            f"port {port} is taken; stop what runs there, name another one, or leave --port out "
+            "to get one that is free"
         )
 
     from jupyterlab.labapp import LabApp  # takes a second

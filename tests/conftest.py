@@ -16,6 +16,7 @@ PROGRAMS = {
     "libeigen3-dev": ("/usr/include/eigen3/Eigen/Dense",),
     "libejml-java": ("/usr/share/java/ejml-simple.jar",),
     "octave": ("octave-cli",),
+    "make": ("make",),
 }
 
 np.seterr(all="raise", under="ignore")  # underflow to zero is right for a decayed state

@@ -7,11 +7,12 @@ import math
 
 import numpy as np
 import pytest
-from armdyn import Manipulator, Pendulum, Planar2R, plotting
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from PIL import Image
+
+from armdyn import Manipulator, Pendulum, Planar2R, plotting
 
 ARM = Planar2R(
     1.0, 0.8, 0.5, 0.3, 3.0, 2.0, 0.25, 0.11, viscous=(0.4, 0.2), coulomb=(0.3, 0.1)

@@ -316,6 +316,11 @@ def test_no_false_alarm_where_potential_and_gravity_vanish(q):
     assert skew_symmetry(arm, q, [0.0, 0.0]).holds
 
 
+@pytest.mark.parametrize("slow", [1e-12, 1e-109])
+def test_no_false_alarm_where_friction_stops_a_slow_pendulum(slow):
+    assert power_balance(Pendulum(1, 1, 2, g=0, coulomb=1), [0.0], [slow], [0.0]).holds
+
+
 def test_a_finding_reads_as_a_sentence():
     good = str(skew_symmetry(Pendulum(1, 1, 1), [0.5], [2.0]))
     assert good.startswith("Ṁ − 2C is skew-symmetric: holds; 0.0e+00 against")

@@ -305,8 +305,8 @@ def test_answers_stop_at_the_first_fault():
     "body",
     [
         "while True: pass",
-        "while True:\n        try:\n            while True: pass\n        except Exception: pass",
-        "try:\n        while True: pass\n    except BaseException:\n        while True: pass",
+        "while True:\n        try:\n            while True: sum(())\n        except Exception: pass",
+        "try:\n        while True: sum(())\n    except BaseException:\n        while True: pass",
     ],
 )
 def test_the_time_limit_ends_a_loop_that_swallows_errors(monkeypatch, body):
@@ -315,6 +315,17 @@ def test_the_time_limit_ends_a_loop_that_swallows_errors(monkeypatch, body):
     assert ask(f"def f():\n    {body}").fault == Fault(FaultKind.TIMED_OUT, "0.2 s")
     assert signal.getsignal(signal.SIGALRM) is before
     assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+
+
+def test_no_except_exception_sees_the_time_limit(monkeypatch):
+    monkeypatch.setattr(wall, "CALL_SECONDS", 0.2)
+    namespace = {"__name__": "__main__", "seen": []}
+    exec(
+        "def f():\n    try:\n        while True: sum(())\n    except Exception: seen.append(1)",
+        namespace,
+    )
+    assert wall.answer(Call("f", ()), namespace).fault.kind is FaultKind.TIMED_OUT
+    assert namespace["seen"] == []
 
 
 def test_the_time_limit_leaves_a_quick_block_alone():

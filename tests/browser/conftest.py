@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import expect, sync_playwright
 
 ROOT = Path(__file__).parents[2]
 AUTOGRADER = Path(sys.executable).with_name("autograder")
@@ -21,6 +21,7 @@ CHROMIUM = (
     "--disable-component-update",
     "--disable-sync",
 )
+PATIENCE = 120_000  # ms
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +67,9 @@ def page(needs, address):
             executable_path=needs("chromium"), headless=True, args=CHROMIUM
         )
         page = browser.new_page(viewport={"width": 1600, "height": 1000})
-        page.set_default_timeout(30_000)
+        # Generous, for a machine that is busy with other things; what is there sooner is seen sooner.
+        page.set_default_timeout(PATIENCE)
+        expect.set_options(timeout=PATIENCE)
         page.goto(address)
         yield page
         browser.close()

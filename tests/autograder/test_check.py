@@ -1,0 +1,122 @@
+"""check() where students call it: in a notebook's kernel, under nbgrader validate, and elsewhere."""
+
+import re
+
+import nbclient
+import nbformat
+import pytest
+
+from autograder import check
+from autograder.check import NotCorrectError
+from autograder.problems import CHECKS
+from autograder.verdict import State
+
+START = "start-kinetic-energy"
+BODIES = {
+    State.CORRECT: "return I * qd**2 / 2",
+    State.INCORRECT: "return I * qd**2",
+    State.ERROR: "return None",
+    State.NOT_ATTEMPTED: "raise NotImplementedError",
+}
+RAISING = [state for state in BODIES if state is not State.CORRECT]
+
+
+def defined(state: State) -> str:
+    return f"def kinetic_energy(I, qd):\n    {BODIES[state]}"
+
+
+def executed(sources: list[str]):
+    """The outputs of each cell, from a kernel as JupyterLab starts it."""
+    cells = [nbformat.v4.new_code_cell(source) for source in sources]
+    notebook = nbformat.v4.new_notebook(cells=cells)
+    nbclient.NotebookClient(notebook, kernel_name="python3", allow_errors=True).execute()
+    return [cell.outputs for cell in notebook.cells]
+
+
+CELLS = [
+    *(f"{defined(state)}\ncheck('{START}')" for state in BODIES),
+    "check('start-kinetic-energi')",
+    "check('nothing like it')",
+    f"{defined(State.CORRECT)}\ncheck('{START}', fresh=True)",
+]
+
+
+@pytest.fixture(scope="module", params=["student", "validate"])
+def kernel(request):
+    """How the notebook is run, and the outputs of CELLS there."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYDEVD_DISABLE_FILE_VALIDATION", "1")
+        patch.delenv("NBGRADER_EXECUTION", raising=False)
+        if request.param == "validate":
+            patch.setenv("NBGRADER_EXECUTION", "validate")
+        first, *outputs = executed(["from autograder import check", *CELLS])
+    assert first == []
+    return request.param, dict(zip([*BODIES, "near", "far", "fresh"], outputs, strict=True))
+
+
+def lines_of(error) -> list[str]:
+    """A traceback's lines, without colour."""
+    return re.sub(r"\x1b\[[0-9;]*m", "", "\n".join(error.traceback)).splitlines()
+
+
+@pytest.mark.parametrize("state", BODIES)
+def test_the_card_is_shown(kernel, state):
+    card = kernel[1][state][0]
+    assert card.output_type == "display_data"
+    assert f'data-state="{state.name.lower().replace("_", "-")}"' in card.data["text/html"]
+    assert card.data["text/plain"].startswith(f"{START}: {state}")
+
+
+def test_a_right_answer_raises_nothing(kernel):
+    assert len(kernel[1][State.CORRECT]) == 1
+    assert len(kernel[1]["fresh"]) == 1
+
+
+@pytest.mark.parametrize("state", RAISING)
+def test_the_error_is_one_line_for_a_student_and_the_whole_verdict_for_validate(kernel, state):
+    who, outputs = kernel
+    card, error = outputs[state]
+    assert error.ename == "NotCorrectError"
+    if who == "student":
+        assert lines_of(error) == [f"{START}: {state}: see the card above."]
+    else:
+        assert lines_of(error) == card.data["text/plain"].splitlines()
+        assert len(lines_of(error)) > 1
+
+
+def test_an_unknown_id_suggests_the_near_one(kernel):
+    (error,) = kernel[1]["near"]
+    assert error.ename == "ValueError"
+    assert error.evalue == (
+        "there is no check 'start-kinetic-energi'; did you mean 'start-kinetic-energy'?"
+    )
+
+
+def test_an_unknown_id_that_is_near_none_lists_them(kernel):
+    (error,) = kernel[1]["far"]
+    assert error.evalue == f"there is no check 'nothing like it'; known are {', '.join(CHECKS)}"
+
+
+def called(state: State, **how):
+    """check() called from a module of its own, outside IPython."""
+    namespace = {"__name__": "__main__", "check": check}
+    exec(defined(state), namespace)
+    exec(f"check({START!r}, **{how!r})", namespace)
+
+
+def test_outside_ipython_the_verdict_is_printed(capsys):
+    called(State.CORRECT)
+    assert capsys.readouterr().out.startswith(f"{START}: correct\n")
+    with pytest.raises(NotCorrectError, match="incorrect") as raised:
+        called(State.INCORRECT)
+    assert capsys.readouterr().out == f"{raised.value.verdict}\n"
+
+
+def test_visible_cases_stay_and_fresh_ones_change():
+    def worst(**how):
+        with pytest.raises(NotCorrectError) as raised:
+            called(State.INCORRECT, **how)
+        return raised.value.verdict.witness
+
+    assert worst() == worst()
+    assert worst(fresh=True) != worst(fresh=True)

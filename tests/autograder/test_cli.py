@@ -1,0 +1,104 @@
+"""`autograder problems`: writes what is missing, and never over a student's work."""
+
+import shutil
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from autograder.cli import main
+from autograder.nbgrader_glue import write_problem
+
+ROOT = Path(__file__).parents[2]
+P3 = "p3-pendulum"
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A course's folder, and the working directory."""
+    shutil.copy(ROOT / "nbgrader_config.py", tmp_path)
+    shutil.copytree(ROOT / "solutions" / P3, tmp_path / "solutions" / P3)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file()
+    }
+
+
+def test_problems_are_written_without_solutions(course, capsys):
+    assert main(["problems"]) == 0
+    assert capsys.readouterr().out == f"problems/{P3}/{P3}.ipynb: written\n"
+    written = course / "problems" / P3
+    assert {path.name for path in written.iterdir()} == {f"{P3}.ipynb", "pendulum.svg"}
+    notebook = nbformat.read(written / f"{P3}.ipynb", as_version=4)
+    nbformat.validate(notebook)
+    text = "\n".join(cell.source for cell in notebook.cells)
+    for trace in ("BEGIN SOLUTION", "END SOLUTION", "HIDDEN TESTS", "fresh=True"):
+        assert trace not in text
+    assert "raise NotImplementedError" in text
+    assert all(not cell.get("outputs") for cell in notebook.cells)
+    tags = {
+        cell.metadata.nbgrader.grade_id: cell.metadata.get("tags")
+        for cell in notebook.cells
+        if "nbgrader" in cell.metadata
+    }
+    assert tags["p3-M"] == ["raises-exception"]  # so that "Run All Cells" goes on
+    assert tags["answer-M"] is None
+
+
+def test_no_gradebook_is_made_and_the_solutions_stay(course):
+    before = files(course / "solutions")
+    assert main(["problems"]) == 0
+    assert files(course / "solutions") == before
+    assert not list(course.rglob("gradebook.db"))
+    assert not list((course / "course").rglob(f"{P3}.ipynb"))
+
+
+def test_a_second_call_keeps_the_students_file_byte_for_byte(course, capsys):
+    assert main(["problems"]) == 0
+    path = course / "problems" / P3 / f"{P3}.ipynb"
+    path.write_bytes(
+        path.read_bytes().replace(b"raise NotImplementedError", b"return 0") + b"\n \n"
+    )
+    (course / "problems" / P3 / "notes.txt").write_text("mine")
+    before = files(course / "problems")
+    capsys.readouterr()
+    assert main(["problems"]) == 0
+    assert files(course / "problems") == before
+    assert capsys.readouterr().out == (
+        f"problems/{P3}/{P3}.ipynb: kept as it is, it is yours; move it away for a new one\n"
+    )
+
+
+def test_what_lies_beside_a_new_notebook_is_kept_too(course):
+    folder = course / "problems" / P3
+    folder.mkdir(parents=True)
+    (folder / "pendulum.svg").write_text("my own drawing")
+    write_problem(course, P3, folder)
+    assert (folder / f"{P3}.ipynb").exists()
+    assert (folder / "pendulum.svg").read_text() == "my own drawing"
+
+
+def test_outside_the_courses_folder_one_line_says_what_to_do(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["problems"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.splitlines() == [
+        f"autograder: {tmp_path} is not the course's folder (no nbgrader_config.py); "
+        "change to the folder that holds solutions/ and try again"
+    ]
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("arguments", [[], ["no-such-command"], ["problems", "--force"]])
+def test_what_is_not_understood_is_refused(arguments, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        main(arguments)
+    assert stopped.value.code == 2
+    assert "usage: autograder" in capsys.readouterr().err

@@ -1,0 +1,299 @@
+"""grade: a pure function of a submission, its source and a seed; its scores as nbgrader reads them."""
+
+import copy
+from pathlib import Path
+from types import SimpleNamespace
+from typing import ClassVar
+
+import nbformat
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from nbgrader.utils import determine_grade
+
+from autograder import grade as grading
+from autograder.check import VISIBLE_SEED
+from autograder.grade import Sitting, grade, is_judged, stream
+from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
+from autograder.nbgrader_glue import outputs_for, write_problem
+from autograder.problems import CHECKS
+from autograder.repair import grade_id
+from autograder.sandbox import RoomLostError
+from autograder.verdict import State, Verdict, Witness
+from autograder.wall import Call, Fault, FaultKind, Reply
+from tests.submissions import p3_pendulum
+from tests.submissions.p3_pendulum import POINTS, cell_of, function
+
+ROOT = Path(__file__).parents[2]
+P3 = "p3-pendulum"
+
+
+def without_plots(notebook):
+    """A notebook that runs fast: what it shows off is not what is graded."""
+    shown = ("p3-euler-lagrange", "p3-swing-plot")
+    notebook.cells = [cell for cell in notebook.cells if grade_id(cell) not in shown]
+    return notebook
+
+
+SOURCE = without_plots(nbformat.read(ROOT / "solutions" / P3 / f"{P3}.ipynb", as_version=4))
+
+
+@pytest.fixture(scope="module")
+def release(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("release")
+    write_problem(ROOT, P3, folder)
+    return without_plots(nbformat.read(folder / f"{P3}.ipynb", as_version=4))
+
+
+@pytest.fixture(scope="module")
+def wrong(release):
+    return grade(p3_pendulum.wrong(release), SOURCE, "seed")
+
+
+def states(graded) -> dict[str, State]:
+    return {name: verdict.state for name, verdict in graded.verdicts.items()}
+
+
+def test_each_grade_cell_has_a_verdict_and_no_other(wrong):
+    assert wrong.verdicts.keys() == POINTS.keys()
+    assert set(states(wrong).values()) == {State.INCORRECT}
+    assert wrong.notes == ()
+
+
+def test_same_seed_same_verdicts(release, wrong):
+    again = grade(p3_pendulum.wrong(release), SOURCE, "seed")
+    assert again.verdicts == wrong.verdicts
+    assert again.notebook == wrong.notebook
+
+
+def test_another_seed_other_cases(release, wrong):
+    other = grade(p3_pendulum.wrong(release), SOURCE, "another seed")
+    assert states(other) == states(wrong)
+    for name, verdict in wrong.verdicts.items():
+        assert other.verdicts[name].witness.off != verdict.witness.off
+
+
+def test_right_answers_are_right_under_any_seed(release):
+    with Sitting() as sitting:  # one room is enough: only the cases change
+        for cell in p3_pendulum.right(release).cells:
+            if cell.cell_type == "code" and not is_judged(cell):
+                sitting.run(cell.source)
+        for seed in map(str, range(6)):
+            for name in POINTS:
+                verdict = CHECKS[name].run(sitting.ask, stream(seed, name), HIDDEN_CASES)
+                assert verdict.state is State.CORRECT, seed
+
+
+def test_neither_argument_is_changed(release):
+    submission, source = p3_pendulum.mangled(release), copy.deepcopy(SOURCE)
+    before = copy.deepcopy(submission)
+    graded = grade(submission, source, "seed")
+    assert submission == before
+    assert source == SOURCE
+    assert graded.notebook is not submission
+
+
+def test_verdicts_carry_no_inputs(wrong):
+    for verdict in wrong.verdicts.values():
+        assert verdict.witness.call == ""
+        assert "m=" not in str(verdict)
+
+
+def calls_of(name, rng, count):
+    return [repr(call) for call in CHECKS[name].calls(rng, count)]
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_hidden_cases_differ_from_the_visible_ones(name):
+    visible = calls_of(name, np.random.default_rng(VISIBLE_SEED), VISIBLE_CASES)
+    hidden = calls_of(name, stream("seed", name), HIDDEN_CASES)
+    assert not set(visible) & set(hidden)
+    assert not set(hidden) & set(calls_of(name, stream("seeds", name), HIDDEN_CASES))
+    assert hidden == calls_of(name, stream("seed", name), HIDDEN_CASES)
+
+
+def test_each_check_has_its_own_stream():
+    draws = {tuple(stream("seed", name).random(4)) for name in CHECKS}
+    assert len(draws) == len(CHECKS)
+
+
+def test_values_hard_coded_for_the_visible_cases_are_caught(release):
+    check = CHECKS["p3-g_vec"]
+    table = {
+        f"{call.args[0][0]:.9f}": float(check.reference(*call.args))
+        for call in check.calls(np.random.default_rng(VISIBLE_SEED), VISIBLE_CASES)
+    }
+    answer = function("g_vec", f"{table!r}.get(f'{{q[0]:.9f}}', 1.0)")
+    namespace = {"__name__": "__main__"}
+    exec(answer, namespace)
+    visible = check.run(
+        lambda calls: answered_in_kernel(calls, namespace),
+        np.random.default_rng(VISIBLE_SEED),
+        VISIBLE_CASES,
+    )
+    assert visible.state is State.CORRECT
+    submission = p3_pendulum.right_but(release, g_vec=answer)
+    assert states(grade(submission, SOURCE, "seed"))["p3-g_vec"] is State.INCORRECT
+
+
+def answered_in_kernel(calls, namespace):
+    return [Reply(value=np.asarray(namespace[call.name](*call.args), float)) for call in calls]
+
+
+def test_lost_rooms_cost_their_own_cells_alone(release):
+    graded = grade(p3_pendulum.crashing(release), SOURCE, "seed")
+    assert states(graded) == dict.fromkeys(POINTS, State.CORRECT) | {
+        "p3-M": State.ERROR,
+        "p3-C": State.ERROR,
+        "p3-g_vec": State.ERROR,
+    }
+    assert "Python itself stopped while M(q, pend) was running" in graded.verdicts["p3-M"].problem
+    (lost,) = cell_of(graded.notebook, "answer-g_vec").outputs
+    assert lost.ename == "RoomLostError"
+    assert lost.evalue.startswith("this cell ended Python itself")
+
+
+def test_what_a_student_writes_can_always_be_saved(release):
+    submission = p3_pendulum.right_but(
+        release,
+        M="print('\\ud800')\n" + function("M", "'\\ud800'"),
+        C="def C(q, qd, pend):\n    raise ValueError('\\ud800')",
+        g_vec="raise ValueError('\\ud800')\ndef g_vec(q, pend): pass",
+    )
+    graded = grade(submission, SOURCE, "seed")
+    nbformat.validate(graded.notebook)
+    nbformat.writes(graded.notebook).encode()
+    for verdict in graded.verdicts.values():
+        str(verdict).encode()
+
+
+def test_cells_show_this_run_and_nothing_older(release):
+    submission = p3_pendulum.right_but(release, M="print('now')\n" + p3_pendulum.RIGHT["M"])
+    for cell in submission.cells:
+        if cell.cell_type == "code":
+            cell.outputs = [nbformat.v4.new_output("stream", text="stale")]
+    graded = grade(submission, SOURCE, "seed")
+    assert "stale" not in str(graded.notebook)
+    assert cell_of(graded.notebook, "answer-M").outputs[0].text == "now\n"
+
+
+def test_a_grade_cell_without_a_check_fails_closed(release):
+    source = copy.deepcopy(SOURCE)
+    for notebook in (source, submission := p3_pendulum.right(release)):
+        cell_of(notebook, "p3-M").metadata.nbgrader.grade_id = "p3-unheard-of"
+    graded = grade(submission, source, "seed")
+    verdict = graded.verdicts["p3-unheard-of"]
+    assert (verdict.state, verdict.credit) == (State.CHECK_FAILED, 0.0)
+    (note,) = graded.notes
+    assert note.startswith("p3-unheard-of could not be judged: No check belongs to")
+    assert set(states(graded).values()) == {State.CORRECT, State.CHECK_FAILED}
+
+
+def test_only_code_that_is_graded_and_not_an_answer_is_judged():
+    judged = [cell.metadata.nbgrader.grade_id for cell in SOURCE.cells if is_judged(cell)]
+    assert judged == list(POINTS)
+
+
+class Script:
+    """A room that follows a script: sources in `deadly` end it, and every start is counted."""
+
+    deadly: tuple[str, ...] = ()
+    ran: ClassVar[list[str]] = []
+
+    def __init__(self):
+        type(self).ran.append("start")
+
+    def run(self, source):
+        type(self).ran.append(source)
+        if source in self.deadly:
+            raise RoomLostError("it ended")
+        return []
+
+    def ask(self, calls):
+        if calls[0].name in self.deadly:
+            raise RoomLostError("it ended")
+        return [Reply(fault=Fault(FaultKind.MISSING, "near"))]
+
+    def close(self):
+        type(self).ran.append("close")
+
+
+def test_a_new_room_runs_the_earlier_cells_but_not_the_one_that_ended_the_last():
+    class Room(Script):
+        ran: ClassVar[list[str]] = []
+        deadly = ("b", "f")
+
+    with Sitting(Room) as sitting:
+        for source in "abc":
+            sitting.run(source)
+        assert sitting.ask([Call("f", ())]) == [Reply(fault=Fault(FaultKind.DIED))]
+        sitting.run("d")
+    assert Room.ran == ["start", "a", "b", "start", "a", "c", "start", "a", "c", "d", "close"]
+
+
+def test_a_missing_name_is_blamed_on_the_cell_that_failed_to_define_it():
+    class Room(Script):
+        def run(self, source):
+            bad = {"output_type": "error", "ename": "NameError", "evalue": "x", "traceback": []}
+            return [bad] if "bad" in source else []
+
+    with Sitting(Room) as sitting:
+        sitting.run("def f(q): bad")
+        sitting.run("def g(q): pass")
+        kinds = [sitting.ask([Call(name, ())])[0].fault for name in ("f", "g")]
+    assert kinds == [
+        Fault(FaultKind.CELL_FAILED, "NameError: x"),
+        Fault(FaultKind.MISSING, "near"),
+    ]
+
+
+@pytest.mark.parametrize(
+    "output",
+    [
+        {},
+        {"output_type": "stream", "name": "stdlog", "text": "x"},
+        {"output_type": "stream", "name": "stdout", "text": 1},
+        {"output_type": "display_data", "data": {"text/html": "<script>", "image/png": 3}},
+        {"output_type": "error", "ename": "E", "evalue": "e", "traceback": None},
+        {"output_type": "error", "ename": "E", "evalue": "e", "traceback": [None, {"a": 1}]},
+        {"output_type": "execute_result", "data": {"text/plain": "100"}},
+    ],
+)
+def test_no_forged_output_reaches_the_notebook(output):
+    written = grading._output(output)
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(outputs=[written])])
+    nbformat.validate(notebook)
+    assert "script" not in str(notebook)
+    assert written.output_type != "execute_result"
+
+
+VERDICTS = st.builds(
+    Verdict,
+    check=st.text(),
+    state=st.sampled_from(State),
+    credit=st.floats(0, 1),
+    witness=st.none() | st.builds(Witness, st.text(), st.text(), st.text()),
+    problem=st.text(),
+    diagnosis=st.tuples(st.text()),
+)
+
+
+@given(VERDICTS, st.integers(0, 100) | st.floats(0, 100))
+def test_nbgrader_reads_credit_times_points(verdict, points):
+    cell = nbformat.v4.new_code_cell(
+        "check('p3-M')",
+        outputs=outputs_for(verdict, points),
+        metadata={"nbgrader": {"grade": True, "grade_id": "a", "points": points, "locked": True}},
+    )
+    score, most = determine_grade(cell)
+    assert most == points
+    failed = verdict.state is State.CHECK_FAILED
+    assert score == (0.0 if failed else verdict.credit * points)
+
+
+@pytest.mark.parametrize("credit", [float("nan"), float("inf"), -1.0, 1.5, np.float64(0.5)])
+def test_no_credit_scores_outside_the_points(credit):
+    cell = SimpleNamespace(outputs=outputs_for(Verdict("a", State.PARTLY_CORRECT, credit), 2))
+    score = float(cell.outputs[-1].data["text/plain"])
+    assert score == min(max(0.0, credit), 1.0) * 2
