@@ -71,7 +71,8 @@ class Processes:
         if jobs < 1:
             raise ValueError(f"jobs is {jobs}; at least one process is needed")
         self.window = AHEAD * jobs
-        self._jobs, self._preload, self._executor = jobs, preload, None
+        self._jobs, self._preload = jobs, preload
+        self._executor = self._warming = None
 
     def __enter__(self):
         return self
@@ -80,6 +81,15 @@ class Processes:
         self.close()
 
     def executor(self) -> Executor:
+        self._wait()
+        return self._started()
+
+    def _wait(self) -> None:
+        if self._warming is not None:
+            self._warming.join()
+            self._warming = None
+
+    def _started(self) -> Executor:
         if self._executor is None:
             for name in ONE_THREAD:
                 os.environ.setdefault(name, "1")
@@ -93,10 +103,16 @@ class Processes:
 
     def warm(self) -> None:
         """Start the processes now: they load what they need while this one does."""
-        for _ in range(self._jobs):
-            self.executor().submit(os.getpid)
+
+        def start():
+            for _ in range(self._jobs):
+                self._started().submit(os.getpid)
+
+        self._warming = threading.Thread(target=start)
+        self._warming.start()
 
     def close(self) -> None:
+        self._wait()
         if self._executor is not None:
             self._executor.shutdown(cancel_futures=True)
             self._executor = None

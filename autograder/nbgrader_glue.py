@@ -6,6 +6,7 @@ number, and where no verdict could be reached as an error.
 """
 
 import glob
+import json
 import logging
 import os
 import re
@@ -21,6 +22,7 @@ from functools import lru_cache
 from pathlib import Path
 from types import SimpleNamespace
 
+import jsonschema
 import nbformat
 from nbconvert.exporters import NotebookExporter
 from nbformat import NotebookNode
@@ -29,7 +31,9 @@ from nbgrader import api, preprocessors, utils
 from nbgrader.converters import Autograde, GenerateAssignment
 from nbgrader.converters.base import BaseConverter
 from nbgrader.coursedir import CourseDirectory
+from nbgrader.nbgraderformat import common
 from nbgrader.preprocessors import Execute, NbGraderPreprocessor
+from sqlalchemy.orm import Session, scoped_session, sessionmaker
 from traitlets import Unicode
 from traitlets.config import Config, PyFileConfigLoader
 
@@ -212,6 +216,7 @@ class Recorder:
         self._save = self._exporter([step for step in steps if step not in (Judge, Execute)])
         self._judge = Judge(parent=self._save)
         self._gradebook = api.Gradebook(self._course.db_url, self._course.course_id)
+        self._gradebook.db = scoped_session(sessionmaker(self._gradebook.engine, class_=Held))
         try:
             self._read_cells()
         except BaseException:
@@ -255,10 +260,13 @@ class Recorder:
         Raises what nbformat and nbgrader raise where it is no notebook.
         """
         with _lent(self._cells_only()), _without_warnings():
-            text, resources = self._sanitise.from_notebook_node(
-                nbformat.reads(text, as_version=4), self._resources(student)
-            )
-        return text, resources.get("notes", [])
+            notebook = nbformat.reads(text, as_version=nbformat.NO_CONVERT)
+            notes = []
+            if notebook.nbformat != 4:
+                notes.append(f"the notebook was in format {notebook.nbformat}; it was converted")
+                notebook = nbformat.convert(notebook, 4)
+            text, resources = self._sanitise.from_notebook_node(notebook, self._resources(student))
+        return text, notes + resources.get("notes", [])
 
     def record(self, student: str, graded: Graded) -> None:
         """Write a judged submission's rows, then its files."""
@@ -274,8 +282,7 @@ class Recorder:
         )
         with _lent(rows), _without_warnings():
             text, _ = self._save.from_notebook_node(with_verdicts(graded), self._resources(student))
-        self._gradebook.db.commit()
-        self._gradebook.db.expunge_all()
+        self._gradebook.db().end()
         self._write(student, text)
 
     def refuse(self, student: str) -> None:
@@ -285,7 +292,7 @@ class Recorder:
         """
         if glob.glob(os.path.join(glob.escape(self._folder(student)), "*.ipynb")):
             self._enter(student)
-        self._gradebook.db.expunge_all()
+            self._gradebook.db().end()
         if os.path.exists(self.autograded(student).parent):
             utils.rmtree(str(self.autograded(student).parent))
 
@@ -432,14 +439,37 @@ class Answers(SimpleNamespace):
 @contextmanager
 def _lent(gradebook: Answers) -> Iterator[None]:
     """nbgrader's steps get this gradebook in the block, wherever they would open one."""
-    modules = [sys.modules[getattr(preprocessors, name).__module__] for name in ASKING]
+    steps = [sys.modules[getattr(preprocessors, name).__module__] for name in ASKING]
     try:
-        for module in modules:
+        for module in steps:
             module.Gradebook = lambda *_: gradebook
+        # It reads the schema anew, and checks the schema itself, for each cell.
+        common.jsonschema = SimpleNamespace(validate=_validate)
         yield
     finally:
-        for module in modules:
+        for module in steps:
             module.Gradebook = api.Gradebook
+        common.jsonschema = jsonschema
+
+
+def _validate(settings: dict, schema: dict) -> None:
+    _validate_once(json.dumps(settings, sort_keys=True), json.dumps(schema))
+
+
+@lru_cache
+def _validate_once(settings: str, schema: str) -> None:
+    jsonschema.validate(json.loads(settings), json.loads(schema))
+
+
+class Held(Session):
+    """A session that leaves it to `end` to commit, so that a student's rows are there or are not."""
+
+    def commit(self):
+        self.flush()
+
+    def end(self):
+        super().commit()
+        self.expunge_all()
 
 
 @contextmanager
