@@ -15,6 +15,7 @@ import os
 import signal
 import socket
 import sys
+from contextlib import suppress
 
 DESCRIPTORS = 3  # requests, replies, and a socket for the handle on process 1
 
@@ -108,10 +109,8 @@ def _room(descriptors, shell, runner, namespaces):
 
 
 def _refuse(why):
-    try:
+    with suppress(OSError):
         os.write(1, json.dumps({"refused": why}).encode() + b"\n")
-    except OSError:
-        pass
 
 
 if __name__ == "__main__":

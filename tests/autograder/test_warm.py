@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
@@ -20,6 +21,8 @@ from tests.autograder.rooms import (
     processes_with,
     sleeper,
 )
+
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(autouse=True)
@@ -190,6 +193,7 @@ class TestLife:
             [sys.executable, "-c", code, student],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
+            cwd=ROOT,
         ) as grader:
             assert grader.stdout.readline() == b"ready\n"
             assert appears(mark)
@@ -212,7 +216,7 @@ class TestLife:
             "    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 7\n"
             "    assert room.run('print(1)')[0]['text'] == '1\\n'\n"
         )
-        subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
+        subprocess.run([sys.executable, "-c", code], check=True, timeout=60, cwd=ROOT)
 
 
 class TestFallback:
