@@ -117,7 +117,7 @@ class _Run:
                 return None
             known = self._cache.load(_result(key))
             if known:
-                self._settle(student, known)
+                self._settle(student, known, new=False)
                 return None
         text, self._notes[student] = recorder.prepare(student, content.decode())
         return text, recorder.source, seed
@@ -144,7 +144,7 @@ class _Run:
             "notebook": digest(self._recorder.autograded(student).read_bytes()),
         }
 
-    def _settle(self, student: str, outcome: dict | Exception) -> None:
+    def _settle(self, student: str, outcome: dict | Exception, new: bool = True) -> None:
         """Keep what was judged, and record it."""
         recorder = self._recorder
         try:
@@ -156,7 +156,7 @@ class _Run:
             outcome["notes"] = [*notes, *outcome["notes"]]
             graded = from_json(outcome)
             certain = all(v.state is not State.CHECK_FAILED for v in graded.verdicts.values())
-            if certain:
+            if certain and new:
                 self._cache.store(_result(self._keys[student]), outcome)
             recorder.record(student, graded)
             standing = recorder.standings(student)[student]

@@ -63,12 +63,12 @@ def test_a_killed_worker_costs_nobody_a_grade(cluster, tmp_path, monkeypatch):
     settled = []
     settle = pipeline._Run._settle
 
-    def kill_half_way(run, student, outcome):
+    def kill_half_way(run, student, outcome, **how):
         settled.append(student)
         if len(settled) == STUDENTS // 3:
             workers[0].send_signal(signal.SIGKILL)
             workers[0].wait()
-        settle(run, student, outcome)
+        settle(run, student, outcome, **how)
 
     monkeypatch.setattr(pipeline._Run, "_settle", kill_half_way)
     lines = pipeline.grade_all(there, P3, scheduler=address)
