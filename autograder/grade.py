@@ -14,7 +14,7 @@ from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
 from autograder.sandbox import Room, RoomLostError
 from autograder.verdict import State, Verdict
-from autograder.wall import Call, Fault, FaultKind, Reply
+from autograder.wall import Call, Fault, FaultKind, Reply, shortened
 
 log = logging.getLogger(__name__)
 
@@ -137,18 +137,33 @@ def _output(output: dict) -> NotebookNode:
     """A notebook's output from what came back through the wall; nothing else gets in."""
     match output:
         case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
-            return new_output("stream", name=name, text=text)
+            return new_output("stream", name=name, text=shortened(text, MOST_TEXT))
         case {"output_type": "display_data", "data": dict(data)}:
-            shown = {k: v for k, v in data.items() if k in SHOWN and isinstance(v, str)}
+            shown = {kind: data[kind] for kind in SHOWN if _is_shown(kind, data.get(kind))}
             return new_output("display_data", data=shown)
         case {"output_type": "error", "ename": str(name), "evalue": str(value)}:
             lines = output.get("traceback")
-            lines = [str(line) for line in lines] if isinstance(lines, list) else []
-            return NotebookNode(_error(name, value, lines))
+            text = "\n".join(map(str, lines)) if isinstance(lines, list) else ""
+            lines = shortened(text, MOST_TEXT).split("\n") if text else []
+            return NotebookNode(_error(shortened(name), shortened(value), lines))
     return new_output("stream", name="stderr", text="(an output that could not be read)")
 
 
 SHOWN = ("text/plain", "text/latex", "image/png")
+# The runner sends no more; a forged reply may.
+MOST_TEXT = 200_000
+MOST_PICTURE = 4 << 20
+
+
+def _is_shown(kind: str, data) -> bool:
+    """Whether a feedback page may hold it: text of a decent length, and pictures that are no markup."""
+    if not isinstance(data, str):
+        return False
+    if kind != "image/png":
+        return len(data) <= MOST_TEXT
+    return (
+        len(data) <= MOST_PICTURE and re.fullmatch(r"[A-Za-z0-9+/\s]*={0,2}\s*", data) is not None
+    )
 
 
 def _error(name: str, value: str, lines: list[str]) -> dict:
