@@ -179,15 +179,15 @@ class TestWalls:
             assert int(sets[name], 16) == 0
         assert sets["NoNewPrivs"] == "1"
 
-    def test_open_descriptors_are_the_rooms_own(self, room):
-        found = printed(
-            room,
+    def test_open_descriptors_are_the_rooms_own(self, way):
+        listed = (
             "import os\n"
             "for fd in range(256):\n"
             "    try: print(os.readlink(f'/proc/self/fd/{fd}').partition(':')[0])\n"
-            "    except OSError: pass",
+            "    except OSError: pass"
         )
-        assert found.split() == ["/dev/null"] * 3 + ["pipe"] * 2
+        with Room(way) as room:
+            assert printed(room, listed).split() == ["/dev/null"] * 3 + ["pipe"] * 2
 
     @pytest.mark.parametrize(
         "bomb",
