@@ -7,6 +7,7 @@ from hypothesis import given
 
 from armdyn import Planar2R
 from armdyn.codegen import numpy_model
+from armdyn.codegen.buffers import in_buffers
 from armdyn.codegen.numpy_code import BLOCK
 from armdyn.derive import Derivation, from_energies, planar_2r, planar_chain
 from armdyn.manipulator import Manipulator
@@ -68,6 +69,43 @@ def test_a_batch_over_many_blocks_is_its_states():
     for k in (0, BLOCK - 1, BLOCK, 2 * BLOCK + 2):
         assert_close(found[k], model.dynamics(q[k], qd[k], u[k]), tolerance=1e-13)
     assert np.array_equal(found, model.dynamics(q.tolist(), qd, u))
+
+
+def test_results_and_inputs_are_not_the_buffers():
+    d = planar_chain(3)
+    model = numpy_model(d, values(d))
+    first, second = (states(3, batch=(5,), seed=seed) for seed in (1, 2))
+    kept = [s.copy() for s in first]
+    found = [model.dynamics(*first), model.M(first[0]), model.C(*first[:2])]
+    before = [f.copy() for f in found]
+    model.dynamics(*second), model.M(second[0]), model.C(*second[:2])
+    assert all(map(np.array_equal, [*found, *first], [*before, *kept]))
+
+
+def test_no_value_is_overwritten_before_its_last_use():
+    # Written out as operators and in buffers: the same operations in the same order.
+    lines = [
+        "c = a*b + a",
+        "d = (c - b)*(c - b) - c/a",
+        "e = select([c > d], [c], d)",
+        "f = -e + a",
+    ]
+    results = ["f", "c*d", "a", "k", "2"]
+    lines += ["h = f*b", "same = real(h)", "i = h + same", "j = -i*a"]  # a view of h
+    results.append("same*j")
+    names = {**vars(np), "a": np.linspace(1, 2, 7), "b": np.linspace(-1, 3, 7), "k": 3.0}
+    buffered, found, count = in_buffers(lines, results, ["a", "b"])
+    buffers = np.full((count, 7), np.nan)
+    plain, reused = dict(names), names | {f"b_{i}": b for i, b in enumerate(buffers)}
+    exec("\n".join(lines), plain)
+    exec("\n".join(buffered), reused)
+    for needed, got in zip(results, found, strict=True):
+        assert np.array_equal(eval(needed, plain), eval(got, reused))
+
+
+def test_buffers_are_few():
+    lines = ["x_0 = a + b", *(f"x_{i + 1} = x_{i}*a + b*{i}" for i in range(50))]
+    assert in_buffers(lines, ["x_50"], ["a", "b"])[2] <= 4
 
 
 def test_batch_axes_broadcast():
@@ -193,5 +231,13 @@ def test_an_inertia_singular_by_cancellation_is_refused(seed):
     d = planar_2r()
     model = numpy_model(d, {**values(d, seed), "I1": 0.0, "I2": 0.0, "lc1": 0.0})
     q = np.array([0.3, 0.0])
+    with pytest.raises(np.linalg.LinAlgError, match="singular at q"):
+        model.dynamics(q, q, q)
+
+
+def test_one_singular_state_among_others_is_found():
+    d = planar_2r()
+    model = numpy_model(d, {**values(d), "I1": 0.0, "I2": 0.0, "lc1": 0.0})
+    q = np.array([[0.3, 1.0], [0.3, 0.0], [0.3, 2.0]])
     with pytest.raises(np.linalg.LinAlgError, match="singular at q"):
         model.dynamics(q, q, q)

@@ -126,7 +126,9 @@ def test_a_terminal_event_ends_the_run_there(method):
 @pytest.mark.parametrize(("direction", "seen"), [(0, [0, 1, 2, 3]), (1, [1, 3]), (-1, [0, 2])])
 def test_direction_chooses_rising_or_falling(method, direction, seen):
     # cos t passes zero at π/2, 3π/2, …, falling first.
-    turn = lambda x, u: np.array([x[1], -x[0]])  # noqa: E731
+    def turn(x, u):
+        return np.array([x[1], -x[0]])
+
     t = np.linspace(0, 12, 241)
     run = simulate(turn, [1.0, 0.0], 0.0, t, method, events=Event(height, direction))
     np.testing.assert_allclose(run.event_times[0], np.pi / 2 + np.pi * np.array(seen), atol=1e-5)

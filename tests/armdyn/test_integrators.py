@@ -61,7 +61,10 @@ def test_order_on_an_arm(method):
 @methods
 def test_order_with_an_input_that_varies_and_many_arms(method):
     x0 = np.array([[0.3, 0.0], [1.0, -2.0], [3.0, 0.5]])
-    push = lambda t, x: np.array([np.sin(3 * t)])  # noqa: E731
+
+    def push(t, x):
+        return np.array([np.sin(3 * t)])
+
     seen = observed_order(PENDULUM.state_derivative, x0, push, 0.5, method, halvings=2)
     assert seen.orders[-1] == pytest.approx(INTEGRATORS[method].order, abs=0.15)
 
@@ -69,7 +72,9 @@ def test_order_with_an_input_that_varies_and_many_arms(method):
 @methods
 def test_errors_estimate_the_true_error(method):
     # ẋ = [v; −x] turns: x(1) = cos 1, v(1) = −sin 1.
-    turn = lambda x, u: np.stack([x[..., 1], -x[..., 0]], axis=-1)  # noqa: E731
+    def turn(x, u):
+        return np.stack([x[..., 1], -x[..., 0]], axis=-1)
+
     seen = observed_order(turn, [1.0, 0.0], 0.0, 1.0, method, steps=16, halvings=2)
     end = simulate(turn, [1.0, 0.0], 0.0, np.linspace(0, 1, 17), method)[-1]
     error = np.max(np.abs(end - [np.cos(1), -np.sin(1)]))
@@ -127,7 +132,9 @@ def test_semi_implicit_euler_is_not_symplectic_where_M_varies():
 
 @given(st.tuples(*[between(-2, 2)] * 4), between(-0.02, 0.02))
 def test_midpoint_back_in_time_is_where_it_came_from(x, dt):
-    step = lambda x, dt: implicit_midpoint(lambda _, x: ARM.state_derivative(x, FREE), 0, x, dt)  # noqa: E731
+    def step(x, dt):
+        return implicit_midpoint(lambda _, x: ARM.state_derivative(x, FREE), 0, x, dt)
+
     np.testing.assert_allclose(step(step(np.array(x), dt), -dt), x, atol=1e-12)
 
 

@@ -95,7 +95,10 @@ def test_an_input_may_be_a_vector_or_a_function():
 def test_gravity_compensation_holds_the_arm_still(method):
     t = np.linspace(0, 0.5, 21)
     still = [0.4, -0.7, 0.0, 0.0]
-    u = lambda t, x: ARM.g_vec(x[..., :2])  # noqa: E731
+
+    def u(t, x):
+        return ARM.g_vec(x[..., :2])
+
     x = simulate(ARM.state_derivative, still, u, t, method)
     np.testing.assert_allclose(x, np.broadcast_to(still, x.shape), atol=1e-9)
 

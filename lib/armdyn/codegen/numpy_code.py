@@ -11,6 +11,7 @@ from sympy.printing.numpy import NumPyPrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from armdyn.codegen import straight_line
+from armdyn.codegen.buffers import in_buffers
 from armdyn.derive import Derivation
 from armdyn.manipulator import Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
@@ -122,21 +123,24 @@ class _Callable:
     """Straight-line code as a function of q, v, u (those of them it takes), each (..., n).
 
     Gives (..., *shape), of the code's first results; or None where `judge` says no to all of them.
-    The same source runs on arrays with NumPy and on one state with `math`,
-    which is many times faster on single numbers.
+    The same program runs on arrays, in buffers, and with `math` on one state, which is many times
+    faster on single numbers.
     """
 
     def __init__(self, program, numbers, arguments, n, shape, judge=None):
-        source = _source(program, arguments, n)
         self.shape, self.n, self.judge = shape, n, judge
         self.size = math.prod(shape)
-        self.on_arrays = _compiled(source, _ARRAYS)(*numbers)
-        self.on_floats = _compiled(source, _FLOATS)(*numbers)
+        given = [f"{name}_{i}" for name in arguments for i in range(n)]
+        self.on_floats = _compiled(_FLOATS, numbers, given, *_lines(program, _sincos_call))
+        *lines, self.buffers = in_buffers(*_lines(program, _half_angle), given)
+        given += [f"b_{i}" for i in range(self.buffers)]
+        self.on_arrays = _compiled(vars(np), numbers, given, *lines)
 
     def __call__(self, *states):
         batch = np.broadcast_shapes(*(s.shape[:-1] for s in states))
-        if not batch:
-            return self._one(states)
+        return self._many(states, batch) if batch else self._one(states)
+
+    def _many(self, states, batch):
         count = math.prod(batch)
         rows = [
             # One row for the whole batch stays one row.
@@ -146,14 +150,17 @@ class _Callable:
             for s in states
         ]
         found = np.empty((count, self.size))
+        # Of this call alone: another thread may be in another.
+        buffers = np.empty((self.buffers, min(count, BLOCK)))
         for start in range(0, count, BLOCK):
-            part = slice(start, start + BLOCK)
-            columns = [np.ascontiguousarray((r[part] if len(r) == count else r).T) for r in rows]
-            results = self.on_arrays(*(column for c in columns for column in c))
-            if self.judge and not self.judge(results):
-                return None
+            part = found[start : start + BLOCK]
+            given = (r[start : start + BLOCK] if len(r) == count else r for r in rows)
+            columns = (column for g in given for column in g.T)
+            results = self.on_arrays(*columns, *buffers[:, : len(part)])
             for i in range(self.size):
-                found[part, i] = results[i]
+                part[:, i] = results[i]
+            if self.judge and not self.judge(part, *results[self.size :]):
+                return None
         return found.reshape(*batch, *self.shape)
 
     def _one(self, states):
@@ -161,21 +168,23 @@ class _Callable:
             results = self.on_floats(*(x for s in states for x in s.tolist()))
         except (ArithmeticError, ValueError):
             # `math` raises where NumPy gives inf or NaN, or warns as the user told it to.
-            results = self.on_arrays(*(x for s in states for x in s))
-        if self.judge and not self.judge(results):
+            return self._many(states, ())
+        found = np.array(results[: self.size], dtype=float)
+        if self.judge and not self.judge(found, *results[self.size :]):
             return None
-        return np.array(results[: self.size], dtype=float).reshape(self.shape)
+        return found.reshape(self.shape)
 
 
 def _plain(array, n):
     return isinstance(array, np.ndarray) and array.dtype == float and array.shape[-1:] == (n,)
 
 
-def _regular(results):
-    """Whether every q̈ is finite and no M close to singular; the last two are pivot and trace."""
-    *accelerations, pivot, trace = results
-    fine = pivot > SUSPECT * trace
-    return np.all(fine) and all(np.isfinite(np.sum(a)) for a in accelerations)
+def _regular(accelerations, pivot, trace):
+    """Whether every q̈ is finite and no M close to singular."""
+    return np.isfinite(np.sum(accelerations)) and (
+        np.min(pivot) > SUSPECT * np.max(trace)  # most often, and sooner told
+        or np.all(pivot > SUSPECT * trace)
+    )
 
 
 def constants(program, derivation, values) -> list[float]:
@@ -237,36 +246,44 @@ class _Printer(NumPyPrinter):
         return text
 
 
-def _source(program, arguments, n):
+def _lines(program, sincos):
+    """(statements, results) of the program, as Python expressions."""
     text = _Printer().doprint
-    given = ", ".join(f"{name}_{i}" for name in arguments for i in range(n))
     lines = [f"{s} = {text(e)}" for s, e in program.angle_steps]
-    lines += [f"{s}, {c} = sincos({text(angle)})" for s, c, angle in program.angles]
+    for s, c, angle in program.angles:
+        lines += sincos(s, c, text(angle))
     lines += [f"{s} = {text(e)}" for s, e in program.steps]
-    results = "".join(f"{text(e)}, " for e in program.outputs)
-    names = ", ".join(f"k_{i}" for i in range(len(program.constants)))
+    return lines, [text(e) for e in program.outputs]
+
+
+def _sincos_call(s, c, angle):
+    return [f"{s}, {c} = sincos({angle})"]
+
+
+def _half_angle(s, c, angle):
+    """sin x and cos x from tan(x/2), which NumPy has sooner than both."""
+    return [
+        f"tan_{s} = tan(0.5*({angle}))",
+        f"two_{c} = 2/(1 + tan_{s}*tan_{s})",
+        f"{s} = tan_{s}*two_{c}",
+        f"{c} = two_{c} - 1",
+    ]
+
+
+def _compiled(names, numbers, given, lines, results):
+    """The lines as a function of what is given, with the numbers for k_0, k_1, …"""
+    constants = ", ".join(f"k_{i}" for i in range(len(numbers)))
     body = "".join(f"        {line}\n" for line in lines)
-    return (
-        f"def with_constants({names}):\n"
-        f"    def compute({given}):\n{body}        return ({results})\n"
+    source = (
+        f"def with_constants({constants}):\n"
+        f"    def compute({', '.join(given)}):\n{body}        return ({', '.join(results)},)\n"
         "    return compute\n"
     )
-
-
-def _compiled(source, names):
     space = dict(names)
     exec(compile(source, "<armdyn.codegen>", "exec"), space)
-    return space["with_constants"]
+    return space["with_constants"](*numbers)
 
 
-def _sincos(x):
-    """(sin x, cos x) from tan(x/2), which is several times faster in NumPy than sin and cos."""
-    t = np.tan(0.5 * x)
-    r = 2 / (1 + t * t)
-    return t * r, r - 1
-
-
-_ARRAYS = {**vars(np), "sincos": _sincos}
 _FLOATS = {
     **vars(np),
     **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan")},

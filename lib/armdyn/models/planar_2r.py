@@ -124,7 +124,9 @@ class Planar2R(Manipulator):
                     qdd1 = (b * rest1 - M12 * rest2) / det
                     qdd2 = ((a + M12 + coupling) * rest2 - M12 * rest1) / det
                     if isfinite(qdd1 + qdd2):
-                        return np.array([qdd1, qdd2])
+                        qdd = np.empty(2)  # quicker to fill than np.array is to read a list
+                        qdd[0], qdd[1] = qdd1, qdd2
+                        return qdd
         except (AttributeError, TypeError, ValueError):
             pass  # not arrays of numbers: the general way says what is wrong with them
         return super().dynamics(q, qd, u)
