@@ -9,6 +9,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from autograder import grade as grading
 from autograder import sandbox
 from autograder.grade import grade
 from autograder.nbgrader_glue import outputs_for, write_problem
@@ -17,7 +18,7 @@ from autograder.sandbox import Room
 from autograder.verdict import State
 from tests.submissions import p3_pendulum
 from tests.submissions.hostile import ATTACKS, GOT, OUTSIDE, ROOT
-from tests.submissions.p3_pendulum import POINTS
+from tests.submissions.p3_pendulum import POINTS, cell_of
 
 P3 = "p3-pendulum"
 SHOWN_OFF = ("p3-euler-lagrange", "p3-swing-plot")
@@ -52,7 +53,7 @@ def orphans_come_here():
 def short_limits(monkeypatch):
     """A second for what takes ten: the limits are what is tested, not how long they are."""
     monkeypatch.setattr(Room.run, "__defaults__", (1.0,))
-    monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.1)
+    monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
     monkeypatch.setattr(sandbox, "GRACE_SECONDS", 1.0)
 
 
@@ -138,6 +139,22 @@ def test_no_attack_earns_a_point(attack, release, before, outside, short_limits)
 
     assert eventually(lambda: descendants() <= before), "a process was left behind"
     assert points(grade(p3_pendulum.right(release), SOURCE, "seed")) == POINTS
+
+
+def test_many_loops_cost_one_limit_of_the_whole_notebook(release, short_limits, monkeypatch):
+    monkeypatch.setattr(grading, "NOTEBOOK_SECONDS", 1.5)
+    monkeypatch.setattr(Room.run, "__defaults__", (0.5,))
+    notebook = p3_pendulum.right(release)
+    loops = [nbformat.v4.new_code_cell("while True: sum(())") for _ in range(9)]
+    after = notebook.cells.index(cell_of(notebook, "p3-M"))
+    notebook.cells[after + 1 : after + 1] = loops
+    graded = grade(notebook, SOURCE, "seed")
+    earned = ("p3-lagrangian", "p3-M")
+    assert points(graded) == {name: POINTS[name] * (name in earned) for name in POINTS}
+    told = said(graded)
+    assert 1 <= told.count("TimeoutError: this cell ran longer than 0.5 s") <= 4
+    assert "not run: the notebook took 1.5 s before it came to this cell" in told
+    assert "g_vec(q, pend) did not return within the 1.5 s that the whole notebook has" in told
 
 
 def test_the_zoo_is_large_and_each_says_what_it_tries():
