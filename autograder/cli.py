@@ -1,6 +1,7 @@
 """The `autograder` command."""
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -16,24 +17,55 @@ def main(arguments: list[str] | None = None) -> int:
         help="open JupyterLab on the first lesson; further arguments go to JupyterLab",
         add_help=False,
     )
+    grading = commands.add_parser(
+        "grade", help="grade all submissions of an assignment, and record them in the gradebook"
+    )
+    grading.add_argument("assignment", help="as it is called in solutions/, such as p3-pendulum")
+    grading.add_argument(
+        "--jobs", type=int, default=os.cpu_count(), help="processes (default: one a core)"
+    )
+    grading.add_argument(
+        "--scheduler", metavar="tcp://…", help="judge on the Dask cluster at this address"
+    )
+    grading.add_argument(
+        "--force", action="store_true", help="judge again what has been judged before"
+    )
     if arguments[:1] == ["lab"]:
         from autograder.lab import lab  # imports Jupyter, which takes a second
 
         return lab(arguments[1:])
-    parser.parse_args(arguments)
-    return problems()
-
-
-def problems() -> int:
-    """Write the student notebooks that are not there yet, from the course's folder."""
+    given = parser.parse_args(arguments)
     root = Path.cwd()
     if not (root / "nbgrader_config.py").exists():
-        print(
-            f"autograder: {root} is not the course's folder (no nbgrader_config.py); "
-            "change to the folder that holds solutions/ and try again",
-            file=sys.stderr,
+        return _complain(
+            f"{root} is not the course's folder (no nbgrader_config.py); "
+            "change to the folder that holds solutions/ and try again"
         )
-        return 2
+    if given.command == "grade":
+        return grade(root, given.assignment, given.jobs, given.scheduler, given.force)
+    return problems(root)
+
+
+def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: bool) -> int:
+    """Grade an assignment's submissions; 1 where one could not be graded."""
+    from autograder import pipeline
+
+    if not (root / "solutions" / assignment / f"{assignment}.ipynb").exists():
+        return _complain(f"there is no solutions/{assignment}/{assignment}.ipynb")
+    try:
+        lines = pipeline.grade_all(root, assignment, jobs, scheduler, force)
+    except (OSError, ValueError) as error:
+        return _complain(str(error))
+    except KeyboardInterrupt:
+        return _complain("stopped; the same command goes on from here", 130)
+    if not lines:
+        return _complain(f"nobody has handed in {assignment}")
+    print(pipeline.table(lines))
+    return 0 if all(line.graded for line in lines) else 1
+
+
+def problems(root: Path) -> int:
+    """Write the student notebooks that are not there yet; root: the course's folder."""
     for source in sorted((root / "solutions").glob("*/*.ipynb")):
         folder = root / "problems" / source.parent.name
         shown = (folder / source.name).relative_to(root)
@@ -45,3 +77,8 @@ def problems() -> int:
         write_problem(root, source.parent.name, folder)
         print(f"{shown}: written")
     return 0
+
+
+def _complain(what: str, status: int = 2) -> int:
+    print(f"autograder: {what}", file=sys.stderr)
+    return status

@@ -3,6 +3,7 @@
 import hashlib
 import logging
 import re
+import time
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,9 +15,14 @@ from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
 from autograder.sandbox import Room, RoomLostError
 from autograder.verdict import State, Verdict
-from autograder.wall import Call, Fault, FaultKind, Reply
+from autograder.wall import Call, Fault, FaultKind, Reply, shortened
 
 log = logging.getLogger(__name__)
+
+# A notebook in which everything takes as long as it may must not hold up a batch.
+NOTEBOOK_SECONDS = 60.0
+# So many calls share one limit from outside, which is all that binds code that ignores its own.
+CALLS_AT_ONCE = 4
 
 
 @dataclass(frozen=True)
@@ -75,12 +81,14 @@ def stream(seed: str, name: str) -> np.random.Generator:
 class Sitting:
     """A student's notebook in a room, cell by cell; when the room is lost, a new one takes over.
 
-    A new room runs the earlier cells again, but not the one, or the call, that ended the last.
+    A new room runs the earlier cells again, but not the one, or the call, that ended the last. After
+    NOTEBOOK_SECONDS nothing more is run.
     """
 
     def __init__(self, room=Room):
         self._new_room = room
         self._room = None
+        self._ends = time.monotonic() + NOTEBOOK_SECONDS
         self._ran: list[str] = []
         self._failed: list[tuple[str, str]] = []  # source of a cell, and its error
 
@@ -93,6 +101,9 @@ class Sitting:
 
     def run(self, source: str) -> list[dict]:
         """The outputs of a cell; an error output where it ends its process."""
+        if self._is_over():
+            text = f"not run: the notebook took {NOTEBOOK_SECONDS:g} s before it came to this cell"
+            return [_error("TimeoutError", text, [text])]
         try:
             outputs = self._current().run(source)
         except RoomLostError as error:
@@ -109,19 +120,30 @@ class Sitting:
 
     def ask(self, calls: list[Call]) -> list[Reply]:
         """The replies to calls of the student's functions."""
-        try:
-            replies = self._current().ask(calls)
-        except RoomLostError:
-            self._room = None
-            return [Reply(fault=Fault(FaultKind.DIED))]
+        replies = []
+        for start in range(0, len(calls), CALLS_AT_ONCE):
+            if self._is_over():
+                limit = f"the {NOTEBOOK_SECONDS:g} s that the whole notebook has"
+                return [Reply(fault=Fault(FaultKind.TIMED_OUT, limit))]
+            try:
+                replies += self._current().ask(calls[start : start + CALLS_AT_ONCE])
+            except RoomLostError:
+                self._room = None
+                return [Reply(fault=Fault(FaultKind.DIED))]
+            if replies[-1].fault:
+                break
         return [self._explained(calls[0].name, reply) for reply in replies]
 
     def _current(self):
         if self._room is None:
             self._room = self._new_room()
             for source in self._ran:
-                self._room.run(source)
+                if not self._is_over():
+                    self._room.run(source)
         return self._room
+
+    def _is_over(self) -> bool:
+        return time.monotonic() > self._ends
 
     def _explained(self, name: str, reply: Reply) -> Reply:
         """A missing name is blamed on the cell that should have defined it, where that failed."""
@@ -137,18 +159,33 @@ def _output(output: dict) -> NotebookNode:
     """A notebook's output from what came back through the wall; nothing else gets in."""
     match output:
         case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
-            return new_output("stream", name=name, text=text)
+            return new_output("stream", name=name, text=shortened(text, MOST_TEXT))
         case {"output_type": "display_data", "data": dict(data)}:
-            shown = {k: v for k, v in data.items() if k in SHOWN and isinstance(v, str)}
+            shown = {kind: data[kind] for kind in SHOWN if _is_shown(kind, data.get(kind))}
             return new_output("display_data", data=shown)
         case {"output_type": "error", "ename": str(name), "evalue": str(value)}:
             lines = output.get("traceback")
-            lines = [str(line) for line in lines] if isinstance(lines, list) else []
-            return NotebookNode(_error(name, value, lines))
+            text = "\n".join(map(str, lines)) if isinstance(lines, list) else ""
+            lines = shortened(text, MOST_TEXT).split("\n") if text else []
+            return NotebookNode(_error(shortened(name), shortened(value), lines))
     return new_output("stream", name="stderr", text="(an output that could not be read)")
 
 
 SHOWN = ("text/plain", "text/latex", "image/png")
+# The runner sends no more; a forged reply may.
+MOST_TEXT = 200_000
+MOST_PICTURE = 4 << 20
+
+
+def _is_shown(kind: str, data) -> bool:
+    """Whether a feedback page may hold it: text of a decent length, and pictures that are no markup."""
+    if not isinstance(data, str):
+        return False
+    if kind != "image/png":
+        return len(data) <= MOST_TEXT
+    return (
+        len(data) <= MOST_PICTURE and re.fullmatch(r"[A-Za-z0-9+/\s]*={0,2}\s*", data) is not None
+    )
 
 
 def _error(name: str, value: str, lines: list[str]) -> dict:

@@ -5,6 +5,8 @@ metadata as submitted; here it is rebuilt from the source, and every change is r
 """
 
 import copy
+import re
+from itertools import count
 
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_raw_cell
@@ -34,6 +36,7 @@ def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode
         if name in placed:
             _put_right(placed[name], original, notes)
     _put_back(notebook, known, placed, notes)
+    _tell_apart(notebook)
     return notebook, notes
 
 
@@ -93,12 +96,30 @@ def _put_back(notebook, known, placed, notes) -> None:
             text = original.source if is_locked(original) else ""
             cell = NEW_CELL[original.cell_type](source=text)
             cell.metadata = copy.deepcopy(original.metadata)
-            if notebook.nbformat_minor < 5:
-                del cell["id"]
+            del cell["id"]  # a random one
             position = 0 if before is None else _index(notebook.cells, before) + 1
             notebook.cells.insert(position, cell)
             placed[name] = cell
         before = placed[name]
+
+
+def _tell_apart(notebook) -> None:
+    """Each cell an id of its own, as nbformat 4.5 asks for: a copied cell has that of the first."""
+    if notebook.nbformat_minor < 5:
+        return
+    taken = set()
+    for index, cell in enumerate(notebook.cells):
+        name = cell.get("id")
+        if (
+            not (isinstance(name, str) and re.fullmatch("[A-Za-z0-9_-]{1,64}", name))
+            or name in taken
+        ):
+            others = {
+                other.get("id") for other in notebook.cells if isinstance(other.get("id"), str)
+            }
+            name = next(new for n in count(index) if (new := f"cell-{n}") not in taken | others)
+            cell.id = name
+        taken.add(name)
 
 
 def _index(cells, wanted) -> int:

@@ -1,8 +1,9 @@
 """A room of its own for a student's code: a process that can reach nothing but its own memory.
 
 With bubblewrap the process has no network, no home directory, no course folder, none of this
-project's files but the runner, and a read-only system. Without it (macOS, some containers) there
-are limits on time, memory and file size only, and `Room` says so once.
+project's files but the runner, and a read-only system. Such a room is a fork of a warm process
+where the kernel allows it, and a process of its own where not. Without bubblewrap (macOS, some
+containers) there are limits on time, memory and file size only, and `Room` says so once.
 """
 
 import json
@@ -13,42 +14,33 @@ import shutil
 import signal
 import subprocess
 import sys
-import sysconfig
 import tempfile
 import time
 from contextlib import suppress
+from enum import Enum
 from functools import cache
 from pathlib import Path
 
+from autograder import warm
+from autograder.bubblewrap import ENVIRONMENT, INSIDE, bubblewrapped, has_bubblewrap
 from autograder.wall import CALL_SECONDS, Call, Fault, FaultKind, Reply, decode_reply, encode_call
 
 log = logging.getLogger(__name__)
 
-HERE = Path(__file__).parent
-INSIDE = {
-    HERE / "room" / "runner.py": "runner.py",
-    HERE / "room" / "stubs" / "autograder.py": "autograder.py",
-    HERE / "room" / "stubs" / "armdyn.py": "armdyn.py",
-    HERE / "wall.py": "wall.py",
-}
 START_SECONDS = 60.0
 CELL_SECONDS = 10.0
 # Over the limit inside by this much, the process is taken to be out of its own control.
 GRACE_SECONDS = 3.0
 MOST_BYTES = 32 << 20
 MOST_OUTPUTS = 100  # the runner sends fewer; a forged reply may not
-TMPFS_BYTES = 64 << 20
-NOBODY = "65534"
-ENVIRONMENT = {
-    "HOME": "/tmp",
-    "IPYTHONDIR": "/tmp/.ipython",
-    "LANG": "C.UTF-8",
-    "MPLCONFIGDIR": "/tmp/.matplotlib",
-    "OPENBLAS_NUM_THREADS": "1",
-    "PATH": "/usr/bin:/bin",
-    "PYTHONDONTWRITEBYTECODE": "1",
-    "PYTHONHASHSEED": "0",
-}
+
+
+class Way(Enum):
+    """How a room is made."""
+
+    WARM = "forked from a warm process, in bubblewrap"
+    COLD = "started in bubblewrap"
+    NONE = "started without walls"
 
 
 class RoomLostError(Exception):
@@ -62,23 +54,15 @@ class Room:
     when the process does not survive them. OSError where the sandbox does not start.
     """
 
-    def __init__(self, bubblewrap: bool | None = None):
-        self._folder = tempfile.TemporaryDirectory(prefix="room-")
-        isolated = has_bubblewrap() if bubblewrap is None else bubblewrap
-        command, environment = self._walled() if isolated else self._unwalled()
-        self._process = subprocess.Popen(
-            command,
-            env=environment,
-            cwd=self._folder.name,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            start_new_session=True,
-        )
-        os.set_blocking(self._process.stdin.fileno(), False)
+    def __init__(self, way: Way | None = None):
+        self.way = way or _best_way()
         self._buffer = b""
+        self._process = _start_warm() if self.way is Way.WARM else ColdProcess(self.way)
+        os.set_blocking(self._process.requests, False)
         try:
-            self._receive(START_SECONDS)
+            hello = self._receive(START_SECONDS)
+            if not hello.get("ready"):
+                self._lost(str(hello.get("refused")))
         except RoomLostError as error:
             # Nothing of the student's has run yet.
             raise OSError(f"the sandbox did not start: {error}") from None
@@ -108,21 +92,17 @@ class Room:
             decoded.append(Reply(fault=Fault(FaultKind.GARBLED)))
         return decoded
 
+    @property
+    def closed(self) -> bool:
+        return self._process.ended
+
     def close(self) -> None:
         """End the process, and all that it started."""
-        if self._process.returncode is None:
-            # Without bubblewrap there is no process namespace to take the children along, and they
-            # may be there when their parent has ended. The group's number is free only after wait.
-            with suppress(ProcessLookupError):
-                os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.wait()
-        for pipe in (self._process.stdin, self._process.stdout, self._process.stderr):
-            pipe.close()
-        self._folder.cleanup()
+        self._process.end()
 
     def _exchange(self, request: dict, seconds: float) -> dict:
         left = memoryview(json.dumps(request).encode() + b"\n")
-        stdin = self._process.stdin.fileno()
+        stdin = self._process.requests
         try:
             while left:
                 # A process that does not read must not make the judge wait for ever.
@@ -135,7 +115,7 @@ class Room:
 
     def _receive(self, seconds: float) -> dict:
         deadline = time.monotonic() + seconds
-        stdout = self._process.stdout.fileno()
+        stdout = self._process.replies
         while b"\n" not in self._buffer:
             left = deadline - time.monotonic()
             if left <= 0 or not select.select([stdout], [], [], left)[0]:
@@ -160,74 +140,86 @@ class Room:
         return message
 
     def _lost(self, why: str):
-        ready, _, _ = select.select([self._process.stderr], [], [], 0)
-        said = (
-            os.read(self._process.stderr.fileno(), 4096).decode(errors="replace") if ready else ""
-        )
+        said = self._process.said()
+        innocent = self._process.outlived_its_keeper()
         self.close()
+        if innocent:
+            raise OSError("the process that keeps the sandboxes ended, and this one with it")
         raise RoomLostError(f"{why} {said}".strip())
 
-    def _unwalled(self):
-        folder = Path(self._folder.name)
-        for path, name in INSIDE.items():
-            shutil.copy(path, folder / name)
-        environment = ENVIRONMENT | {
-            name: str(folder) for name in ("HOME", "IPYTHONDIR", "MPLCONFIGDIR", "TMPDIR")
-        }
-        return [sys.executable, "-I", "-u", str(folder / "runner.py")], environment
 
-    def _walled(self):
-        command = ["bwrap", "--unshare-all", "--die-with-parent", "--new-session"]
-        command += ["--uid", NOBODY, "--gid", NOBODY, "--proc", "/proc", "--dev", "/dev"]
-        for folder in ("/tmp", "/dev/shm"):
-            command += ["--size", str(TMPFS_BYTES), "--tmpfs", folder]
-        for folder in ("/usr", "/bin", "/lib", "/lib64"):
-            if Path(folder).is_symlink():
-                command += ["--symlink", os.readlink(folder), folder]
-            elif Path(folder).exists():
-                command += ["--ro-bind", folder, folder]
-        for folder in _python_folders():
-            command += ["--ro-bind", folder, folder]
-        for folder in _installed_packages():
-            command += ["--tmpfs", folder]
-        for path, name in INSIDE.items():
-            command += ["--ro-bind", str(path), f"/room/{name}"]
-        command += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/tmp"]
-        # The environment goes in through bwrap's own: what it is started with stays readable inside.
-        return [*command, "--", sys.executable, "-I", "-u", "/room/runner.py"], ENVIRONMENT
+class ColdProcess:
+    """A room's process, started for it alone. requests, replies: descriptors of its pipes."""
+
+    def __init__(self, way: Way):
+        self._folder = tempfile.TemporaryDirectory(prefix="room-")
+        start = bubblewrapped("runner.py") if way is Way.COLD else _unwalled(self.folder)
+        command, environment = start
+        self._process = subprocess.Popen(
+            command,
+            env=environment,
+            cwd=self.folder,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+        )
+        self.requests = self._process.stdin.fileno()
+        self.replies = self._process.stdout.fileno()
+
+    @property
+    def folder(self) -> Path:
+        return Path(self._folder.name)
+
+    @property
+    def ended(self) -> bool:
+        return self._process.returncode is not None
+
+    def said(self) -> str:
+        stderr = self._process.stderr
+        ready, _, _ = select.select([stderr], [], [], 0)
+        return os.read(stderr.fileno(), 4096).decode(errors="replace") if ready else ""
+
+    def outlived_its_keeper(self) -> bool:
+        return False
+
+    def end(self) -> None:
+        if not self.ended:
+            # Without bubblewrap there is no process namespace to take the children along, and they
+            # may be there when their parent has ended. The group's number is free only after wait.
+            with suppress(ProcessLookupError):
+                os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.wait()
+        for pipe in (self._process.stdin, self._process.stdout, self._process.stderr):
+            pipe.close()
+        self._folder.cleanup()
+
+
+def _unwalled(folder: Path):
+    for path, name in INSIDE.items():
+        shutil.copy(path, folder / name)
+    environment = ENVIRONMENT | {
+        name: str(folder) for name in ("HOME", "IPYTHONDIR", "MPLCONFIGDIR", "TMPDIR")
+    }
+    return [sys.executable, "-I", "-u", str(folder / "runner.py")], environment
+
+
+def _best_way() -> Way:
+    if not has_bubblewrap():
+        return Way.NONE
+    return Way.WARM if _warm_works() else Way.COLD
 
 
 @cache
-def has_bubblewrap() -> bool:
-    """Whether bubblewrap is here and works; a warning once where not."""
+def _warm_works() -> bool:
+    """Whether rooms can be forked here; a word in the log where not."""
     try:
-        subprocess.run(
-            ["bwrap", "--unshare-all", "--ro-bind", "/", "/", "true"],
-            check=True,
-            capture_output=True,
-            timeout=10,
-        )
-    except (OSError, subprocess.SubprocessError):
-        log.warning(
-            "bubblewrap does not work here: student code runs with limits on time and memory, but "
-            "is NOT shut off from files and network. On Debian: apt-get install bubblewrap"
-        )
+        with Room(Way.WARM):
+            return True
+    except OSError as error:
+        log.warning("each notebook starts a Python of its own, which takes longer: %s", error)
         return False
-    return True
 
 
-def _python_folders() -> list[str]:
-    """Where this Python and its packages are, outermost first; folders under /usr come with it."""
-    folders = {sys.prefix, sys.base_prefix, str(Path(sys.executable).resolve().parent.parent)}
-    folders |= {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
-    kept = []
-    for folder in sorted(folders, key=len):
-        if not any(Path(folder).is_relative_to(outer) for outer in ["/usr", *kept]):
-            kept.append(folder)
-    return kept
-
-
-def _installed_packages() -> list[str]:
-    """This project's packages where they are copied into the environment: to be covered."""
-    site = Path(sysconfig.get_path("purelib"))
-    return [str(site / name) for name in ("armdyn", "autograder") if (site / name).exists()]
+def _start_warm() -> warm.WarmProcess:
+    return warm.nursery(lambda: warm.Nursery(*bubblewrapped("forks.py"))).start_room()

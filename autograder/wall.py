@@ -21,7 +21,8 @@ from types import SimpleNamespace
 import numpy as np
 
 CALL_SECONDS = 2.0
-MOST_NUMBERS = 1_000_000
+# 24 such answers are a reply that the room may still send.
+MOST_NUMBERS = 50_000
 MOST_CHARACTERS = 300
 
 

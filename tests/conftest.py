@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ PROGRAMS = {
     "libejml-java": ("/usr/share/java/ejml-simple.jar",),
     "octave": ("octave-cli",),
     "make": ("make",),
+    "postgresql": ("initdb", *sorted(map(str, Path("/usr/lib/postgresql").glob("*/bin/initdb")))),
 }
 
 np.seterr(all="raise", under="ignore")  # underflow to zero is right for a decayed state

@@ -9,9 +9,12 @@ import base64
 import builtins
 import json
 import os
+import random
 import resource
 import sys
 
+# A room has no more processes and threads than this, its keeper among them.
+MOST_PROCESSES = 64
 MEMORY_BYTES = 4 << 30
 FILE_BYTES = 64 << 20
 MOST_TEXT = 200_000
@@ -22,12 +25,31 @@ SHOWN = ("text/plain", "text/latex", "image/png")
 
 
 def main():
-    requests, replies = _private_channel()
-    _limit_resources()
+    walled = "walled" in sys.argv
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    if walled and os.getuid() == 0:
+        import namespaces
+
+        namespaces.become_nobody()
+    serve(walled=walled)
+
+
+def serve(shell=None, walled=False):
+    """Answer requests to the end of standard input, in `shell` or a new one.
+
+    walled: whether the user's processes are counted for this room alone, so that a limit on them
+    harms nothing else.
+    """
+    requests, replies = _private_channel()
+    _limit_resources(walled)
+    import numpy as np
     import wall
 
-    shell = _shell()
+    random.seed(0)
+    shell = shell or new_shell()
+    # The same cells draw the same numbers in every room.
+    random.seed(0)
+    np.random.seed(0)  # noqa: NPY002
     _reply(replies, {"ready": True})
     for line in requests:
         request = json.loads(line)
@@ -46,17 +68,24 @@ def _private_channel():
     nothing = os.open(os.devnull, os.O_RDWR)
     for descriptor in (0, 1, 2):
         os.dup2(nothing, descriptor)
+    os.close(nothing)
     return requests, replies
 
 
-def _limit_resources():
+def _limit_resources(walled):
     resource.setrlimit(resource.RLIMIT_FSIZE, (FILE_BYTES, FILE_BYTES))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     if sys.platform == "linux":  # macOS refuses a limit on the address space
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+        # When the machine's memory runs out, it is this process that ends.
+        with open("/proc/self/oom_score_adj", "w") as file:
+            file.write("1000")
+    if walled:
+        resource.setrlimit(resource.RLIMIT_NPROC, (MOST_PROCESSES, MOST_PROCESSES))
 
 
-def _shell():
+def new_shell():
+    """An IPython that shows what JupyterLab would show."""
     from IPython.core.interactiveshell import InteractiveShell
     from traitlets.config import Config
 

@@ -1,0 +1,98 @@
+"""What grading has reached already, on disk: judged notebooks by their content, and what was recorded.
+
+A result's name is a digest of all that decides it: the submission, the source, the seed, the
+settings and this code. So nothing in the cache is ever out of date, and it may be deleted at any time.
+"""
+
+import hashlib
+import json
+import sys
+from collections.abc import Iterator
+from dataclasses import asdict
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+
+from nbformat import NotebookNode, from_dict
+
+from autograder.grade import Graded
+from autograder.verdict import Row, State, Verdict, Witness
+
+PACKAGES = ("ipython", "matplotlib", "nbformat", "numpy", "scipy", "sympy")
+
+
+class Cache:
+    """A folder of JSON files, each written at once: a killed run leaves whole ones only."""
+
+    def __init__(self, folder: Path):
+        self._folder = folder
+        folder.mkdir(parents=True, exist_ok=True)
+        for left in folder.rglob("*.part"):
+            left.unlink()
+
+    def load(self, name: str) -> dict | None:
+        """The entry of that name; None where there is none that can be read."""
+        try:
+            entry = json.loads(self._path(name).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+        return entry if isinstance(entry, dict) else None
+
+    def store(self, name: str, entry: dict) -> None:
+        path = self._path(name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part = path.with_suffix(".part")
+        part.write_text(json.dumps(entry), encoding="utf-8")
+        part.replace(path)
+
+    def _path(self, name: str) -> Path:
+        return self._folder / f"{name}.json"
+
+
+def digest(*parts: str | bytes) -> str:
+    """A name for these parts: different for different parts, wherever one ends and the next begins."""
+    whole = hashlib.sha256()
+    for part in parts:
+        data = part.encode(errors="surrogatepass") if isinstance(part, str) else part
+        whole.update(len(data).to_bytes(8, "big") + data)
+    return whole.hexdigest()
+
+
+@cache
+def code_version() -> str:
+    """A digest of the code that grades: this package, armdyn, Python and the packages under them."""
+    import armdyn
+
+    parts = [sys.version, *(f"{name} {metadata.version(name)}" for name in PACKAGES)]
+    for package in (Path(__file__).parent, Path(armdyn.__file__).parent):
+        parts += [f"{name}\0{text}" for name, text in _sources(package)]
+    return digest(*parts)
+
+
+def _sources(package: Path) -> Iterator[tuple[str, str]]:
+    for path in sorted(package.rglob("*.py")):
+        yield path.relative_to(package).as_posix(), path.read_text(encoding="utf-8")
+
+
+def to_json(graded: Graded) -> dict:
+    verdicts = {name: asdict(verdict) for name, verdict in graded.verdicts.items()}
+    return {"notebook": graded.notebook, "verdicts": verdicts, "notes": list(graded.notes)}
+
+
+def from_json(entry: dict) -> Graded:
+    """The result that `to_json` wrote."""
+    verdicts = {name: _verdict(said) for name, said in entry["verdicts"].items()}
+    notebook: NotebookNode = from_dict(entry["notebook"])
+    return Graded(notebook, verdicts, tuple(entry["notes"]))
+
+
+def _verdict(said: dict) -> Verdict:
+    return Verdict(
+        **said
+        | {
+            "state": State(said["state"]),
+            "rows": tuple(Row(**row) for row in said["rows"]),
+            "witness": said["witness"] and Witness(**said["witness"]),
+            "diagnosis": tuple(said["diagnosis"]),
+        }
+    )

@@ -1,0 +1,162 @@
+"""Where submissions are judged side by side: processes of this machine, or a Dask cluster."""
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    Executor,
+    ProcessPoolExecutor,
+    wait,
+)
+from multiprocessing.connection import wait as wait_for_end
+
+AHEAD = 3  # submissions under way, a process
+# Inherited by the processes: one thread each, or they take the cores from each other.
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
+
+
+def outcomes(
+    work: Callable, tasks: Iterable[tuple[str, tuple]], pool
+) -> Iterator[tuple[str, object]]:
+    """(name, what `work` returned or raised) of each (name, arguments), as they come.
+
+    When a process dies, which may be any of those under way, each of these is tried again, alone:
+    only the one that kills its process again is given up.
+    """
+    tasks, running, suspects = iter(tasks), {}, []
+    while True:
+        broken = False
+        while len(running) < pool.window and not broken:
+            name, arguments = next(tasks, (None, None))
+            if name is None:
+                break
+            try:
+                running[pool.executor().submit(work, *arguments)] = (name, arguments)
+            except BrokenExecutor:
+                suspects.append((name, arguments))
+                broken = True
+        if not running and not broken:
+            break
+        for future in wait(running, return_when=FIRST_COMPLETED).done:
+            name, arguments = running.pop(future)
+            try:
+                outcome = future.result()
+            except BrokenExecutor:
+                suspects.append((name, arguments))
+                broken = True
+            except Exception as error:
+                outcome = error
+            if (name, arguments) not in suspects:
+                yield name, outcome
+        if broken:
+            suspects += running.values()
+            running.clear()
+            pool.close()
+    for name, arguments in suspects:
+        try:
+            yield name, pool.executor().submit(work, *arguments).result()
+        except Exception as error:
+            yield name, error
+            pool.close()
+
+
+class Processes:
+    """Processes of this machine; started when first needed, and again after one died."""
+
+    def __init__(self, jobs: int, preload: str):
+        if jobs < 1:
+            raise ValueError(f"jobs is {jobs}; at least one process is needed")
+        self.window = AHEAD * jobs
+        self._jobs, self._preload = jobs, preload
+        self._executor = self._warming = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exception):
+        self.close()
+
+    def executor(self) -> Executor:
+        self._wait()
+        return self._started()
+
+    def _wait(self) -> None:
+        if self._warming is not None:
+            self._warming.join()
+            self._warming = None
+
+    def _started(self) -> Executor:
+        if self._executor is None:
+            for name in ONE_THREAD:
+                os.environ.setdefault(name, "1")
+            # Not a fork of this process, which has threads and an open database.
+            servers = "forkserver" in multiprocessing.get_all_start_methods()
+            context = multiprocessing.get_context("forkserver" if servers else "spawn")
+            if servers:
+                context.set_forkserver_preload([self._preload])
+            self._executor = ProcessPoolExecutor(self._jobs, context, _begin)
+        return self._executor
+
+    def warm(self) -> None:
+        """Start the processes now: they load what they need while this one does."""
+
+        def start():
+            for _ in range(self._jobs):
+                self._started().submit(os.getpid)
+
+        self._warming = threading.Thread(target=start)
+        self._warming.start()
+
+    def close(self) -> None:
+        self._wait()
+        if self._executor is not None:
+            self._executor.shutdown(cancel_futures=True)
+            self._executor = None
+
+
+def _begin() -> None:
+    """First thing in a process: leave Ctrl-C to the parent, and do not outlive it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process().sentinel
+
+    def follow():
+        wait_for_end([parent])
+        os._exit(1)
+
+    threading.Thread(target=follow, daemon=True).start()
+
+
+class Cluster:
+    """A Dask cluster, whose scheduler moves the work of a lost worker to the others."""
+
+    def __init__(self, address: str):
+        try:
+            from distributed import Client
+        except ImportError:
+            raise ValueError("--scheduler needs Dask: pip install 'armdyn[cluster]'") from None
+        self._client = Client(address)
+        self._executor = self._client.get_executor(pure=False)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exception):
+        self.close()
+        self._client.close()
+
+    @property
+    def window(self) -> int:
+        return AHEAD * max(1, sum(self._client.nthreads().values()))
+
+    def executor(self) -> Executor:
+        return self._executor
+
+    def warm(self) -> None:
+        """The workers run already."""
+
+    def close(self) -> None:
+        self._executor.shutdown()

@@ -1,0 +1,236 @@
+"""Many submissions: judged side by side, kept, and recorded by one writer.
+
+`grade` is a pure function, so that any executor serves: processes here, or a Dask cluster. Whatever
+was judged is in the cache before it is recorded, so that a killed run goes on where it was.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import nbformat
+from tqdm import tqdm
+
+from autograder.cache import Cache, code_version, digest, from_json, to_json
+from autograder.executors import Cluster, Processes, outcomes
+from autograder.grade import grade
+from autograder.verdict import State
+from autograder.wall import shortened
+
+CACHE = Path("course") / "cache-of-results"
+
+
+@dataclass(frozen=True)
+class Line:
+    """One student's line of the summary: points, states in words, and what the instructor should know.
+
+    graded: False where there is no verdict, or not on every cell; the notes say why. redone: whether
+    anything had to be judged or recorded.
+    """
+
+    student: str
+    score: float | None = None
+    most: float | None = None
+    states: str = ""
+    notes: tuple[str, ...] = ()
+    graded: bool = True
+    redone: bool = True
+
+
+class OtherVersionError(Exception):
+    """A worker of the cluster has other code than this machine."""
+
+
+def judge(submission: str, source: str, seed: str) -> dict:
+    """grade(submission, source, seed) between texts, so that it can be called from another machine."""
+    graded = grade(nbformat.reads(submission, as_version=4), _source(source), seed)
+    return to_json(graded) | {"code": code_version()}
+
+
+@lru_cache(maxsize=8)
+def _source(text: str) -> nbformat.NotebookNode:
+    return nbformat.reads(text, as_version=4)
+
+
+def grade_all(
+    root: Path,
+    assignment: str,
+    jobs: int = 2,
+    scheduler: str | None = None,
+    force: bool = False,
+) -> list[Line]:
+    """Grade each submission of an assignment and record it; a line for each student, in order.
+
+    jobs: how many processes judge. scheduler: the address of a Dask cluster that judges instead.
+    force: judge again what is in the cache. ValueError where the assignment cannot be graded at all.
+    """
+    with Cluster(scheduler) if scheduler else Processes(jobs, __name__) as pool:
+        pool.warm()
+        from autograder.nbgrader_glue import Recorder  # takes seconds, while the processes start
+
+        with Recorder(root, assignment) as recorder:
+            return _Run(root, recorder, pool, force).lines()
+
+
+class _Run:
+    """One pass over an assignment's submissions."""
+
+    def __init__(self, root: Path, recorder, pool, force: bool):
+        self._cache = Cache(root / CACHE)
+        self._recorder, self._pool, self._force = recorder, pool, force
+        self._submissions = recorder.submissions()
+        self._standings = recorder.standings()
+        self._keys: dict[str, str] = {}
+        self._notes: dict[str, list[str]] = {}
+        self._lines: dict[str, Line] = {}
+
+    def lines(self) -> list[Line]:
+        with _bar(len(self._submissions)) as bar:
+            for student, outcome in outcomes(judge, self._tasks(), self._pool):
+                self._settle(student, outcome)
+                bar.update(len(self._lines) - bar.n)
+            bar.update(len(self._lines) - bar.n)
+        return [self._lines[student] for student in self._submissions]
+
+    def _tasks(self) -> Iterator[tuple[str, tuple[str, str, str]]]:
+        """What is left to be judged; what needs no judging is settled on the way."""
+        for student, path in self._submissions.items():
+            try:
+                task = self._task(student, path)
+            except Exception as error:
+                self._refuse(student, _broken(path, error))
+            else:
+                if task:
+                    yield student, task
+
+    def _task(self, student: str, path: Path) -> tuple[str, str, str] | None:
+        recorder = self._recorder
+        if not path.is_file():
+            raise FileNotFoundError(path)
+        content, seed = path.read_bytes(), recorder.seed_of(student)
+        key = digest(content, recorder.source, recorder.settings, seed, code_version())
+        self._keys[student] = key
+        if not self._force:
+            if self._unchanged(student, key):
+                return None
+            known = self._cache.load(_result(key))
+            if known:
+                self._settle(student, known, new=False)
+                return None
+        text, self._notes[student] = recorder.prepare(student, content.decode())
+        return text, recorder.source, seed
+
+    def _unchanged(self, student: str, key: str) -> bool:
+        """Whether this very submission was recorded, and its rows and files are still there."""
+        recorder, standing = self._recorder, self._standings.get(student)
+        done = self._cache.load(_done(recorder.assignment, student))
+        path = recorder.autograded(student)
+        if not (done and standing and done.get("key") == key and path.is_file()):
+            return False
+        now = self._state(student, standing)
+        if now != {name: done.get(name) for name in now}:
+            return False
+        self._note(student, done["states"], done["notes"], standing, redone=False)
+        return True
+
+    def _state(self, student: str, standing) -> dict[str, str]:
+        """What grading this submission left, by which a later run knows it again."""
+        return {
+            "key": self._keys[student],
+            "files": digest(self._recorder.files_of(student)),
+            "rows": digest(standing.rows),
+            "notebook": digest(self._recorder.autograded(student).read_bytes()),
+        }
+
+    def _settle(self, student: str, outcome: dict | Exception, new: bool = True) -> None:
+        """Keep what was judged, and record it."""
+        recorder = self._recorder
+        try:
+            if isinstance(outcome, Exception):
+                raise outcome
+            if outcome["code"] != code_version():
+                raise OtherVersionError("a worker of the cluster has another version of the course")
+            notes = self._notes.pop(student, [])
+            outcome["notes"] = [*notes, *outcome["notes"]]
+            graded = from_json(outcome)
+            certain = all(v.state is not State.CHECK_FAILED for v in graded.verdicts.values())
+            if certain and new:
+                self._cache.store(_result(self._keys[student]), outcome)
+            recorder.record(student, graded)
+            standing = recorder.standings(student)[student]
+            states = [verdict.state.value for verdict in graded.verdicts.values()]
+            if certain:
+                entry = self._state(student, standing)
+                entry |= {"states": states, "notes": outcome["notes"]}
+                self._cache.store(_done(recorder.assignment, student), entry)
+        except Exception as error:
+            recorder.forget()
+            self._refuse(student, f"{type(error).__name__}: {shortened(str(error))}")
+        else:
+            self._note(student, states, outcome["notes"], standing, graded=certain)
+
+    def _refuse(self, student: str, why: str) -> None:
+        try:
+            self._recorder.refuse(student)
+        except Exception as error:
+            self._recorder.forget()
+            why = f"{why}; {type(error).__name__}: {shortened(str(error))}"
+        self._lines[student] = Line(student, notes=(why,), graded=False)
+
+    def _note(self, student, states, notes, standing, **more) -> None:
+        counts = [f"{count} {state}" for state, count in Counter(states).items()]
+        if standing.to_read:
+            counts.append(f"{standing.to_read} to be read")
+        self._lines[student] = Line(
+            student,
+            standing.score,
+            self._recorder.max_score,
+            ", ".join(counts),
+            tuple(notes),
+            **more,
+        )
+
+
+def table(lines: list[Line]) -> str:
+    """The lines as a table: student, score, states, notes."""
+    rows = [("student", "score", "states", "notes")]
+    for line in lines:
+        score = "" if line.score is None else f"{line.score:g} of {line.most:g}"
+        states = line.states or "could not be graded"
+        first, *others = line.notes or ("",)
+        rows.append((line.student, score, states, first))
+        rows += [("", "", "", note) for note in others]
+    widths = [max(len(row[column]) for row in rows) for column in range(3)]
+    shown = "\n".join(
+        "  ".join([*(cell.ljust(width) for cell, width in zip(row, widths, strict=False)), row[3]])
+        .rstrip()
+        for row in rows
+    )  # fmt: skip
+    redone = sum(line.redone and line.graded for line in lines)
+    unchanged = sum(not line.redone for line in lines)
+    failed = sum(not line.graded for line in lines)
+    tail = f"{redone} graded, {unchanged} unchanged"
+    return f"{shown}\n\n{tail}" + (f", {failed} could not be graded" if failed else "")
+
+
+def _bar(total: int):
+    """A progress bar, where someone is there to see it."""
+    return tqdm(total=total, unit="notebook", disable=None, leave=False)
+
+
+def _broken(path: Path, error: Exception) -> str:
+    if isinstance(error, FileNotFoundError):
+        return f"there is no {path.name}"
+    if isinstance(error, UnicodeDecodeError | nbformat.reader.NotJSONError):
+        return f"{path.name} is not valid JSON: ask for it again"
+    return f"{path.name} cannot be read: {type(error).__name__}: {shortened(str(error))}"
+
+
+def _result(key: str) -> str:
+    return f"results/{key[:2]}/{key}"
+
+
+def _done(assignment: str, student: str) -> str:
+    return f"recorded/{assignment}/{student}"

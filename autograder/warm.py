@@ -1,0 +1,170 @@
+"""The warm process, from outside: started once, it forks a room in the time a cold one takes to load.
+
+A grader process has one, started with its first room and ended with the process, however that
+ends: the warm process reads a socket whose other end is here, and stops when that is closed.
+"""
+
+import atexit
+import os
+import select
+import signal
+import socket
+import subprocess
+import tempfile
+import threading
+from contextlib import suppress
+
+START_SECONDS = 60.0
+END_SECONDS = 10.0
+
+
+class Nursery:
+    """A running warm process. `start_room` gives a fork of it; OSError where it cannot.
+
+    command, environment, more: what starts it, and subprocess.Popen's further arguments.
+    """
+
+    def __init__(self, command: list[str], environment: dict[str, str], **more):
+        self._lock = threading.Lock()
+        self._said = tempfile.TemporaryFile()  # noqa: SIM115  closed in close
+        self._channel, inside = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        with inside:
+            self._process = subprocess.Popen(
+                command,
+                env=environment,
+                cwd="/",
+                stdin=inside,
+                stdout=subprocess.DEVNULL,
+                stderr=self._said,
+                start_new_session=True,
+                **more,
+            )
+        if not select.select([self._channel], [], [], START_SECONDS)[0] or not self._read_ready():
+            said = os.pread(self._said.fileno(), 4096, 0).decode(errors="replace").strip()
+            self.close()
+            raise OSError(f"the warm process did not start: {said[-300:]}")
+
+    def _read_ready(self) -> bool:
+        with suppress(OSError):
+            return self._channel.recv(16) == b"ready"
+        return False
+
+    @property
+    def alive(self) -> bool:
+        with self._lock:
+            return self._process.poll() is None
+
+    def start_room(self) -> "WarmProcess":
+        """A fork in namespaces of its own, where the runner starts."""
+        request_end, requests = os.pipe()
+        replies, reply_end = os.pipe()
+        handles, handle_end = socket.socketpair()
+        passed = [request_end, reply_end, handle_end.fileno()]
+        try:
+            with self._lock:
+                socket.send_fds(self._channel, [b"room"], passed)
+        except OSError as error:
+            os.close(requests)
+            os.close(replies)
+            handles.close()
+            raise OSError(f"the warm process has ended: {error}") from None
+        finally:
+            os.close(request_end)
+            os.close(reply_end)
+            handle_end.close()
+        with handles:
+            return WarmProcess(self, requests, replies, _receive_handle(handles))
+
+    def close(self) -> None:
+        """End the process and all its rooms."""
+        with self._lock:
+            self._channel.close()
+            try:
+                self._process.wait(END_SECONDS)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()
+            self._said.close()
+
+    def forget(self) -> None:
+        """In a fork of the grader: this end of the socket must not keep the warm process alive."""
+        self._channel.close()
+        self._process.returncode = 0  # another process's child, and not to be warned of
+
+
+class WarmProcess:
+    """One room's processes. requests, replies: descriptors, as of a subprocess's pipes."""
+
+    def __init__(self, nursery: Nursery, requests: int, replies: int, handle: int | None):
+        self._nursery, self._handle = nursery, handle
+        self.requests, self.replies = requests, replies
+        self.ended = False
+
+    def said(self) -> str:
+        return ""
+
+    def outlived_its_keeper(self) -> bool:
+        """Whether the warm process ended, so that the end of this room is not the room's doing."""
+        return not self._nursery.alive
+
+    def end(self) -> None:
+        """Kill process 1 of the room, with which the kernel ends all others; wait for it."""
+        if self.ended:
+            return
+        self.ended = True
+        if self._handle is not None:
+            with suppress(ProcessLookupError):
+                signal.pidfd_send_signal(self._handle, signal.SIGKILL)
+            # Readable when the last process of the namespace is gone.
+            select.select([self._handle], [], [], START_SECONDS)
+            os.close(self._handle)
+        os.close(self.requests)
+        os.close(self.replies)
+
+
+def _receive_handle(handles: socket.socket) -> int | None:
+    """A descriptor of process 1 of the room, or None where it did not come to that."""
+    if not select.select([handles], [], [], START_SECONDS)[0]:
+        return None
+    with suppress(OSError):
+        _, descriptors, *_ = socket.recv_fds(handles, 16, 1)
+        return descriptors[0] if descriptors else None
+    return None
+
+
+_nursery: Nursery | None = None
+_starting = threading.Lock()
+
+
+def nursery(start) -> Nursery:
+    """The one of this process; `start()` makes it, at first and when the last one has ended."""
+    global _nursery
+    with _starting:
+        if _nursery is not None and not _nursery.alive:
+            _nursery.close()
+            _nursery = None
+        if _nursery is None:
+            _nursery = start()
+        return _nursery
+
+
+def _forget():
+    global _nursery, _starting
+    _starting = threading.Lock()
+    if _nursery is not None:
+        _nursery.forget()
+        _nursery = None
+
+
+@atexit.register
+def close() -> None:
+    """End this process's nursery, if it has one."""
+    global _nursery
+    with _starting:
+        if _nursery is not None:
+            _nursery.close()
+            _nursery = None
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_forget)

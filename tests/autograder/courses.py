@@ -1,0 +1,112 @@
+"""Courses with submissions, for tests of whole grading runs, and what their gradebooks hold."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from functools import cache
+from pathlib import Path
+
+import nbformat
+import sqlalchemy
+
+ROOT = Path(__file__).parents[2]
+P3 = "p3-pendulum"
+NOTEBOOK = f"{P3}.ipynb"
+SEED = "0123456789abcdef"
+TABLES = ("student", "submitted_assignment", "submitted_notebook", "grade", "comment")
+
+
+def run(root: Path, *command: str, status: int = 0) -> str:
+    """What one of the environment's commands printed; it must end with this status."""
+    program = Path(sys.executable).parent / command[0]
+    environment = os.environ | {"JUPYTER_DATA_DIR": str(root / "data")}
+    result = subprocess.run(
+        [program, *command[1:]], cwd=root, capture_output=True, text=True, env=environment
+    )
+    printed = result.stdout + result.stderr
+    assert result.returncode == status, printed
+    return printed
+
+
+@cache
+def _released() -> tempfile.TemporaryDirectory:
+    folder = tempfile.TemporaryDirectory(prefix="course-")
+    root = Path(folder.name)
+    shutil.copy(ROOT / "nbgrader_config.py", root)
+    shutil.copytree(ROOT / "solutions" / P3, root / "solutions" / P3)
+    run(root, "nbgrader", "generate_assignment", P3)
+    (root / "course" / "seed").write_text(SEED)
+    return folder
+
+
+def new_course(root: Path) -> Path:
+    """A course whose p3 is released, in the folder `root`, which is made."""
+    shutil.copytree(_released().name, root)
+    return root
+
+
+def release(root: Path):
+    return nbformat.read(root / "course" / "release" / P3 / NOTEBOOK, as_version=4)
+
+
+def submit(root: Path, student: str, notebook, timestamp: str = "") -> Path:
+    """Hand in a notebook, or a text that is none; the file."""
+    folder = root / "course" / "submitted" / student / P3
+    folder.mkdir(parents=True, exist_ok=True)
+    text = notebook if isinstance(notebook, str) else json.dumps(notebook)
+    (folder / NOTEBOOK).write_text(text)
+    if timestamp:
+        (folder / "timestamp.txt").write_text(timestamp)
+    return folder / NOTEBOOK
+
+
+def database(root: Path) -> str:
+    return f"sqlite:///{root / 'course' / 'gradebook.db'}"
+
+
+def rows(url: str) -> dict[str, list[tuple]]:
+    """Every row that grading writes, by table, with names in the place of random ids."""
+    engine = sqlalchemy.create_engine(url)
+    with engine.connect() as connection:
+
+        def all_of(table):
+            result = connection.execute(sqlalchemy.text(f"SELECT * FROM {table}"))
+            return [dict(row) for row in result.mappings()]
+
+        names = {row["id"]: row["name"] for t in ("assignment", "notebook", "base_cell")
+                 for row in all_of(t)}  # fmt: skip
+        for row in all_of("submitted_assignment"):
+            names[row["id"]] = f"{row['student_id']}/{names[row['assignment_id']]}"
+        for row in all_of("submitted_notebook"):
+            names[row["id"]] = f"{names[row['assignment_id']]}/{names[row['notebook_id']]}"
+        found = {
+            table: sorted(
+                (tuple((key, names.get(value, value)) for key, value in row.items()
+                       if (table, key) != ("grade", "id") and (table, key) != ("comment", "id"))
+                 for row in all_of(table)),
+                key=repr,
+            )
+            for table in TABLES
+        }  # fmt: skip
+    engine.dispose()
+    return found
+
+
+def files(folder: Path) -> dict[str, object]:
+    """Every file below a folder, and the folders that hold some: permissions, and what is in it."""
+    found = {}
+    for path in sorted(folder.rglob("*")):
+        if path.is_dir() and not any(below.is_file() for below in path.rglob("*")):
+            continue  # nbgrader leaves an empty one where it failed
+        shown = oct(path.stat().st_mode)
+        if path.suffix == ".ipynb":
+            notebook = nbformat.read(path, as_version=4)
+            for cell in notebook.cells:
+                cell.pop("id", None)  # nbformat replaces doubled ones by random ones
+            found[str(path.relative_to(folder))] = shown, notebook
+        else:
+            found[str(path.relative_to(folder))] = shown, path.is_file() and path.read_bytes()
+    return found

@@ -1,0 +1,162 @@
+"""The zoo: no attack earns a point, harms the next submission or leaves a process behind."""
+
+import ctypes
+import os
+import shutil
+import time
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from autograder import grade as grading
+from autograder import sandbox
+from autograder.grade import grade
+from autograder.nbgrader_glue import outputs_for, write_problem
+from autograder.repair import grade_id
+from autograder.sandbox import Room
+from autograder.verdict import State
+from tests.submissions import p3_pendulum
+from tests.submissions.hostile import ATTACKS, GOT, OUTSIDE, ROOT
+from tests.submissions.p3_pendulum import POINTS, cell_of
+
+P3 = "p3-pendulum"
+SHOWN_OFF = ("p3-euler-lagrange", "p3-swing-plot")
+PR_SET_CHILD_SUBREAPER = 36
+
+
+def without_plots(notebook):
+    notebook.cells = [cell for cell in notebook.cells if grade_id(cell) not in SHOWN_OFF]
+    return notebook
+
+
+SOURCE = without_plots(nbformat.read(ROOT / "solutions" / P3 / f"{P3}.ipynb", as_version=4))
+
+
+@pytest.fixture(scope="module")
+def release(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("release")
+    write_problem(ROOT, P3, folder)
+    return without_plots(nbformat.read(folder / f"{P3}.ipynb", as_version=4))
+
+
+@pytest.fixture(scope="module")
+def orphans_come_here():
+    """Whatever is left behind becomes a child of this process, so that it can be seen."""
+    prctl = ctypes.CDLL(None).prctl
+    prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    yield
+    prctl(PR_SET_CHILD_SUBREAPER, 0, 0, 0, 0)
+
+
+@pytest.fixture
+def short_limits(monkeypatch):
+    """A second for what takes ten: the limits are what is tested, not how long they are."""
+    monkeypatch.setattr(Room.run, "__defaults__", (1.0,))
+    monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
+    monkeypatch.setattr(sandbox, "GRACE_SECONDS", 1.0)
+
+
+def descendants() -> set[int]:
+    """The living processes below this one."""
+    children = {}
+    for entry in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, parent = entry.read_text().rpartition(")")[2].split()[:2]
+        except OSError:
+            continue
+        if state != "Z":
+            children.setdefault(int(parent), []).append(int(entry.parent.name))
+    found, left = set(), [os.getpid()]
+    while left:
+        below = children.get(left.pop(), [])
+        found.update(below)
+        left += below
+    return found
+
+
+def eventually(met) -> bool:
+    for _ in range(100):
+        if met():
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def points(graded) -> dict[str, float]:
+    """What nbgrader reads from the outputs of each grade cell."""
+    return {
+        name: 0.0
+        if verdict.state is State.CHECK_FAILED
+        else float(outputs_for(verdict, POINTS[name])[-1].data["text/plain"])
+        for name, verdict in graded.verdicts.items()
+    }
+
+
+def said(graded) -> str:
+    """All that the instructor and the student are told."""
+    cells = [cell for cell in graded.notebook.cells if cell.cell_type == "code"]
+    outputs = [str(dict(output)) for cell in cells for output in cell.outputs]
+    verdicts = graded.verdicts.values()
+    sentences = [line for verdict in verdicts for line in (verdict.headline, *verdict.lines())]
+    return "\n".join([*sentences, *graded.notes, *outputs])
+
+
+@pytest.fixture(scope="module")
+def before(orphans_come_here, release, needs):
+    """The processes there are when nothing hostile has run yet."""
+    needs("bubblewrap")
+    assert points(grade(p3_pendulum.right(release), SOURCE, "seed")) == POINTS
+    return descendants()
+
+
+@pytest.fixture
+def outside():
+    """A place with a course, which no room may touch."""
+    (OUTSIDE / "course").mkdir(parents=True)
+    for name in ("gradebook.db", "seed"):
+        (OUTSIDE / "course" / name).touch()
+    yield OUTSIDE
+    shutil.rmtree(OUTSIDE)
+
+
+@pytest.mark.parametrize("attack", ATTACKS.values(), ids=ATTACKS)
+def test_no_attack_earns_a_point(attack, release, before, outside, short_limits):
+    graded = grade(attack.edit(release), SOURCE, "seed")
+    assert points(graded) == attack.points
+    assert all(verdict.state is not State.CHECK_FAILED for verdict in graded.verdicts.values())
+
+    told = said(graded)
+    assert attack.says in told or not attack.lost
+    assert GOT not in told
+    assert "<script" not in told
+    for name in attack.lost:
+        assert graded.verdicts[name].lines()
+    nbformat.validate(graded.notebook)
+    assert len(nbformat.writes(graded.notebook)) < 60_000_000
+    assert sorted(path.name for path in outside.rglob("*")) == ["course", "gradebook.db", "seed"]
+    assert (outside / "course" / "gradebook.db").stat().st_size == 0
+
+    assert eventually(lambda: descendants() <= before), "a process was left behind"
+    assert points(grade(p3_pendulum.right(release), SOURCE, "seed")) == POINTS
+
+
+def test_many_loops_cost_one_limit_of_the_whole_notebook(release, short_limits, monkeypatch):
+    monkeypatch.setattr(grading, "NOTEBOOK_SECONDS", 1.5)
+    monkeypatch.setattr(Room.run, "__defaults__", (0.5,))
+    notebook = p3_pendulum.right(release)
+    loops = [nbformat.v4.new_code_cell("while True: sum(())") for _ in range(9)]
+    after = notebook.cells.index(cell_of(notebook, "p3-M"))
+    notebook.cells[after + 1 : after + 1] = loops
+    graded = grade(notebook, SOURCE, "seed")
+    earned = ("p3-lagrangian", "p3-M")
+    assert points(graded) == {name: POINTS[name] * (name in earned) for name in POINTS}
+    told = said(graded)
+    assert 1 <= told.count("TimeoutError: this cell ran longer than 0.5 s") <= 4
+    assert "not run: the notebook took 1.5 s before it came to this cell" in told
+    assert "g_vec(q, pend) did not return within the 1.5 s that the whole notebook has" in told
+
+
+def test_the_zoo_is_large_and_each_says_what_it_tries():
+    assert len(ATTACKS) >= 40
+    assert all(attack.tries.endswith(".") for attack in ATTACKS.values())

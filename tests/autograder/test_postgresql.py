@@ -1,0 +1,74 @@
+"""The gradebook in a PostgreSQL server holds what it holds in SQLite."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import pytest
+
+from autograder.cli import main
+from tests.autograder import courses
+from tests.autograder.courses import P3, rows, submit
+from tests.submissions import p3_pendulum
+
+# The server refuses to run as root.
+USER = {"user": "postgres"} if os.name == "posix" and os.geteuid() == 0 else {}
+START_SECONDS = 30.0
+
+
+@pytest.fixture(scope="module")
+def server(needs):
+    """The folder of a private server's socket; no other way leads to it."""
+    programs = Path(needs("postgresql")).resolve().parent
+    folder = Path(tempfile.mkdtemp(prefix="postgresql-"))
+    if USER:
+        shutil.chown(folder, **USER)
+    data = folder / "data"
+    made = [programs / "initdb", "--username=grader", "--auth=trust", "--no-sync", data]
+    subprocess.run(made, check=True, capture_output=True, cwd=folder, **USER)
+    started = [programs / "postgres", "-D", data, "-k", folder, "-h", "", "-F"]
+    with (folder / "log").open("wb") as log:
+        process = subprocess.Popen(started, stdout=log, stderr=log, cwd=folder, **USER)
+    try:
+        wait_for(programs / "createdb", folder, process)
+        yield folder
+    finally:
+        process.terminate()
+        process.wait(START_SECONDS)
+        shutil.rmtree(folder)
+
+
+def wait_for(createdb: Path, folder: Path, process: subprocess.Popen) -> None:
+    deadline = time.monotonic() + START_SECONDS
+    command = [createdb, "--host", folder, "--username", "grader", "gradebook"]
+    while subprocess.run(command, capture_output=True).returncode:
+        assert process.poll() is None, (folder / "log").read_text()
+        assert time.monotonic() < deadline, (folder / "log").read_text()
+        time.sleep(0.1)
+
+
+def test_rows_are_those_of_sqlite(server, tmp_path, monkeypatch, capsys):
+    url = f"postgresql+psycopg2://grader@/gradebook?host={server}"
+    there = courses.new_course(tmp_path / "there")
+    for name in ("right", "partly_right", "blank", "mangled"):
+        submit(there, name, getattr(p3_pendulum, name)(courses.release(there)))
+    submit(there, "invalid", '{"cells": [')
+    here = tmp_path / "here"
+    shutil.copytree(there, here)
+    (there / "course" / "gradebook.db").unlink()
+    with (there / "nbgrader_config.py").open("a") as config:
+        config.write(f"c.CourseDirectory.db_url = {url!r}\n")
+    courses.run(there, "nbgrader", "generate_assignment", P3, "--force")
+    for root in (here, there):
+        monkeypatch.chdir(root)
+        assert main(["grade", P3, "--jobs", "1"]) == 1
+        assert "4 graded, 0 unchanged, 1 could not be graded" in capsys.readouterr().out
+    assert not (there / "course" / "gradebook.db").exists()
+    assert rows(url) == rows(courses.database(here))
+    before = rows(url)
+    assert main(["grade", P3, "--jobs", "1"]) == 1
+    assert "0 graded, 4 unchanged, 1 could not be graded" in capsys.readouterr().out
+    assert rows(url) == before

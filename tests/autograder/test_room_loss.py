@@ -1,0 +1,178 @@
+"""What ends a room, what does not, and that nothing is left of it."""
+
+import os
+import shutil
+import sys
+import time
+
+import pytest
+
+from autograder import bubblewrap, sandbox
+from autograder.sandbox import Room, RoomLostError, Way
+from autograder.wall import Call
+from tests.autograder.rooms import EVERY_WAY, appears, failed, gone, printed, sleeper
+
+
+@EVERY_WAY
+class TestLoss:
+    @pytest.mark.parametrize(
+        "source",
+        [
+            "import os\nos._exit(0)",
+            "import os, signal\nos.kill(os.getpid(), signal.SIGKILL)",
+            "import ctypes\nctypes.string_at(0)",
+        ],
+    )
+    def test_a_process_that_ends_itself_is_a_lost_room(self, way, source):
+        with Room(way) as room, pytest.raises(RoomLostError, match="it ended"):
+            room.run(source)
+
+    def test_a_process_that_ends_later_is_a_lost_room(self, way):
+        with Room(way) as room:
+            room.run("import os, threading\nthreading.Timer(0.2, os._exit, [0]).start()")
+            time.sleep(0.6)
+            with pytest.raises(RoomLostError):
+                room.ask([Call("f", ())])
+
+    def test_silence_is_a_lost_room(self, way, monkeypatch):
+        monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.3)
+        deaf = "import signal\nsignal.signal(signal.SIGALRM, signal.SIG_IGN)\nwhile True: pass"
+        with Room(way) as room, pytest.raises(RoomLostError, match="no reply within"):
+            room.run(deaf, seconds=0.2)
+
+    def test_a_process_that_does_not_read_is_a_lost_room(self, way, monkeypatch):
+        monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.3)
+        # Answers by itself, then stays in its cell.
+        stop = (
+            "import os, signal, time\n"
+            "signal.signal(signal.SIGALRM, signal.SIG_IGN)\n"
+            "for fd in (3, 4):\n"
+            "    try: os.write(fd, b'{\"outputs\": []}\\n')\n"
+            "    except OSError: pass\n"
+            "time.sleep(60)"
+        )
+        with Room(way) as room:
+            room.run(stop)
+            with pytest.raises(RoomLostError, match="stopped listening"):
+                room.run("#" * (1 << 20))
+
+    @pytest.mark.parametrize(
+        "rubbish",
+        [
+            "b'\\xff\\xfe\\n'",
+            "b'null\\n[]\\n1\\n'",
+            "b'[' * 10**5 + b'\\n'",
+            "b'{\"outputs\": [1, null]}\\n' * 9",
+            'b\'{"outputs": {"a": 1}, "replies": 3}\\n\' * 9',
+            'b\'{"outputs": [], "replies": []}\\n\' * 9',
+            'b\'{"outputs": [], "replies": [null, 1, {"value": "x"}]}\\n\' * 9',
+        ],
+    )
+    def test_rubbish_on_any_descriptor_is_at_worst_a_lost_room(self, way, rubbish):
+        source = (
+            "import os, glob\n"
+            "for name in glob.glob('/proc/[0-9]*/fd/*') if WALLED else []:\n"
+            "    try: os.write(os.open(name, os.O_WRONLY | os.O_NONBLOCK), RUBBISH)\n"
+            "    except OSError: pass\n"
+            "for fd in range(64):\n"
+            "    try: os.write(fd, RUBBISH)\n"
+            "    except OSError: pass\n"
+        ).replace("RUBBISH", rubbish)
+        # Without walls these would be every process of this user.
+        source = source.replace("WALLED", str(way is not Way.NONE))
+        with Room(way) as room:
+            try:
+                for output in room.run(source):
+                    assert isinstance(output, dict)
+                for reply in room.ask([Call("f", ())] * 3):
+                    assert (reply.value is None) != (reply.fault is None)
+            except RoomLostError:
+                pass
+
+    def test_endless_reply_is_cut_off(self, way, monkeypatch):
+        monkeypatch.setattr(sandbox, "MOST_BYTES", 1 << 20)
+        flood = (
+            "import os\nwhile True:\n    for fd in (3, 4):\n"
+            "        try: os.write(fd, b'x' * 65536)\n        except OSError: pass"
+        )
+        with Room(way) as room, pytest.raises(RoomLostError, match="too much"):
+            room.run(flood)
+
+    def test_forged_outputs_are_bounded(self, way):
+        forge = "import os\nfor fd in (3, 4):\n    try: os.write(fd, b'{\"outputs\": [' + "
+        forge += "b'{},' * 9999 + b'{}]}\\n')\n    except OSError: pass"
+        with Room(way) as room:
+            assert len(room.run(forge)) <= sandbox.MOST_OUTPUTS
+
+    def test_output_bomb_stays_inside(self, room):
+        (output,) = room.run("for _ in range(100):\n    print('x' * 10**6)")
+        assert len(output["text"]) <= 200_000
+        assert printed(room, "print('alive')") == "alive"
+
+    def test_memory_bomb_stays_inside(self, way):
+        bomb = "kept = []\nwhile True:\n    kept.append(bytes(1 << 30))"
+        with Room(way) as room:
+            assert failed(room, bomb).startswith("MemoryError")
+
+    def test_file_bomb_stays_inside(self, room):
+        bomb = (
+            "import signal, tempfile\nsignal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+            "with tempfile.TemporaryFile() as file:\n"
+            "    for _ in range(100): file.write(bytes(1 << 20))"
+        )
+        assert failed(room, bomb).startswith("OSError: [Errno 2")
+
+
+@EVERY_WAY
+def test_children_end_with_the_room(way):
+    mark = f"mark-{os.urandom(8).hex()}"
+    with Room(way) as room:
+        room.run(f"import subprocess, sys\nsubprocess.Popen({sleeper(mark)})")
+        assert appears(mark)
+    assert gone(mark)
+
+
+@EVERY_WAY
+def test_children_end_with_a_room_that_ends_itself(way):
+    mark = f"mark-{os.urandom(8).hex()}"
+    with Room(way) as room, pytest.raises(RoomLostError):
+        room.run(
+            "import os, subprocess, sys, time\n"
+            f"subprocess.Popen({sleeper(mark)})\ntime.sleep(0.2)\nos._exit(0)"
+        )
+    assert gone(mark)
+
+
+@EVERY_WAY
+def test_closing_twice_does_nothing(way):
+    room = Room(way)
+    room.close()
+    assert room.closed
+    room.close()
+
+
+@pytest.mark.parametrize("way", [Way.COLD, Way.NONE], indirect=True, ids=lambda way: way.name)
+def test_folder_goes_with_the_room(way):
+    with Room(way) as room:
+        folder = room._process.folder
+        room.run("open('mine', 'w').write('x')")
+        assert folder.exists()
+    assert not folder.exists()
+
+
+def test_a_sandbox_that_does_not_start_is_not_blamed_on_the_student(monkeypatch):
+    monkeypatch.setattr(sys, "executable", shutil.which("false"))
+    with pytest.raises(OSError, match="the sandbox did not start: it ended"):
+        Room(Way.NONE)
+
+
+def test_missing_bubblewrap_is_warned_of_once(monkeypatch, caplog):
+    monkeypatch.setenv("PATH", "")
+    bubblewrap.has_bubblewrap.cache_clear()
+    try:
+        assert not bubblewrap.has_bubblewrap()
+        assert not bubblewrap.has_bubblewrap()
+    finally:
+        bubblewrap.has_bubblewrap.cache_clear()
+    (record,) = caplog.records
+    assert "NOT shut off from files and network" in record.getMessage()

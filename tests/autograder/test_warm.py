@@ -1,0 +1,252 @@
+"""The warm way: forks of one process that know nothing of each other, and end with it."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from autograder import sandbox, warm
+from autograder.sandbox import Room, Way
+from tests.autograder.rooms import (
+    appears,
+    eventually,
+    failed,
+    gone,
+    printed,
+    processes_with,
+    sleeper,
+)
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(autouse=True)
+def _bubblewrap(needs):
+    needs("bubblewrap")
+
+
+@pytest.fixture
+def pair():
+    """Two rooms at once."""
+    with Room(Way.WARM) as one, Room(Way.WARM) as other:
+        yield one, other
+
+
+@pytest.fixture
+def own_nursery(monkeypatch):
+    """A warm process for this test alone."""
+    monkeypatch.setattr(warm, "_nursery", None)
+    yield
+    warm.close()
+
+
+class TestApart:
+    """Nothing of one room is there in another."""
+
+    @pytest.mark.parametrize("folder", ["/tmp", "/dev/shm"])
+    def test_files(self, pair, folder):
+        one, other = pair
+        one.run(f"open('{folder}/mine', 'w').write('42')")
+        assert "mine" in printed(one, f"import os\nprint(os.listdir('{folder}'))")
+        assert "mine" not in printed(other, f"import os\nprint(os.listdir('{folder}'))")
+        with Room(Way.WARM) as later:
+            assert "mine" not in printed(later, f"import os\nprint(os.listdir('{folder}'))")
+
+    def test_processes(self, pair):
+        listed = "import os\nprint(*sorted(int(p) for p in os.listdir('/proc') if p.isdigit()))"
+        for room in pair:
+            assert printed(room, listed) == "1 2"
+
+    def test_terminals(self, pair):
+        one, other = pair
+        assert printed(one, "import os\nends = os.openpty()\nprint(os.ttyname(ends[1]))")
+        assert printed(other, "import os\nprint(os.listdir('/dev/pts'))") == "['ptmx']"
+
+    def test_sockets(self, pair):
+        one, other = pair
+        one.run("import socket\ns = socket.socket(socket.AF_UNIX)\ns.bind('\\0mine'); s.listen()")
+        connect = "import socket\nsocket.socket(socket.AF_UNIX).connect('\\0mine')"
+        assert one.run(connect) == []
+        assert failed(other, connect).startswith("ConnectionRefusedError")
+
+    def test_shared_memory_of_system_v(self, pair):
+        ask = "import ctypes\nprint(ctypes.CDLL(None).shmget(77, 4096, {}))"
+        one, other = pair
+        assert printed(one, ask.format(0o1666)) != "-1"
+        assert printed(one, ask.format(0)) != "-1"
+        assert printed(other, ask.format(0)) == "-1"
+
+    def test_modules_changed_by_one_are_whole_in_the_other(self, pair):
+        one, other = pair
+        one.run(
+            "import builtins, numpy as np, sympy\n"
+            "np.sin = sympy.sin = builtins.abs = None\n"
+            "np.pi = 3"
+        )
+        seen = "import numpy as np, sympy\nprint(np.sin(0.0), sympy.sin(0), abs(-1), np.pi > 3)"
+        with Room(Way.WARM) as later:
+            for room in (other, later):
+                assert printed(room, seen) == "0.0 0 1 True"
+
+    def test_random_numbers_are_the_same_in_each(self, pair):
+        draw = (
+            "import random, numpy as np, sympy\n"
+            "print(random.random(), np.random.rand(), sympy.Dummy('x').dummy_index, hash('x'))"
+        )
+        one, other = pair
+        seen = printed(one, draw)
+        assert printed(one, draw) != seen
+        assert printed(other, draw) == seen
+
+    def test_a_new_warm_process_draws_the_same_numbers(self, pair, own_nursery):
+        draw = "import numpy as np, sympy\nprint(np.random.rand(), sympy.Dummy().dummy_index)"
+        with Room(Way.WARM) as room:
+            assert printed(room, draw) == printed(pair[0], draw)
+
+
+class TestRights:
+    def test_no_namespaces_within(self, pair):
+        new_user = "import ctypes\nprint(ctypes.CDLL(None).unshare(0x10000000))"
+        assert printed(pair[0], new_user) == "-1"
+
+    def test_the_first_process_is_out_of_reach(self, pair):
+        room, _ = pair
+        room.run("import os, signal\nfor s in range(1, 32): os.kill(1, s)")
+        assert printed(room, "print('alive')") == "alive"
+        assert failed(room, "open('/proc/1/mem', 'rb')").startswith("PermissionError")
+        assert failed(room, "import os\nos.listdir('/proc/1/fd')").startswith("PermissionError")
+
+    def test_what_covers_the_parents_files_cannot_be_taken_off(self, pair):
+        umount = (
+            "import ctypes\nprint(*(ctypes.CDLL(None).umount2(f, 2) for f in (b'/tmp', b'/proc')))"
+        )
+        assert printed(pair[0], umount) == "-1 -1"
+
+    def test_memory_is_given_up_first(self, pair):
+        assert printed(pair[0], "print(open('/proc/self/oom_score_adj').read())") == "1000"
+
+
+class TestLife:
+    def test_rooms_leave_nothing_behind(self, pair):
+        before = len(processes_with("/room/forks.py"))
+        for _ in range(5):
+            with Room(Way.WARM) as room:
+                room.run("import os\nif os.fork() == 0:\n    import time; time.sleep(99)")
+        assert eventually(lambda: len(processes_with("/room/forks.py")) == before)
+
+    def test_no_descriptor_is_left_open_here(self, pair):
+        before = os.listdir("/proc/self/fd")
+        for _ in range(3):
+            Room(Way.WARM).close()
+        assert os.listdir("/proc/self/fd") == before
+
+    def test_a_warm_process_that_died_is_started_again(self, own_nursery):
+        with Room(Way.WARM) as room:
+            first = warm._nursery
+            assert printed(room, "print('alive')") == "alive"
+            inside = max(_warm_processes(first))
+            os.kill(inside, signal.SIGKILL)
+            assert eventually(lambda: not first.alive)
+            # Not the student's doing, so not RoomLostError.
+            with pytest.raises(OSError, match="process that keeps the sandboxes"):
+                room.run("1")
+        with Room(Way.WARM) as room:
+            assert printed(room, "print('alive')") == "alive"
+        assert warm._nursery is not first
+
+    def test_it_outlives_the_thread_that_started_it(self, own_nursery):
+        thread = threading.Thread(target=lambda: Room(Way.WARM).close())
+        thread.start()
+        thread.join()
+        first = warm._nursery
+        with Room(Way.WARM) as room:
+            assert printed(room, "print('alive')") == "alive"
+        assert warm._nursery is first
+
+    def test_threads_share_it(self):
+        def answer(number):
+            with Room(Way.WARM) as room:
+                room.run(f"n = {number}")
+                return int(printed(room, "print(n)"))
+
+        with ThreadPoolExecutor(4) as pool:
+            assert list(pool.map(answer, range(8))) == list(range(8))
+
+    @pytest.mark.parametrize("end", [signal.SIGKILL, signal.SIGTERM, None])
+    def test_everything_ends_with_the_grader(self, end):
+        mark = f"mark-{os.urandom(8).hex()}"
+        code = (
+            "import sys\n"
+            "from autograder.sandbox import Room, Way\n"
+            "room = Room(Way.WARM)\n"
+            "room.run(sys.argv[1])\n"
+            "print('ready', flush=True)\n"
+            "sys.stdin.read()\n"
+        )
+        student = f"import subprocess, sys\nsubprocess.Popen({sleeper(mark)})"
+        with subprocess.Popen(
+            [sys.executable, "-c", code, student],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            cwd=ROOT,
+        ) as grader:
+            assert grader.stdout.readline() == b"ready\n"
+            assert appears(mark)
+            if end:
+                grader.send_signal(end)
+        assert gone(mark)
+
+    def test_a_fork_of_the_grader_has_its_own(self):
+        code = (
+            "import os\n"
+            "from autograder import warm\n"
+            "from autograder.sandbox import Room, Way\n"
+            "with Room(Way.WARM) as room:\n"
+            "    pid = os.fork()\n"
+            "    if pid == 0:\n"
+            "        assert warm._nursery is None\n"
+            "        with Room(Way.WARM) as own: own.run('1')\n"
+            "        warm.close()\n"
+            "        os._exit(7)\n"
+            "    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 7\n"
+            "    assert room.run('print(1)')[0]['text'] == '1\\n'\n"
+        )
+        subprocess.run([sys.executable, "-c", code], check=True, timeout=60, cwd=ROOT)
+
+
+class TestFallback:
+    def test_rooms_are_warm_by_default(self):
+        with Room() as room:
+            assert room.way is Way.WARM
+
+    def test_a_cold_room_takes_over_and_the_log_says_why_once(self, monkeypatch, caplog):
+        def refuse(*args):
+            raise OSError("no namespaces today")
+
+        monkeypatch.setattr(warm, "nursery", refuse)
+        sandbox._warm_works.cache_clear()
+        try:
+            for _ in range(2):
+                with Room() as room:
+                    assert room.way is Way.COLD
+        finally:
+            sandbox._warm_works.cache_clear()
+        (record,) = caplog.records
+        assert "no namespaces today" in record.getMessage()
+
+    def test_a_warm_process_that_cannot_start_says_why(self):
+        command = [sys.executable, "-c", "raise SystemExit('no numpy here')"]
+        with pytest.raises(OSError, match="the warm process did not start: no numpy here"):
+            warm.Nursery(command, {})
+
+
+def _warm_processes(nursery) -> list[int]:
+    """The processes that `nursery` started, the warm one among them, without its rooms."""
+    monitor = nursery._process.pid
+    with open(f"/proc/{monitor}/task/{monitor}/children") as file:
+        return [int(pid) for pid in file.read().split()]
