@@ -82,7 +82,9 @@ def _put_right(cell, original, notes) -> None:
     wanted = dict(original.metadata["nbgrader"])
     if any(claims.get(key) != value for key, value in wanted.items()):
         notes.append(f"the nbgrader settings of {name} had been changed")
-    cell.metadata["nbgrader"] = NotebookNode(wanted | ({"checksum": checksum} if checksum else {}))
+    cell.metadata["nbgrader"] = NotebookNode(
+        wanted | ({"checksum": checksum} if isinstance(checksum, str) else {})
+    )
     if is_locked(original):
         cell.source = original.source
 
