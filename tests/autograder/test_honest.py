@@ -7,8 +7,8 @@ from autograder.grade import grade
 from autograder.nbgrader_glue import write_problem
 from autograder.repair import grade_id
 from autograder.verdict import State
+from tests.submissions.attack import ROOT
 from tests.submissions.honest import VARIANTS
-from tests.submissions.hostile import ROOT
 from tests.submissions.p3_pendulum import POINTS, cell_of
 
 P3 = "p3-pendulum"

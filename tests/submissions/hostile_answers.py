@@ -1,0 +1,165 @@
+"""Attacks by what a function returns: objects that lie, numbers that no judge expects, guesses."""
+
+from tests.submissions.attack import attack, cheat
+from tests.submissions.p3_pendulum import RIGHT, function
+
+
+@attack()
+def always_equal(release):
+    """Returns an object that equals, and is less than, everything."""
+    return cheat(
+        release,
+        g_vec="""
+class Yes:
+    __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = lambda self, other: True
+    __sub__ = __rsub__ = __mul__ = __abs__ = lambda self, *other: self
+    __bool__ = lambda self: True
+    __hash__ = None
+    __float__ = lambda self: 0.5
+def g_vec(q, pend):
+    return Yes()
+""",
+    )
+
+
+@attack()
+def lying_array(release):
+    """Returns an array whose ufuncs and functions say what pleases (__array_ufunc__, ...)."""
+    return cheat(
+        release,
+        g_vec="""
+class Liar(np.ndarray):
+    __array_priority__ = 1e9
+    def __array_ufunc__(self, *args, **kwargs): return True
+    def __array_function__(self, *args, **kwargs): return True
+    def astype(self, *args, **kwargs): return self
+    def tolist(self): return [0.5]
+    __eq__ = __le__ = lambda self, other: True
+def g_vec(q, pend):
+    return np.ones(1).view(Liar)
+""",
+    )
+
+
+@attack(says="g_vec(q, pend) raised RuntimeError: p3-g_vec: correct</p><b>")
+def shifty_float(release):
+    """An object whose __float__ raises, with a verdict of its own in the message."""
+    return cheat(
+        release,
+        g_vec="""
+class Shifty:
+    def __float__(self): raise RuntimeError("p3-g_vec: correct</p><b>")
+def g_vec(q, pend):
+    return Shifty()
+""",
+    )
+
+
+@attack(says="g_vec(q, pend) returned nan, which is not a finite number")
+def nan_as_credit(release):
+    """Returns NaN, which a careless score takes for full marks."""
+    return cheat(release, g_vec=function("g_vec", "float('nan')"))
+
+
+@attack(says="g_vec(q, pend) returned inf, which is not a finite number")
+def infinities(release):
+    """Returns infinity, against which every error is relatively small."""
+    return cheat(release, g_vec=function("g_vec", "np.array([np.inf])"))
+
+
+@attack(says="must return numbers")
+def huge_integer(release):
+    """Returns an integer that no float holds."""
+    return cheat(release, g_vec=function("g_vec", "10**400"))
+
+
+@attack(says="g_vec(q, pend) raised ValueError: Exceeds the limit")
+def unprintable_integer(release):
+    """Returns an integer that Python refuses to print."""
+    return cheat(release, g_vec=function("g_vec", "10**5000"))
+
+
+@attack(lost=("p3-g_vec", "p3-lagrangian"))
+def largest_floats(release):
+    """Returns the largest floats, so that the judge's arithmetic overflows."""
+    return cheat(
+        release,
+        lagrangian=function("lagrangian", "1.7e308 * sp.sign(qd - 1) * sp.cos(q)"),
+        g_vec=function("g_vec", "np.copysign(1.79e308, -np.sin(q))"),
+    )
+
+
+@attack(says="g_vec(q, pend) returned 900000 entries, far too many")
+def many_numbers(release):
+    """Returns more numbers than were asked for, the right one perhaps among them."""
+    return cheat(release, g_vec=function("g_vec", "np.linspace(-50, 50, 900_000)"))
+
+
+@attack(says="RecursionError")
+def deep_recursion(release):
+    """Recurs without end."""
+    return cheat(release, g_vec=function("g_vec", "g_vec(q, pend)"))
+
+
+@attack(says="g_vec(q, pend) ")
+def deep_nesting(release):
+    """Returns a list nested deeper than anything can read."""
+    return cheat(
+        release,
+        g_vec="""
+def g_vec(q, pend):
+    value = [0.0]
+    for _ in range(100_000):
+        value = [value]
+    return value
+""",
+    )
+
+
+@attack()
+def answers_an_earlier_call(release):
+    """Answers with what belongs to the inputs of an earlier call."""
+    return cheat(
+        release,
+        g_vec="""
+seen = []
+def g_vec(q, pend):
+    seen.append(pend.m * pend.g * pend.lc * np.sin(q))
+    return seen[0]
+""",
+    )
+
+
+@attack()
+def table_of_visible_cases(release):
+    """Right for the cases that a student sees, which are written into the answer."""
+    from numpy.random import default_rng
+
+    from autograder.check import VISIBLE_SEED
+    from autograder.judge import VISIBLE_CASES
+    from autograder.problems import CHECKS
+
+    check = CHECKS["p3-g_vec"]
+    calls = check.calls(default_rng(VISIBLE_SEED), VISIBLE_CASES)
+    table = {f"{call.args[0][0]:.9f}": check.reference(*call.args) for call in calls}
+    return cheat(release, g_vec=function("g_vec", f"{table!r}.get(f'{{q[0]:.9f}}', 1.0)"))
+
+
+@attack()
+def knows_the_grader(release):
+    """Finds out where it runs, and answers the grader differently."""
+    return cheat(
+        release,
+        g_vec="""
+import os, sys
+here = "wall" in sys.modules or not hasattr(get_ipython(), "kernel") or os.getcwd() == "/tmp"
+def g_vec(q, pend):
+    return 1 + 0 * q if here else pend.m * pend.g * pend.lc * np.sin(q)
+""",
+    )
+
+
+@attack(says="g_vec(q, pend) raised NameError")
+def clears_the_namespace(release):
+    """Takes all names away before it is judged."""
+    return cheat(release, g_vec="globals().clear()\n" + RIGHT["g_vec"])
