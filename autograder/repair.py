@@ -23,6 +23,7 @@ def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode
     without the claim.
     """
     notebook, notes = copy.deepcopy(submission), []
+    _give_form(notebook, source, notes)
     known = {grade_id(cell): cell for cell in source.cells if grade_id(cell)}
     at = _last_places(notebook, known, notes)
     for index, cell in enumerate(notebook.cells):
@@ -38,6 +39,42 @@ def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode
     _put_back(notebook, known, placed, notes)
     _tell_apart(notebook)
     return notebook, notes
+
+
+# What nbformat has rules for; a cell's settings that break them would stop its student's grading.
+RULED = ("collapsed", "deletable", "editable", "execution", "format", "jupyter", "name")
+RULED += ("scrolled", "source_hidden", "tags", "title")
+PARTS = ("cell_type", "id", "metadata", "source")
+PARTS_OF = {"code": ("outputs", "execution_count"), "markdown": ("attachments",)}
+PARTS_OF["raw"] = PARTS_OF["markdown"]
+
+
+def _give_form(notebook, source, notes) -> None:
+    """Make it a valid notebook, of the source's settings, without outputs: they are made anew."""
+    notebook.metadata = copy.deepcopy(source.metadata)
+    for index, cell in enumerate(notebook.cells):
+        kind = cell.get("cell_type")
+        whole = kind in NEW_CELL and isinstance(cell.get("source"), str)
+        if not (whole and isinstance(cell.get("metadata"), dict)):
+            notes.append(f"cell {index + 1} was no whole cell")
+            cell.cell_type = kind = kind if kind in NEW_CELL else "raw"
+            cell.source = cell.source if isinstance(cell.get("source"), str) else ""
+            cell.metadata = NotebookNode()
+        for part in set(cell) - {*PARTS, *PARTS_OF[kind]}:
+            del cell[part]
+        for setting in RULED:
+            cell.metadata.pop(setting, None)
+        if kind == "code":
+            cell.outputs, cell.execution_count = [], None
+        elif "attachments" in cell and not _are_attachments(cell.attachments):
+            del cell["attachments"]
+
+
+def _are_attachments(files) -> bool:
+    return isinstance(files, dict) and all(
+        isinstance(bundle, dict) and all(isinstance(data, str) for data in bundle.values())
+        for bundle in files.values()
+    )
 
 
 def grade_id(cell: NotebookNode) -> str | None:
