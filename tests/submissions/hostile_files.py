@@ -84,12 +84,19 @@ def broken_cells(release):
     """Right answers among cells that lack what a cell has, and are of no known kind."""
     notebook = copy.deepcopy(right(release))
     notebook.cells += [
-        {"cell_type": "code"},
+        {"cell_type": "code", "metadata": {}},
         {"cell_type": "heading", "source": "x", "metadata": {}, "level": 1},
-        {"cell_type": "code", "source": 3, "metadata": [], "outputs": [{}], "id": "!"},
-        {"cell_type": "markdown", "source": ["a\n", "b"], "metadata": {"tags": 1}},
-        {},
+        {"cell_type": "code", "source": 3, "metadata": {"tags": 1}, "outputs": [{}], "id": "!"},
+        {"cell_type": "markdown", "source": "a", "metadata": {}, "attachments": {"a": {"b": 3}}},
     ]
+    return _json(notebook)
+
+
+@file()
+def no_metadata(release):
+    """A cell without metadata, over which nbformat stumbles."""
+    notebook = copy.deepcopy(right(release))
+    del notebook.cells[0]["metadata"]
     return _json(notebook)
 
 
@@ -103,9 +110,11 @@ def broken_outputs(release):
 
 @file(POINTS)
 def great(release):
-    """Fifty megabytes in one cell's text, and as much in outputs."""
-    notebook = ATTACKS["great_cell"].edit(release)
-    return _json(_with_right_g_vec(notebook, release))
+    """Fifty megabytes, nearly all of it in outputs."""
+    notebook = copy.deepcopy(right(release))
+    notebook.cells[0].source += "x" * 1_000_000
+    notebook.cells[2].outputs = [nbformat.v4.new_output("stream", text="y" * 49_000_000)]
+    return _json(notebook)
 
 
 @file(ATTACKS["broken_claims"].points)
@@ -130,11 +139,3 @@ def forged_metadata(release):
     notebook.metadata["language_info"] = {"name": "cobol"}
     notebook.metadata["authors"] = "nobody"
     return _json(notebook)
-
-
-def _with_right_g_vec(notebook, release):
-    answers = {cell.get("id"): cell.source for cell in right(release).cells}
-    for cell in notebook.cells:
-        if cell.metadata.get("nbgrader", {}).get("grade_id") == "answer-g_vec":
-            cell.source = answers[cell.id]
-    return notebook

@@ -64,7 +64,7 @@ if hasattr(shell, "kernel"):
     )
 
 
-@attack()
+@attack(fallback="modules that it writes outside its folder stay, for other programs to import")
 def shadowed_modules(release):
     """Writes modules that shadow those of the judge, and has them imported."""
     return cheat(
