@@ -13,9 +13,10 @@ import threading
 import traceback
 import warnings
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from enum import StrEnum
+from functools import lru_cache
 from types import SimpleNamespace
 
 import numpy as np
@@ -179,17 +180,26 @@ def _evaluate(expression, points) -> np.ndarray:
     except sympy.SympifyError:
         read_numbers(expression)
         raise NotNumbersError(FaultKind.NOT_NUMBERS, _described(expression)) from None
-    symbols = {symbol.name: symbol for symbol in expression.free_symbols}
-    return np.array(
-        [
-            read_numbers(
-                expression.subs(
-                    {symbols[name]: at for name, at in point.items() if name in symbols}
-                )
-            )
-            for point in points
-        ]
-    )
+    if expression.is_Matrix:
+        expression = expression.as_immutable()
+    symbols = tuple(sorted(expression.free_symbols, key=lambda symbol: symbol.name))
+    return np.array([read_numbers(_value_at(expression, symbols, point)) for point in points])
+
+
+def _value_at(expression, symbols, point):
+    """The expression's value there; compiled where that works, for a hundredth of what `subs` costs."""
+    known = {symbol: point[symbol.name] for symbol in symbols if symbol.name in point}
+    if len(known) == len(symbols):
+        with suppress(Exception):  # what NumPy has no word for, SymPy may still evaluate
+            return _compiled(symbols, expression)(*known.values())
+    return expression.subs(known)
+
+
+@lru_cache(maxsize=64)
+def _compiled(symbols, expression):
+    import sympy
+
+    return sympy.lambdify(symbols, expression, "numpy")
 
 
 def _argument(value):
