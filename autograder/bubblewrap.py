@@ -19,7 +19,7 @@ INSIDE = {
     HERE / "room" / "namespaces.py": "namespaces.py",
     HERE / "room" / "stubs" / "autograder.py": "autograder.py",
     HERE / "room" / "stubs" / "armdyn.py": "armdyn.py",
-    HERE / "wall.py": "wall.py",
+    **{path: f"wall/{path.name}" for path in (HERE / "wall").glob("*.py")},
 }
 ENVIRONMENT = {
     "HOME": "/tmp",
@@ -51,7 +51,7 @@ def bubblewrapped(script: str) -> tuple[list[str], dict[str, str]]:
     for folder in _installed_packages():
         command += ["--tmpfs", folder]
     for path, name in INSIDE.items():
-        command += [*_parents("/room/any"), "--ro-bind", str(path), f"/room/{name}"]
+        command += [*_parents(f"/room/{name}"), "--ro-bind", str(path), f"/room/{name}"]
     command += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/tmp"]
     # The environment goes in through bwrap's own: what it is started with stays readable inside.
     return [*command, "--", sys.executable, "-I", "-u", f"/room/{script}", "walled"], ENVIRONMENT

@@ -23,6 +23,7 @@ def html_card(verdict: Verdict) -> str:
     lines += [_paragraph("diagnosis", sentence) for sentence in verdict.diagnosis]
     if verdict.witness:
         lines.append(_paragraph("witness", worst_case(verdict.witness)))
+        lines += [drawing(verdict.witness.pose)] if verdict.witness.pose else []
     lines.append(_paragraph("next", verdict.next_step))
     return (
         f'<div class="armdyn-verdict" data-state="{verdict.state.name.lower().replace("_", "-")}"'
@@ -36,6 +37,23 @@ def html_card(verdict: Verdict) -> str:
 def mimebundle(verdict: Verdict) -> dict[str, str]:
     """The verdict for a notebook's output: plain text, and the card."""
     return {"text/plain": str(verdict), "text/html": html_card(verdict)}
+
+
+def drawing(pose: tuple[tuple[float, float], ...], size: int = 120) -> str:
+    """An arm's joints as an SVG picture with a text for who cannot see it. pose: (x, y) in m."""
+    reach = max(abs(c) for point in pose for c in point) or 1.0
+    at = [(size / 2 * (1 + 0.88 * x / reach), size / 2 * (1 - 0.88 * y / reach)) for x, y in pose]
+    line = " ".join(f"{x:.1f},{y:.1f}" for x, y in at)
+    joints = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="#fff"/>' for x, y in at[:-1])
+    x, y = pose[-1]
+    text = f"The arm in the worst case: its hand is at x = {x:.2f} m, y = {y:.2f} m."
+    base = f'<path d="M{size / 2 - 10:.0f} {size / 2:.0f}h20" stroke="#888888"/>'
+    return (
+        f'<svg role="img" aria-label="{escape(text)}" width="{size}" height="{size}"'
+        f' viewBox="0 0 {size} {size}" stroke="currentColor"><title>{escape(text)}</title>{base}'
+        f'<polyline points="{line}" fill="none" stroke="#0072B2" stroke-width="5"'
+        f' stroke-linecap="round" stroke-linejoin="round"/>{joints}</svg>'
+    )
 
 
 def _paragraph(kind: str, text: str) -> str:

@@ -1,6 +1,5 @@
 """What a student's cell calls, and how the verdict shows there."""
 
-import difflib
 import os
 import sys
 
@@ -8,7 +7,7 @@ import numpy as np
 
 from autograder import card
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
-from autograder.problems import CHECKS
+from autograder.problems import CHECKS, known_check
 from autograder.verdict import State, Verdict
 from autograder.wall import answer_all
 
@@ -37,10 +36,7 @@ def check(id: str, fresh: bool = False) -> None:
     does. Raises NotCorrectError after showing a verdict that is not "correct", and ValueError for
     an unknown id.
     """
-    if id not in CHECKS:
-        close = difflib.get_close_matches(id, CHECKS, n=1)
-        meant = f"; did you mean {close[0]!r}?" if close else f"; known are {', '.join(CHECKS)}"
-        raise ValueError(f"there is no check {id!r}{meant}")
+    known_check(id)
     namespace = sys._getframe(1).f_globals
     rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
     count = HIDDEN_CASES if fresh else VISIBLE_CASES

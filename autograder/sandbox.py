@@ -197,6 +197,7 @@ class ColdProcess:
 
 def _unwalled(folder: Path):
     for path, name in INSIDE.items():
+        (folder / name).parent.mkdir(exist_ok=True)
         shutil.copy(path, folder / name)
     environment = ENVIRONMENT | {
         name: str(folder) for name in ("HOME", "IPYTHONDIR", "MPLCONFIGDIR", "TMPDIR")

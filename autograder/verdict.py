@@ -27,19 +27,24 @@ class Row:
 
 @dataclass(frozen=True)
 class Witness:
-    """The worst case: what was called, what came back, how far off it was, with the unit."""
+    """The worst case: what was called, what came back, how far off it was, with the unit.
+
+    pose: the arm's joints in that call, one (x, y) in m each, where drawing it helps.
+    """
 
     call: str
     returned: str
     off: str
+    pose: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)
 class Verdict:
     """What is known of one answer. `credit` is its share of the cell's points, in [0, 1].
 
-    `problem` says what is wrong with the code where the state is an error; `diagnosis` names the
-    physics mistakes whose numbers the answer shows; `next_step` is what to do now.
+    `problem` says what is wrong with the code where the state is an error; `diagnosis` says of each
+    criterion that is not met what is known of the reason, and `mistakes` has the names of the
+    physics mistakes among them; `next_step` is what to do now.
     """
 
     check: str
@@ -50,12 +55,13 @@ class Verdict:
     problem: str = ""
     diagnosis: tuple[str, ...] = ()
     next_step: str = ""
+    mistakes: tuple[str, ...] = ()
 
     def without_inputs(self) -> "Verdict":
         """The same verdict for a feedback page: the worst case without the inputs that showed it."""
         if self.witness is None:
             return self
-        return replace(self, witness=replace(self.witness, call=""))
+        return replace(self, witness=replace(self.witness, call="", pose=()))
 
     @property
     def headline(self) -> str:

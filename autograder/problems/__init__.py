@@ -1,5 +1,16 @@
 """The checks of every problem, by the grade_id of the cell they judge."""
 
+import difflib
+
 from autograder.problems import p3_pendulum, start_here
 
 CHECKS = {check.id: check for module in (start_here, p3_pendulum) for check in module.CHECKS}
+
+
+def known_check(id: str) -> str:
+    """The id, where a check has it; else ValueError, with the one that is nearest."""
+    if id not in CHECKS:
+        close = difflib.get_close_matches(id, CHECKS, n=1)
+        meant = f"; did you mean {close[0]!r}?" if close else f"; known are {', '.join(CHECKS)}"
+        raise ValueError(f"there is no check {id!r}{meant}")
+    return id

@@ -8,9 +8,12 @@ from math import cos, sin, sqrt
 
 import numpy as np
 
-from autograder import mistakes, sampling
-from autograder.judge import Check, Criterion, UnfitError
-from autograder.wall import Call, Symbol
+from autograder import sampling
+from autograder.wall import Symbol
+from autograder.judge import Check, Criterion
+from autograder.mistakes import p3_pendulum as mistakes
+from autograder.quantities import UnfitError, each
+from autograder.wall import Call
 
 LAGRANGIAN_ARGUMENTS = ("q", "qd", "m", "lc", "I", "g")
 
@@ -42,6 +45,7 @@ def _lagrangian_calls(rng, count):
     return calls
 
 
+@each
 def _lagrangian_parts(call, value):
     """The change of L with q̇, and with q: a constant in P, which no equation of motion sees, is free."""
     if value.shape != (3,):
@@ -69,7 +73,7 @@ CHECKS = (
         calls=_lagrangian_calls,
         quantities=_lagrangian_parts,
         criteria=(Criterion("kinetic part of L", "J", 0.5), Criterion("potential part of L", "J", 0.5)),
-        mistakes=mistakes.PENDULUM_LAGRANGIAN,
+        mistakes=mistakes.LAGRANGIAN,
     ),
     Check(
         id="p3-M",
@@ -77,7 +81,7 @@ CHECKS = (
         reference=lambda q, pend: pend.I,
         calls=_position_calls("M"),
         criteria=(Criterion("inertia about the pivot", "kg·m²"),),
-        mistakes=mistakes.PENDULUM_INERTIA,
+        mistakes=mistakes.INERTIA,
     ),
     Check(
         id="p3-C",
@@ -92,7 +96,7 @@ CHECKS = (
                 "respect to q: how does this M change with q?",
             ),
         ),
-        mistakes=mistakes.PENDULUM_CORIOLIS,
+        mistakes=mistakes.CORIOLIS,
     ),
     Check(
         id="p3-g_vec",
@@ -100,7 +104,7 @@ CHECKS = (
         reference=lambda q, pend: pend.m * pend.g * pend.lc * sin(q[0]),
         calls=_position_calls("g_vec"),
         criteria=(Criterion("gravity torque", "N·m"),),
-        mistakes=mistakes.PENDULUM_GRAVITY,
+        mistakes=mistakes.GRAVITY,
     ),
     Check(
         id="p3-inertia_about_pivot",

@@ -1,7 +1,7 @@
 """The warm-up of lesson 00."""
 
-from autograder import mistakes
 from autograder.judge import Check, Criterion
+from autograder.mistakes import start_here as mistakes
 from autograder.wall import Call
 
 

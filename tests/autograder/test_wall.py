@@ -15,7 +15,16 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from autograder import wall
-from autograder.wall import Call, Fault, FaultKind, NotNumbersError, Reply, Symbol
+from autograder.wall import (
+    Call,
+    Fault,
+    FaultKind,
+    NotNumbersError,
+    Reply,
+    Symbol,
+    arguments,
+    readings,
+)
 
 FLOATS = st.floats(allow_nan=False)
 ARRAYS = hnp.arrays(float, hnp.array_shapes(min_dims=0, max_side=4), elements=FLOATS)
@@ -52,7 +61,7 @@ def ask(source: str, *args, at=()) -> Reply:
 
 @given(ARGUMENTS)
 def test_arguments_cross_unchanged(value):
-    assert same(wall.decode(json.loads(json.dumps(wall.encode(value)))), value)
+    assert same(arguments.decode(json.loads(json.dumps(arguments.encode(value)))), value)
 
 
 @given(
@@ -112,7 +121,7 @@ def test_what_is_no_reply_is_garbled(message):
 def test_a_forged_fault_cannot_flood_the_verdict():
     message = {"fault": {"kind": "raised", "message": "x" * 10**6, "line": "y" * 10**6}}
     fault = wall.decode_reply(message).fault
-    assert len(fault.message) == len(fault.line) == wall.MOST_CHARACTERS
+    assert len(fault.message) == len(fault.line) == readings.MOST_CHARACTERS
 
 
 @pytest.mark.parametrize(
@@ -136,7 +145,7 @@ def test_a_forged_fault_cannot_flood_the_verdict():
     ],
 )
 def test_whatever_holds_numbers_is_read(value, expected):
-    array = wall.read_numbers(value)
+    array = readings.read_numbers(value)
     assert array.dtype == float
     assert array.shape == np.shape(expected)
     np.testing.assert_array_equal(array, expected)
@@ -168,14 +177,14 @@ def test_whatever_holds_numbers_is_read(value, expected):
             FaultKind.NOT_NUMBERS,
             "an expression that still holds q",
         ),
-        (np.zeros(wall.MOST_NUMBERS + 1), FaultKind.NOT_NUMBERS, "50001 entries, far too many"),
+        (np.zeros(readings.MOST_NUMBERS + 1), FaultKind.NOT_NUMBERS, "50001 entries, far too many"),
         (np.datetime64("2026-01-01"), FaultKind.NOT_NUMBERS, "datetime64"),
     ],
     ids=lambda value: type(value).__name__,
 )
 def test_whatever_is_no_number_is_refused_and_named(value, kind, message):
     with pytest.raises(NotNumbersError) as refused:
-        wall.read_numbers(value)
+        readings.read_numbers(value)
     assert refused.value.kind is kind
     assert str(refused.value).startswith(message)
     assert len(str(refused.value)) < 100
@@ -235,7 +244,7 @@ def test_the_failing_line_is_the_students_own_with_its_text():
 
 def test_long_messages_are_cut():
     fault = ask("def f(): raise ValueError('x' * 10**6)").fault
-    assert len(fault.message) == wall.MOST_CHARACTERS
+    assert len(fault.message) == readings.MOST_CHARACTERS
 
 
 def test_symbols_come_as_real_symbols_and_the_answer_is_evaluated_at_each_point():
@@ -310,7 +319,7 @@ def test_answers_stop_at_the_first_fault():
     ],
 )
 def test_the_time_limit_ends_a_loop_that_swallows_errors(monkeypatch, body):
-    monkeypatch.setattr(wall, "CALL_SECONDS", 0.2)
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
     before = signal.getsignal(signal.SIGALRM)
     assert ask(f"def f():\n    {body}").fault == Fault(FaultKind.TIMED_OUT, "0.2 s")
     assert signal.getsignal(signal.SIGALRM) is before
@@ -318,7 +327,7 @@ def test_the_time_limit_ends_a_loop_that_swallows_errors(monkeypatch, body):
 
 
 def test_no_except_exception_sees_the_time_limit(monkeypatch):
-    monkeypatch.setattr(wall, "CALL_SECONDS", 0.2)
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
     namespace = {"__name__": "__main__", "seen": []}
     exec(
         "def f():\n    try:\n        while True: sum(())\n    except Exception: seen.append(1)",
@@ -336,4 +345,4 @@ def test_the_time_limit_leaves_a_quick_block_alone():
 
 @pytest.mark.parametrize(("most", "text"), [(5, "abcde"), (4, "abc…"), (1, "…")])
 def test_shortened(most, text):
-    assert wall.shortened("abcde", most) == text
+    assert readings.shortened("abcde", most) == text

@@ -3,3 +3,7 @@
 
 def check(id, fresh=False):
     """Do nothing: grade cells are judged outside, on numbers."""
+
+
+def hint(id):
+    """Do nothing: hints are for the one who writes."""

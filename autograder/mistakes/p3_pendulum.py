@@ -1,35 +1,16 @@
-"""The physics mistakes people make, each as a wrong model and the sentence that names it.
-
-A mistake's model takes the arguments of the student's function. It is reported only where the
-student's numbers equal its numbers to rounding at random states, so an entry can be specific. To add
-one: write the wrong model, the sentence that says where to look (never the formula), and a row in
-tests/autograder/test_mistakes.py.
-"""
+"""Mistakes about the pendulum."""
 
 from math import cos, degrees, pi, radians, sin, sqrt
 
 import numpy as np
 
-from autograder.judge import Mistake
-
-KINETIC_ENERGY = (
-    Mistake(
-        "half missing",
-        lambda I, qd: I * qd**2,
-        "Your kinetic energy is twice the right one. What stands in front of a kinetic energy?",
-    ),
-    Mistake(
-        "velocity not squared",
-        lambda I, qd: 0.5 * I * qd,
-        "Your kinetic energy changes sign with the velocity. Can a moving body's be negative?",
-    ),
-)
+from autograder.diagnosis import Mistake
 
 ALREADY_ABOUT_THE_PIVOT = (
     "The inertia you use is too large by m ℓc²: pend.I is about the pivot already. Where has the "
     "parallel-axis theorem been applied once too often?"
 )
-PENDULUM_INERTIA = (
+INERTIA = (
     Mistake(
         "parallel axis applied again",
         lambda q, pend: pend.I + pend.m * pend.lc**2,
@@ -59,7 +40,7 @@ PENDULUM_INERTIA = (
     ),
 )
 
-PENDULUM_CORIOLIS = (
+CORIOLIS = (
     Mistake(
         "gravity in C",
         lambda q, qd, pend: pend.m * pend.g * pend.lc * sin(q[0]),
@@ -85,7 +66,7 @@ PENDULUM_CORIOLIS = (
     ),
 )
 
-PENDULUM_GRAVITY = (
+GRAVITY = (
     Mistake(
         "sign of gravity",
         lambda q, pend: -pend.m * pend.g * pend.lc * sin(q[0]),
@@ -155,7 +136,7 @@ PENDULUM_GRAVITY = (
 )
 
 # Lagrangians: the kinetic part and the potential part are judged and diagnosed apart.
-PENDULUM_LAGRANGIAN = (
+LAGRANGIAN = (
     Mistake(
         "half missing",
         lambda q, qd, m, lc, I, g: I * qd**2 - m * g * lc * (1 - cos(q)),

@@ -4,15 +4,12 @@ The table is typed out on purpose: a mistake's wording is read by students, and 
 intent.
 """
 
-import numpy as np
 import pytest
-import sympy as sp
 
-from autograder import mistakes
-from autograder.judge import HIDDEN_CASES, TOLERANCE
-from autograder.problems import CHECKS
+from autograder.diagnosis import TOLERANCE
+from autograder.mistakes import p3_pendulum, start_here
 from autograder.verdict import State
-from autograder.wall import answer_all
+from tests.autograder.judging import assert_named, judged, sentences_of
 
 MGL = "pend.m * pend.g * pend.lc"
 PIVOT = (
@@ -313,39 +310,14 @@ TABLE = [
 ]
 
 
-def judged(check_id, returned, seed=0):
-    """The verdict on a student's function that returns this expression."""
-    check = CHECKS[check_id]
-    namespace = {"np": np, "sp": sp}
-    exec(f"def {check.signature}:\n    return {returned}", namespace)
-    return check.run(
-        lambda calls: answer_all(calls, namespace), np.random.default_rng(seed), HIDDEN_CASES
-    )
-
-
 @pytest.mark.parametrize(("check_id", "returned", "credit", "sentence"), TABLE)
 def test_sentence_credit_and_witness(check_id, returned, credit, sentence):
-    verdict = judged(check_id, returned)
-    assert verdict.diagnosis == (sentence,)
-    assert verdict.credit == credit
-    assert verdict.state is (State.PARTLY_CORRECT if credit else State.INCORRECT)
-    assert verdict.witness.call.startswith(CHECKS[check_id].name)
-    unit = next(
-        criterion.unit
-        for criterion, row in zip(CHECKS[check_id].criteria, verdict.rows, strict=True)
-        if not row.met
-    )
-    assert unit in verdict.witness.off
+    assert_named(check_id, returned, credit, sentence)
 
 
 def test_every_mistake_has_its_row():
     said = {sentence for _, _, _, sentence in TABLE}
-    known = {
-        mistake.sentence
-        for group in vars(mistakes).values()
-        if isinstance(group, tuple)
-        for mistake in group
-    }
+    known = sentences_of(start_here) | sentences_of(p3_pendulum)
     assert known <= said
 
 

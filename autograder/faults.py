@@ -1,0 +1,25 @@
+"""What to say of a call that gave no numbers."""
+
+from autograder.wall import Fault, FaultKind
+
+
+def said_of(fault: Fault, name: str, signature: str) -> str:
+    """The sentence for a student whose function `name` should be callable as `signature`."""
+    where = f" ({fault.line})" if fault.line else ""
+    renamed = f" There is a {fault.message}: is that it?" if fault.message else ""
+    return {
+        FaultKind.MISSING: f"The notebook defines no {name}.{renamed} The check calls "
+        f"{signature}, by exactly this name; was its cell run?",
+        FaultKind.CELL_FAILED: f"The notebook defines no {name}: the cell that should "
+        f"define it stopped with {fault.message}",
+        FaultKind.NOT_CALLABLE: f"{name} is a {fault.message}, not a function that can "
+        f"be called as {signature}; was the name used again further down?",
+        FaultKind.RAISED: f"{signature} raised {fault.message}{where}.",
+        FaultKind.TIMED_OUT: f"{signature} did not return within {fault.message}; "
+        "is there a loop that never ends?",
+        FaultKind.DIED: f"Python itself stopped while {signature} was running; "
+        "does it call exit, or use up all memory?",
+        FaultKind.NOTHING: f"{signature} returned None; is the return statement missing?",
+        FaultKind.NOT_NUMBERS: f"{signature} returned {fault.message}; it must return numbers.",
+        FaultKind.GARBLED: f"What {signature} returned could not be read as numbers.",
+    }[fault.kind]

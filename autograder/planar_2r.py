@@ -1,0 +1,74 @@
+"""The planar 2R arm of the problems, term by term: what references and wrong models are made of.
+
+Spong, Hutchinson & Vidyasagar 2006, Robot Modeling and Control, section 7.3, in this course's
+notation. The formulas stand here rather than come from `armdyn`, so that a test can hold the two
+against each other. q, qd: (2,), rad and rad/s. arm: a namespace with l1, l2, lc1, lc2 (m), m1, m2 (kg),
+I1, I2 about the centres of mass (kg·m²) and g (m/s²).
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+
+def inertia(arm, coupling: float) -> np.ndarray:
+    """M from the coupling m2 ℓ1 ℓc2 times what stands for cos q2; (2, 2), kg·m²."""
+    M22 = arm.I2 + arm.m2 * arm.lc2**2
+    M12 = M22 + coupling
+    M11 = arm.I1 + arm.m1 * arm.lc1**2 + M22 + arm.m2 * arm.l1**2 + 2 * coupling
+    return np.array([[M11, M12], [M12, M22]])
+
+
+def M(q, arm) -> np.ndarray:
+    """Inertia matrix, (2, 2), kg·m²."""
+    return inertia(arm, arm.m2 * arm.l1 * arm.lc2 * np.cos(q[1]))
+
+
+def h(q, arm) -> float:
+    """The one Christoffel symbol that the others repeat, kg·m²."""
+    return -arm.m2 * arm.l1 * arm.lc2 * np.sin(q[1])
+
+
+def C(q, qd, arm) -> np.ndarray:
+    """Coriolis and centrifugal matrix in Christoffel form, (2, 2), kg·m²/s."""
+    return h(q, arm) * np.array([[qd[1], qd[0] + qd[1]], [-qd[0], 0.0]])
+
+
+def M_dot(q, qd, arm) -> np.ndarray:
+    """dM/dt along q̇, (2, 2), kg·m²/s."""
+    return h(q, arm) * qd[1] * np.array([[2.0, 1.0], [1.0, 0.0]])
+
+
+def potential_energy(q, arm) -> float:
+    """P, J; zero where the arm lies along x."""
+    height_1 = arm.lc1 * np.sin(q[0])
+    height_2 = arm.l1 * np.sin(q[0]) + arm.lc2 * np.sin(q[0] + q[1])
+    return arm.g * (arm.m1 * height_1 + arm.m2 * height_2)
+
+
+def g_vec(q, arm) -> np.ndarray:
+    """Gravity vector ∂P/∂q, (2,), N·m."""
+    g2 = arm.m2 * arm.lc2 * arm.g * np.cos(q[0] + q[1])
+    return np.array([(arm.m1 * arm.lc1 + arm.m2 * arm.l1) * arm.g * np.cos(q[0]) + g2, g2])
+
+
+def f_vec(qd, arm) -> np.ndarray:
+    """Friction torque, (2,), N·m: viscous and Coulomb."""
+    return arm.viscous * qd + arm.coulomb * np.sign(qd)
+
+
+def kinetic_energy(q, qd, arm) -> float:
+    """K, J."""
+    return 0.5 * qd @ M(q, arm) @ qd
+
+
+def joints(q, arm) -> list[tuple[float, float]]:
+    """Shoulder, elbow and hand, (x, y) in m, to be drawn."""
+    elbow = arm.l1 * np.array([np.cos(q[0]), np.sin(q[0])])
+    hand = elbow + arm.l2 * np.array([np.cos(q[0] + q[1]), np.sin(q[0] + q[1])])
+    return [(0.0, 0.0), tuple(elbow), tuple(hand)]
+
+
+def changed(arm, **parameters) -> SimpleNamespace:
+    """The same arm with some parameters replaced: a wrong arm for a wrong model."""
+    return SimpleNamespace(**vars(arm) | parameters)

@@ -1,0 +1,100 @@
+"""What a check may give a student's function: numbers, and what stands for things that no JSON holds.
+
+The judge writes the stand-ins; the room makes the real thing
+of them, so that a function or a SymPy matrix arrives as a student's own code would pass it.
+"""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """Stands for a real SymPy symbol."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Expressions:
+    """Stands for a SymPy matrix: its rows, each entry as SymPy writes it, in real symbols."""
+
+    rows: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True)
+class Function:
+    """Stands for a function of numbers: its arguments, and the list it returns as a float array.
+
+    Both as Python writes them, with NumPy's names at hand: Function("x, u", "[x[1], u[0] - sin(x[0])]").
+    """
+
+    arguments: str
+    returns: str
+
+
+def real(value):
+    """What the student's function gets: a fresh copy for each call, so that changing it harms nobody."""
+    match value:
+        case Symbol(name):
+            import sympy  # only a symbolic question pays for it
+
+            return sympy.Symbol(name, real=True)
+        case Expressions(rows):
+            return _matrix(rows)
+        case Function(arguments, returns):
+            compute = eval(f"lambda {arguments}: {returns}", vars(np) | {"pi": np.pi})
+            return lambda *given: np.array(compute(*given), dtype=float)
+        case SimpleNamespace():
+            return SimpleNamespace(**{name: real(entry) for name, entry in vars(value).items()})
+        case tuple():
+            return [real(entry) for entry in value]
+        case np.ndarray():
+            return value.copy()
+    return value
+
+
+def _matrix(rows):
+    import sympy
+
+    names = {str(s) for row in rows for entry in row for s in sympy.sympify(entry).free_symbols}
+    symbols = {name: sympy.Symbol(name, real=True) for name in names}
+    return sympy.Matrix([[sympy.sympify(entry, locals=symbols) for entry in row] for row in rows])
+
+
+def encode(value):
+    """An argument in JSON's terms."""
+    match value:
+        case Symbol(name):
+            return {"symbol": name}
+        case Expressions(rows):
+            return {"expressions": rows}
+        case Function(arguments, returns):
+            return {"function": [arguments, returns]}
+        case SimpleNamespace():
+            return {"namespace": {name: encode(entry) for name, entry in vars(value).items()}}
+        case tuple():
+            return {"list": [encode(entry) for entry in value]}
+        case np.ndarray():
+            return {"array": value.tolist(), "shape": value.shape}
+    return value
+
+
+def decode(value):
+    """The argument that `encode` wrote."""
+    match value:
+        case {"symbol": name}:
+            return Symbol(name)
+        case {"expressions": rows}:
+            return Expressions(tuple(map(tuple, rows)))
+        case {"function": [arguments, returns]}:
+            return Function(arguments, returns)
+        case {"namespace": entries}:
+            return SimpleNamespace(**{name: decode(entry) for name, entry in entries.items()})
+        case {"list": entries}:
+            return tuple(decode(entry) for entry in entries)
+        case {"array": entries, "shape": shape}:
+            return np.array(entries, dtype=float).reshape(shape)
+    return value

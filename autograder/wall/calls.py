@@ -1,0 +1,186 @@
+"""Calling a student's function, beside it, and the messages in which calls and replies cross."""
+
+import difflib
+import os
+import signal
+import threading
+import traceback
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from .arguments import decode, encode, real
+from .readings import (
+    FaultKind,
+    NotNumbersError,
+    decode_value,
+    encode_value,
+    evaluate,
+    read_numbers,
+    read_parts,
+    shortened,
+)
+
+CALL_SECONDS = 2.0
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A call that gave no numbers: what went wrong, and the student's line where it did."""
+
+    kind: FaultKind
+    message: str = ""
+    line: str = ""
+
+
+@dataclass(frozen=True)
+class Call:
+    """One call of a student's function.
+
+    args: floats, arrays, namespaces and tuples of them, or what `arguments` has. With `at`, the SymPy
+    expression that comes back is evaluated at each of its points, mappings from symbol to number,
+    and the reply holds one value a point. parts: the function returns several things at once, named
+    or in order, and so does the reply.
+    """
+
+    name: str
+    args: tuple
+    at: tuple[Mapping[str, float], ...] = ()
+    parts: bool = False
+
+
+@dataclass(frozen=True)
+class Reply:
+    """The numbers a call gave, or the fault that kept them back.
+
+    value: a float array; dicts and lists of arrays where the call asks for parts.
+    """
+
+    value: np.ndarray | dict | list | None = None
+    fault: Fault | None = None
+
+
+class TimeLimitError(BaseException):
+    """Raised in the student's code at its time limit; no `except Exception` swallows it."""
+
+
+def answer(call: Call, namespace: Mapping) -> Reply:
+    """Call the student's function of that name, beside it, and read what it returns as numbers."""
+    if call.name not in namespace:
+        close = difflib.get_close_matches(call.name, own_names(namespace), n=1, cutoff=0.5)
+        hint = close[0] if close else ""
+        return Reply(fault=Fault(FaultKind.MISSING, hint))
+    function = namespace[call.name]
+    if not callable(function):
+        return Reply(fault=Fault(FaultKind.NOT_CALLABLE, type(function).__name__))
+    try:
+        with time_limit(CALL_SECONDS), warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            return Reply(value=read(call, function(*map(real, call.args))))
+    except NotNumbersError as error:
+        return Reply(fault=Fault(error.kind, shortened(str(error))))
+    except NotImplementedError:
+        return Reply(fault=Fault(FaultKind.NOT_IMPLEMENTED))
+    except TimeLimitError:
+        return Reply(fault=Fault(FaultKind.TIMED_OUT, f"{CALL_SECONDS:g} s"))
+    except (Exception, SystemExit) as error:
+        message = shortened(f"{type(error).__name__}: {said_by(error)}")
+        return Reply(fault=Fault(FaultKind.RAISED, message, _failing_line(error)))
+
+
+def read(call: Call, result):
+    """A function's result as the numbers that the call asks for; NotNumbersError where it is none."""
+    if call.at:
+        return evaluate(result, call.at)
+    return read_parts(result) if call.parts else read_numbers(result)
+
+
+def answer_all(calls: list[Call], namespace: Mapping) -> list[Reply]:
+    """Answer calls in turn, up to the first that gives no numbers: the rest would say the same."""
+    replies = []
+    for call in calls:
+        replies.append(answer(call, namespace))
+        if replies[-1].fault:
+            break
+    return replies
+
+
+def own_names(namespace: Mapping) -> list[str]:
+    """The functions a student defined, by name."""
+    return [
+        name
+        for name, value in namespace.items()
+        if callable(value) and getattr(value, "__module__", None) == "__main__"
+    ]
+
+
+def _failing_line(error: BaseException) -> str:
+    """The last line of the student's own code on the way to the error, with its number."""
+    own = [
+        frame
+        for frame in traceback.extract_tb(error.__traceback__)
+        if "ipykernel_" in frame.filename or frame.filename.startswith("<ipython-input")
+    ]
+    if not own:
+        return ""
+    return shortened(f"line {own[-1].lineno}: {own[-1].line}".rstrip(": "))
+
+
+def said_by(error: BaseException) -> str:
+    """The message of an error, whose class may be a student's own."""
+    try:
+        return str(error)
+    except Exception:
+        return "(a message that cannot be read)"
+
+
+@contextmanager
+def time_limit(seconds: float) -> Iterator[None]:
+    """Raise TimeLimitError in the block after `seconds`, where the system can (not on Windows)."""
+    if os.name != "posix" or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def stop(signum, frame):
+        raise TimeLimitError
+
+    before = signal.signal(signal.SIGALRM, stop)
+    # Again every half second: student code may catch the first one.
+    signal.setitimer(signal.ITIMER_REAL, seconds, 0.5)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def encode_call(call: Call) -> dict:
+    args = [encode(value) for value in call.args]
+    return {"name": call.name, "args": args, "at": list(call.at), "parts": call.parts}
+
+
+def decode_call(message: dict) -> Call:
+    args = tuple(decode(value) for value in message["args"])
+    return Call(message["name"], args, tuple(message["at"]), message["parts"])
+
+
+def encode_reply(reply: Reply) -> dict:
+    if reply.fault:
+        return {"fault": asdict(reply.fault)}
+    return {"value": encode_value(reply.value)}
+
+
+def decode_reply(message) -> Reply:
+    """A reply from beyond the wall; anything that is not one is a fault, never an exception."""
+    try:
+        match message:
+            case {"value": value}:
+                return Reply(value=decode_value(value))
+            case {"fault": {"kind": kind, "message": str(text), "line": str(line)}}:
+                return Reply(fault=Fault(FaultKind(kind), shortened(text), shortened(line)))
+    except (TypeError, ValueError, OverflowError):
+        pass
+    return Reply(fault=Fault(FaultKind.GARBLED))
