@@ -23,6 +23,7 @@ from autograder.wall import (
     Reply,
     Symbol,
     arguments,
+    calls,
     readings,
 )
 
