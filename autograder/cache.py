@@ -94,6 +94,5 @@ def _verdict(said: dict) -> Verdict:
             "rows": tuple(Row(**row) for row in said["rows"]),
             "witness": said["witness"] and Witness(**said["witness"]),
             "diagnosis": tuple(said["diagnosis"]),
-            "mistakes": tuple(said["mistakes"]),
         }
     )

@@ -113,15 +113,13 @@ class Check:
         rows = tuple(Row(c.text, c.share, ok) for c, ok in zip(self.criteria, met, strict=True))
         if all(met):
             return Verdict(self.id, State.CORRECT, 1.0, rows)
-        mistakes, sentences = self._diagnosis(calls, expected, given, met)
         return Verdict(
             self.id,
             State.PARTLY_CORRECT if credit > 0 else State.INCORRECT,
             credit,
             rows,
             self._witness(calls, expected, given, errors, met),
-            diagnosis=sentences,
-            mistakes=mistakes,
+            diagnosis=self._diagnosis(calls, expected, given, met),
             next_step="Change your function, run its cell, then run this cell again.",
         )
 
@@ -141,24 +139,23 @@ class Check:
     def _quantities_of(self, model: Callable, calls: list[Call]) -> list[tuple[np.ndarray, ...]]:
         return self.quantities(calls, [_evaluated(model, call) for call in calls])
 
-    def _diagnosis(self, calls, expected, given, met) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """The names of the mistakes shown, and what to say of each criterion that is not met."""
+    def _diagnosis(self, calls, expected, given, met) -> tuple[str, ...]:
+        """What to say of each criterion that is not met."""
         wrong = [(mistake, self._quantities_of(mistake.wrong, calls)) for mistake in self.mistakes]
         parts = [(term, self._quantities_of(term.model, calls)) for term in self.terms]
-        names, sentences = [], []
+        sentences = []
         for k, (criterion, ok) in enumerate(zip(self.criteria, met, strict=True)):
             if ok:
                 continue
             right, theirs = [e[k] for e in expected], [g[k] for g in given]
             known = [Known(mistake, [value[k] for value in values]) for mistake, values in wrong]
             shown = mistakes_shown(right, theirs, known, criterion.tolerance)
-            names += [mistake.name for mistake in shown]
             sentences += [mistake.sentence for mistake in shown]
             if not shown:
                 known = [Known(term, [value[k] for value in values]) for term, values in parts]
                 off = terms_off(right, theirs, known)
                 sentences += [_where(criterion, off)] if off else [criterion.otherwise]
-        return tuple(dict.fromkeys(names)), tuple(dict.fromkeys(filter(None, sentences)))
+        return tuple(dict.fromkeys(filter(None, sentences)))
 
     def _witness(self, calls, expected, given, errors, met):
         k = met.index(False)

@@ -43,8 +43,7 @@ class Verdict:
     """What is known of one answer. `credit` is its share of the cell's points, in [0, 1].
 
     `problem` says what is wrong with the code where the state is an error; `diagnosis` says of each
-    criterion that is not met what is known of the reason, and `mistakes` has the names of the
-    physics mistakes among them; `next_step` is what to do now.
+    criterion that is not met what is known of the reason; `next_step` is what to do now.
     """
 
     check: str
@@ -55,7 +54,6 @@ class Verdict:
     problem: str = ""
     diagnosis: tuple[str, ...] = ()
     next_step: str = ""
-    mistakes: tuple[str, ...] = ()
 
     def without_inputs(self) -> "Verdict":
         """The same verdict for a feedback page: the worst case without the inputs that showed it."""
