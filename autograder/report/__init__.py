@@ -1,0 +1,133 @@
+"""A class on one page: scores, the state of each check, and which mistakes how many made.
+
+The verdicts are read from the autograded notebooks, so that it does not matter which way they were
+graded; the scores come from the gradebook, with what a person gave.
+"""
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from importlib import resources
+from pathlib import Path
+from statistics import mean, median
+
+import jinja2
+import nbformat
+
+from autograder.card import LOOKS
+from autograder.problems import CHECKS
+from autograder.verdict import State, Verdict
+
+# Under this key the output that shows a verdict carries it for programs, too.
+METADATA = "armdyn"
+MOST_LINES = 10  # of mistakes in the terminal; the page has them all
+
+
+@dataclass(frozen=True)
+class Student:
+    """One student's points, and the verdicts on the autograded notebook.
+
+    points: with what a person gave, or None where nothing is graded. to_read: cells that a person has
+    still to read. verdicts: by check. note: why there are none.
+    """
+
+    name: str
+    points: float | None = None
+    to_read: int = 0
+    verdicts: dict[str, dict] = field(default_factory=dict)
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Made:
+    """What was said of a wrong answer: in which check, to whom; name: the mistake's, where it is one."""
+
+    check: str
+    name: str
+    sentence: str
+    students: tuple[str, ...]
+
+
+def metadata_of(verdict: Verdict) -> dict:
+    """What the output that shows a verdict carries for `read_verdicts`."""
+    return {
+        METADATA: {
+            "check": verdict.check,
+            "state": verdict.state.value,
+            "credit": verdict.credit,
+            "diagnosis": list(verdict.diagnosis),
+        }
+    }
+
+
+def read_verdicts(notebook: Path) -> dict[str, dict]:
+    """The verdicts in an autograded notebook, by check. ValueError where it cannot be read."""
+    try:
+        cells = nbformat.read(notebook, as_version=4).cells
+    except (OSError, UnicodeDecodeError, nbformat.reader.NotJSONError) as error:
+        raise ValueError(f"{notebook.name} cannot be read: {error}") from None
+    said = [
+        output.get("metadata", {}).get(METADATA)
+        for cell in cells
+        if cell.metadata.get("nbgrader", {}).get("grade")
+        for output in cell.get("outputs", [])
+    ]
+    return {one["check"]: one for one in said if one}
+
+
+def mistakes_made(students: Iterable[Student]) -> list[Made]:
+    """Each sentence that was said to someone, the most frequent first."""
+    to_whom = defaultdict(list)
+    for student in students:
+        for check, verdict in student.verdicts.items():
+            for sentence in verdict["diagnosis"]:
+                to_whom[check, sentence].append(student.name)
+    made = [
+        Made(check, _name_of(check, sentence), sentence, tuple(names))
+        for (check, sentence), names in to_whom.items()
+    ]
+    return sorted(made, key=lambda one: (-len(one.students), one.check, one.sentence))
+
+
+def _name_of(check: str, sentence: str) -> str:
+    mistakes = CHECKS[check].mistakes if check in CHECKS else ()
+    return next((mistake.name for mistake in mistakes if mistake.sentence == sentence), "")
+
+
+def page(assignment: str, most: float, students: list[Student]) -> str:
+    """The report as an HTML page of its own. most: the points of the assignment."""
+    checks = list(dict.fromkeys(check for student in students for check in student.verdicts))
+    counts = {
+        check: Counter(
+            student.verdicts[check]["state"] for student in students if check in student.verdicts
+        )
+        for check in checks
+    }
+    scores = [student.points for student in students if student.points is not None]
+    template = resources.files(__package__).joinpath("page.html").read_text(encoding="utf-8")
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
+    return environment.from_string(template).render(
+        assignment=assignment,
+        most=most,
+        students=students,
+        checks=checks,
+        counts=counts,
+        states=[state.value for state in State],
+        looks={state.value: look for state, look in LOOKS.items()},
+        made=mistakes_made(students),
+        graded=len(scores),
+        mean=mean(scores) if scores else 0.0,
+        median=median(scores) if scores else 0.0,
+        to_read=sum(student.to_read for student in students),
+    )
+
+
+def summary(most: float, students: list[Student]) -> str:
+    """The same in a few lines, for the terminal."""
+    scores = [student.points for student in students if student.points is not None]
+    lines = [f"{len(scores)} of {len(students)} graded"]
+    if scores:
+        lines[0] += f", mean {mean(scores):.3g}, median {median(scores):.3g} of {most:g} points"
+    for one in mistakes_made(students)[:MOST_LINES]:
+        lines.append(f"{len(one.students):4d} × {one.check}: {one.name or one.sentence}")
+    return "\n".join(lines)

@@ -1,0 +1,93 @@
+"""The page of a class: what it counts, and that it shows names and sentences as text only."""
+
+from html.parser import HTMLParser
+
+import pytest
+
+from autograder import report
+from autograder.problems import CHECKS
+from autograder.report import Student
+from autograder.verdict import State
+
+M = CHECKS["p3-M"].mistakes
+
+
+def verdict(state: State, *sentences: str) -> dict:
+    return {
+        "p3-M": {"check": "p3-M", "state": state.value, "credit": 0.0, "diagnosis": [*sentences]}
+    }
+
+
+CLASS = [
+    Student("ada", 10.0, 1, verdict(State.CORRECT)),
+    Student("bob", 4.0, 0, verdict(State.INCORRECT, M[0].sentence)),
+    Student("cem", 1.0, 0, verdict(State.INCORRECT, M[1].sentence)),
+    Student("dee", 1.0, 0, verdict(State.INCORRECT, M[1].sentence, "What is off varies like <b>.")),
+    Student("<i>eve</i>", note="the notebook is not valid JSON"),
+]
+
+
+class Text(HTMLParser):
+    """The words of a page, and its tags."""
+
+    def __init__(self, page: str):
+        super().__init__()
+        self.words, self.tags, self._style = [], [], False
+        self.feed(page)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self._style = tag == "style"
+
+    def handle_data(self, data):
+        if not self._style:
+            self.words += data.split()
+
+    def __str__(self):
+        return " ".join(self.words).replace(" .", ".")
+
+
+def test_mistakes_are_counted_the_most_frequent_first():
+    made = report.mistakes_made(CLASS)
+    assert [(one.name, one.students) for one in made] == [
+        (M[1].name, ("cem", "dee")),
+        (M[0].name, ("bob",)),
+        ("", ("dee",)),
+    ]
+
+
+def test_the_page_says_it_all():
+    text = str(Text(report.page("p3-pendulum", 15.0, CLASS)))
+    assert "4 of 5 submissions graded; mean 4, median 2.5 of 15 points" in text
+    assert "1 answer is still to be read" in text
+    assert f"2 p3-M {M[1].name}. {M[1].sentence} who cem, dee" in text
+    assert "bob 4" in text
+    assert "<i>eve</i> the notebook is not valid JSON" in text
+    assert "p3-M 1 3" in text
+
+
+def test_nothing_of_a_student_becomes_markup():
+    tags = Text(report.page("p3-pendulum", 15.0, CLASS)).tags
+    assert not {"b", "i", "script"} & set(tags)
+
+
+def test_the_terminal_gets_the_same_counts():
+    lines = report.summary(15.0, CLASS).splitlines()
+    assert lines[0] == "4 of 5 graded, mean 4, median 2.5 of 15 points"
+    assert lines[1:] == [
+        f"   2 × p3-M: {M[1].name}",
+        f"   1 × p3-M: {M[0].name}",
+        "   1 × p3-M: What is off varies like <b>.",
+    ]
+
+
+def test_an_empty_class_has_a_page_too():
+    assert "0 of 0 submissions graded." in str(Text(report.page("p3-pendulum", 15.0, [])))
+    assert report.summary(15.0, []) == "0 of 0 graded"
+
+
+def test_a_damaged_notebook_is_refused_by_name(tmp_path):
+    path = tmp_path / "p3-pendulum.ipynb"
+    path.write_text("{")
+    with pytest.raises(ValueError, match=r"p3-pendulum\.ipynb cannot be read"):
+        report.read_verdicts(path)
