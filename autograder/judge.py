@@ -6,6 +6,7 @@ function runs (`ask`) and in how many cases are drawn.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from types import FunctionType
 
 import numpy as np
 
@@ -35,7 +36,9 @@ class Criterion:
     """One thing that is asked of an answer: in words, its unit, its share of the credit.
 
     otherwise: what to say where it is not met and no known mistake matches. tolerance: the relative
-    error that rounding, or the method that is asked for, explains.
+    error that rounding, or the method that is asked for, explains. is_property: true of the answer
+    as a whole, as skew-symmetry is; what breaks it is looked for among the mistakes that are shown
+    already, and not in its own numbers, which many answers share.
     """
 
     text: str
@@ -43,6 +46,7 @@ class Criterion:
     share: float = 1.0
     otherwise: str = ""
     tolerance: float = TOLERANCE
+    is_property: bool = False
 
 
 class Check:
@@ -148,11 +152,13 @@ class Check:
             if ok:
                 continue
             right, theirs = [e[k] for e in expected], [g[k] for g in given]
-            known = [Known(mistake, [value[k] for value in values]) for mistake, values in wrong]
+            known = [Known(mistake, [value[k] for value in values]) for mistake, values in wrong
+                     if mistake.sentence in sentences or not criterion.is_property]  # fmt: skip
             shown = mistakes_shown(right, theirs, known, criterion.tolerance)
             sentences += [mistake.sentence for mistake in shown]
             if not shown:
-                known = [Known(term, [value[k] for value in values]) for term, values in parts]
+                known = [Known(term, [value[k] for value in values]) for term, values in parts
+                         if not criterion.is_property]  # fmt: skip
                 off = terms_off(right, theirs, known)
                 sentences += [_where(criterion, off)] if off else [criterion.otherwise]
         return tuple(dict.fromkeys(filter(None, sentences)))
@@ -197,9 +203,13 @@ def _where(criterion: Criterion, off: list[tuple[Term, float, float]]) -> str:
 def _evaluated(model: Callable, call: Call):
     """A model's numbers for a call, as those of a student's function are read.
 
-    A model of plain Symbols is one of numbers here, and tried point by point.
+    A model of plain Symbols is one of numbers here, and tried point by point. One of expressions may
+    give a function from a point to its numbers, which costs less than an expression.
     """
     if call.at and all(isinstance(value, Symbol) for value in call.args):
         points = [[point[symbol.name] for symbol in call.args] for point in call.at]
         return np.array([model(*point) for point in points], dtype=float)
-    return read(call, model(*map(real, call.args)))
+    result = model(*map(real, call.args))
+    if call.at and isinstance(result, FunctionType):
+        return np.array([result(point) for point in call.at], dtype=float)
+    return read(call, result)

@@ -5,6 +5,7 @@ of them, so that a function or a SymPy matrix arrives as a student's own code wo
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from types import SimpleNamespace
 
 import numpy as np
@@ -43,7 +44,7 @@ def real(value):
 
             return sympy.Symbol(name, real=True)
         case Expressions(rows):
-            return _matrix(rows)
+            return _matrix(rows).as_mutable()
         case Function(arguments, returns):
             compute = eval(f"lambda {arguments}: {returns}", vars(np) | {"pi": np.pi})
             return lambda *given: np.array(compute(*given), dtype=float)
@@ -56,12 +57,15 @@ def real(value):
     return value
 
 
+@lru_cache(maxsize=64)  # a judge asks for the same one again for each known mistake
 def _matrix(rows):
     import sympy
 
     names = {str(s) for row in rows for entry in row for s in sympy.sympify(entry).free_symbols}
     symbols = {name: sympy.Symbol(name, real=True) for name in names}
-    return sympy.Matrix([[sympy.sympify(entry, locals=symbols) for entry in row] for row in rows])
+    return sympy.ImmutableMatrix(
+        [[sympy.sympify(entry, locals=symbols) for entry in row] for row in rows]
+    )
 
 
 def encode(value):
