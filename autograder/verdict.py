@@ -27,7 +27,8 @@ class Row:
 
 @dataclass(frozen=True)
 class Witness:
-    """The worst case: what was called, what came back, how far off it was, with the unit.
+    """The worst case: what was called, what came back, how far off it was, with the unit; of a truth
+    value, off is empty.
 
     pose: the arm's joints in that call, one (x, y) in m each, where drawing it helps.
     """
@@ -85,6 +86,8 @@ class Verdict:
 
 def worst_case(witness: Witness) -> str:
     """The witness as a sentence."""
+    if not witness.off:  # a truth value is right or wrong, not more or less
+        return f"Worst case: {witness.call or 'your function'} gave {witness.returned}."
     if witness.call:
         return f"Worst case: {witness.call} gave {witness.returned}, off by {witness.off}."
     return f"Worst case: off by {witness.off}."

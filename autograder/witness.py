@@ -9,6 +9,7 @@ from autograder.verdict import Witness
 from autograder.wall import Call, Expressions, Function, Symbol
 
 LONGEST_ARRAY = 12  # entries; a longer one is shown by its shape
+TRUTH = "True or False"  # the unit of a criterion whose quantities are 1 and 0
 
 
 def witness(
@@ -20,6 +21,11 @@ def witness(
     pose: gives the joints of the arm in this call, one (x, y) in m each, to be drawn.
     """
     at = np.unravel_index(np.argmax(np.abs(given - right)), np.shape(right))
+    joints = tuple(tuple(map(float, point)) for point in pose(call)) if pose else ()
+    if unit == TRUTH:
+        asked = f" ({what})" if what else ""
+        said = f"{bool(given[at])}, where {bool(right[at])} is right{asked}"
+        return Witness(shown_call(call), said, "", joints)
     off, size = abs(float(given[at] - right[at])), abs(float(right[at]))
     share = f" ({_percent(off / size)} of the right value)" if size > 0 else ""
     unit = f" {unit}".rstrip()
@@ -29,7 +35,7 @@ def witness(
         shown_call(call),
         f"{float(given[at]):.4g}{unit}{entry}{of}",
         f"{off:.3g}{unit}{share}",
-        tuple(tuple(map(float, point)) for point in pose(call)) if pose else (),
+        joints,
     )
 
 
