@@ -2,9 +2,10 @@
 
 import difflib
 
-from autograder.problems import p3_pendulum, start_here
+from autograder.problems import p3_pendulum, p4_gravity, start_here
 
-CHECKS = {check.id: check for module in (start_here, p3_pendulum) for check in module.CHECKS}
+MODULES = (start_here, p3_pendulum, p4_gravity)
+CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 
 
 def known_check(id: str) -> str:

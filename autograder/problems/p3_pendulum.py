@@ -72,7 +72,10 @@ CHECKS = (
         reference=lambda q, qd, m, lc, I, g: 0.5 * I * qd**2 - m * g * lc * (1 - cos(q)),
         calls=_lagrangian_calls,
         quantities=_lagrangian_parts,
-        criteria=(Criterion("kinetic part of L", "J", 0.5), Criterion("potential part of L", "J", 0.5)),
+        criteria=(
+            Criterion("kinetic part of L", "J", 0.5),
+            Criterion("potential part of L", "J", 0.5),
+        ),
         mistakes=mistakes.LAGRANGIAN,
     ),
     Check(
