@@ -146,6 +146,9 @@ class Check:
     def _diagnosis(self, calls, expected, given, met) -> tuple[str, ...]:
         """What to say of each criterion that is not met."""
         wrong = [(mistake, self._quantities_of(mistake.wrong, calls)) for mistake in self.mistakes]
+        for mistake, values in wrong:
+            if all(self._met(self._errors(values, given))):  # it explains the whole answer
+                return (mistake.sentence,)
         parts = [(term, self._quantities_of(term.model, calls)) for term in self.terms]
         sentences = []
         for k, (criterion, ok) in enumerate(zip(self.criteria, met, strict=True)):
