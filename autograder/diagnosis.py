@@ -6,7 +6,6 @@ case, or those of two mistakes at once. Where none does, the error is projected 
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 
@@ -76,17 +75,18 @@ def mistakes_shown(
     for known in wrong:
         if same(known.values, given):
             return (known.of,)
-    flat = [_flat(known.values) for known in wrong]
+    if not wrong:
+        return ()
+    flat = np.array([_flat(known.values) for known in wrong])
     right, answer = _flat(expected), _flat(given)
-    for (a, first), (b, second) in combinations(zip(flat, wrong, strict=True), 2):
-        both = a + b - right
-        # One array over all cases first, as this is tried for each pair.
-        if np.max(np.abs(both - answer)) <= tolerance * np.max(np.abs(both)):
-            sums = [
-                x + y - e for x, y, e in zip(first.values, second.values, expected, strict=True)
-            ]
-            if same(sums, given) and not same(sums, expected):
-                return (first.of, second.of)
+    # All pairs in one array first, as there may be hundreds.
+    both = flat[:, None] + flat[None] - right
+    near = np.max(np.abs(both - answer), axis=2) <= tolerance * np.max(np.abs(both), axis=2)
+    for i, j in np.argwhere(np.triu(near, 1)):
+        first, second = wrong[i], wrong[j]
+        sums = [x + y - e for x, y, e in zip(first.values, second.values, expected, strict=True)]
+        if same(sums, given) and not same(sums, expected):
+            return (first.of, second.of)
     return ()
 
 
