@@ -113,7 +113,7 @@ def _value_at(expression, symbols, point):
     if len(known) == len(symbols):
         with suppress(Exception):  # what NumPy has no word for, SymPy may still evaluate
             return _compiled(symbols, expression)(*known.values())
-    return expression.subs(known)
+    return expression.doit().subs(known)  # a derivative may have been written, but not taken
 
 
 @lru_cache(maxsize=64)
