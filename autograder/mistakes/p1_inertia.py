@@ -404,38 +404,8 @@ def _symmetric_and(accepts):
     return lambda A: is_symmetric(A) and accepts(A)
 
 
+# What a criterion sees of one alone first, as later ones share it with these.
 IS_SPD = (
-    Mistake(
-        "one triangle read",
-        # As np.linalg.cholesky does; but no exception, and a half read is a half read.
-        lambda A: np.linalg.eigvalsh(A)[0] > 0,
-        "You accept matrices that are not symmetric: cholesky and eigvalsh read one triangle and "
-        "never look at the other. What must be asked before them?",
-    ),
-    Mistake(
-        "eigenvalues of any matrix",
-        lambda A: np.all(np.linalg.eigvals(A).real > 0),
-        "You accept matrices that are not symmetric, as long as their eigenvalues are positive. "
-        "Positive eigenvalues are one half of the question; what is the other?",
-    ),
-    Mistake(
-        "symmetric part only",
-        lambda A: np.linalg.eigvalsh((A + A.T) / 2)[0] > 0,
-        "You judge the symmetric part of the matrix, which xᵀ A x cannot tell from A. What else is "
-        "asked for besides xᵀ A x > 0?",
-    ),
-    Mistake(
-        "determinant alone",
-        lambda A: np.linalg.det(A) > 0,
-        "Your answer is that of the determinant: positive or not. What is the sign of a product of "
-        "two negative eigenvalues?",
-    ),
-    Mistake(
-        "determinant of a symmetric matrix",
-        _symmetric_and(lambda A: np.linalg.det(A) > 0),
-        "You accept symmetric matrices with two negative eigenvalues: their determinant is positive "
-        "too. What must be positive besides it?",
-    ),
     Mistake(
         "zero eigenvalue accepted",
         _symmetric_and(lambda A: least_eigenvalue(A) >= -ROUNDING),
@@ -466,6 +436,12 @@ IS_SPD = (
         "enough: what if the entries beside it are larger?",
     ),
     Mistake(
+        "determinant of a symmetric matrix",
+        _symmetric_and(lambda A: np.linalg.det(A) > 0),
+        "You accept symmetric matrices with two negative eigenvalues: their determinant is positive "
+        "too. What must be positive besides it?",
+    ),
+    Mistake(
         "entries positive",
         _symmetric_and(lambda A: np.all(A > 0)),
         "You ask for positive entries. May the product of inertia of two joints be negative, and "
@@ -480,6 +456,31 @@ IS_SPD = (
         "eigenvalues of one sign",
         _symmetric_and(lambda A: abs(np.sum(np.sign(np.linalg.eigvalsh(A)))) == len(A)),
         "You accept matrices whose eigenvalues are all negative. Which sign has a kinetic energy?",
+    ),
+    Mistake(
+        "one triangle read",
+        # As np.linalg.cholesky does; but no exception, and a half read is a half read.
+        lambda A: np.linalg.eigvalsh(A)[0] > 0,
+        "You accept matrices that are not symmetric: cholesky and eigvalsh read one triangle and "
+        "never look at the other. What must be asked before them?",
+    ),
+    Mistake(
+        "eigenvalues of any matrix",
+        lambda A: np.all(np.linalg.eigvals(A).real > 0),
+        "You accept matrices that are not symmetric, as long as their eigenvalues are positive. "
+        "Positive eigenvalues are one half of the question; what is the other?",
+    ),
+    Mistake(
+        "symmetric part only",
+        lambda A: np.linalg.eigvalsh((A + A.T) / 2)[0] > 0,
+        "You judge the symmetric part of the matrix, which xᵀ A x cannot tell from A. What else is "
+        "asked for besides xᵀ A x > 0?",
+    ),
+    Mistake(
+        "determinant alone",
+        lambda A: np.linalg.det(A) > 0,
+        "Your answer is that of the determinant: positive or not. What is the sign of a product of "
+        "two negative eigenvalues?",
     ),
     Mistake(
         "answer reversed",
