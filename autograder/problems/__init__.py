@@ -2,9 +2,16 @@
 
 import difflib
 
-from autograder.problems import p1_inertia, p2_energy_skew, p3_pendulum, p4_gravity, start_here
+from autograder.problems import (
+    p1_inertia,
+    p2_energy_skew,
+    p3_pendulum,
+    p4_gravity,
+    p5_state_space,
+    start_here,
+)
 
-MODULES = (start_here, p1_inertia, p2_energy_skew, p3_pendulum, p4_gravity)
+MODULES = (start_here, p1_inertia, p2_energy_skew, p3_pendulum, p4_gravity, p5_state_space)
 CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 
 
