@@ -46,7 +46,7 @@ def real(value):
         case Expressions(rows):
             return _matrix(rows).as_mutable()
         case Function(arguments, returns):
-            compute = eval(f"lambda {arguments}: {returns}", vars(np) | {"pi": np.pi})
+            compute = _compiled(arguments, returns)
             return lambda *given: np.array(compute(*given), dtype=float)
         case SimpleNamespace():
             return SimpleNamespace(**{name: real(entry) for name, entry in vars(value).items()})
@@ -55,6 +55,11 @@ def real(value):
         case np.ndarray():
             return value.copy()
     return value
+
+
+@lru_cache(maxsize=64)
+def _compiled(arguments, returns):
+    return eval(f"lambda {arguments}: {returns}", vars(np) | {"pi": np.pi})
 
 
 @lru_cache(maxsize=64)  # a judge asks for the same one again for each known mistake
