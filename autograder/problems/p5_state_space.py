@@ -90,10 +90,10 @@ def _run_calls(rng, count):
         x0, x1, x2 = (signed(rng, 0.5, 1.5, 2 * n) for _ in range(3))
         u = signed(rng, 0.5, 1.0, n)
         ramp, f = steady(rng, 2 * n, n), smooth(rng, 2 * n, n)
-        fit = fitted(f, x2, u, step_lengths(rng, 8), METHOD)
+        fit = fitted(f, x2, u, step_lengths(rng, 6), METHOD)
         calls += [
-            Call("simulate", (ramp, x0, u, times(rng, step_lengths(rng, 6)))),
-            Call("simulate", (ramp, x1, torque_function(rng, n), times(rng, step_lengths(rng, 6)))),
+            Call("simulate", (ramp, x0, u, times(rng, step_lengths(rng, 5)))),
+            Call("simulate", (ramp, x1, torque_function(rng, n), times(rng, step_lengths(rng, 5)))),
             Call("simulate", (f, x2, u, times(rng, fit))),
             *free_runs(rng, n),
         ]
