@@ -89,23 +89,21 @@ def _other(calls, values):
 
 
 def _inertia_text(rng, coordinates):
-    """A symmetric matrix of expressions, each of which changes with every coordinate at its own rate.
+    """A symmetric matrix of expressions in the coordinates, each of which changes at its own rate.
 
-    Sines for up to two joints; polynomials for three, so that a student's `simplify` ends in time.
+    As plain as can be, so that a student's `simplify` ends in time: with three joints an entry
+    changes with one of them.
     """
     n = len(coordinates)
     rows = [[""] * n for _ in range(n)]
     for i in range(n):
         for j in range(i, n):
-            rates = [
-                f"{rate:.2f}*{q}"
-                for rate, q in zip(rng.uniform(0.3, 1.5, n), coordinates, strict=True)
-            ]
-            size, sum_of_rates = f"{rng.uniform(0.5, 1.0):.2f}", " + ".join(rates)
-            swing = f"{size}*cos({sum_of_rates})" if n < 3 else f"{sum_of_rates} + {size}*q1*q3"
-            rows[i][j] = rows[j][i] = (
-                f"{(4 if i == j else 0) + rng.uniform(0.2, 0.8):.2f} + {swing}"
-            )
+            base = rng.uniform(3.0, 5.0) if i == j else rng.uniform(0.2, 0.8)
+            among = coordinates if n < 3 else [coordinates[(i + j) % n]]
+            rates = zip(rng.uniform(0.3, 1.5, n), among, strict=False)
+            rows[i][j] = f"{base:.2f} + " + " + ".join(f"{rate:.2f}*{q}" for rate, q in rates)
+            rows[j][i] = rows[i][j]
+    rows[0][0] += f" + {rng.uniform(1.0, 2.0):.2f}*cos({coordinates[-1]})"
     return tuple(map(tuple, rows))
 
 
@@ -254,8 +252,8 @@ CHECKS = (
         mistakes=mistakes.CHRISTOFFEL,
         terms=mistakes.CHRISTOFFEL_TERMS,
         hints=(
-            "Three loops: i over rows, j over columns, and the sum over k. sp.diff(M[i, j], q[k]) is one "
-            "derivative of the three.",
+            "Three loops: i over rows, j over columns, and the sum over k. sp.diff(M[i, j], q[k]) "
+            "is one derivative of the three.",
             "Try it by hand on one joint: M = [[a(q1)]] has C = ½ a′(q1) q̇1. Does yours?",
             "In h_ijk the first derivative keeps i, j together, the second i, k, the third j, k. The "
             "two that hold the row index i inside M have a plus. Multiply each h_ijk by q̇_k, and test "
