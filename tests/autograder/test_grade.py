@@ -104,7 +104,8 @@ def calls_of(name, rng, count):
     return [repr(call) for call in CHECKS[name].calls(rng, count)]
 
 
-@pytest.mark.parametrize("name", CHECKS)
+# A function without arguments has one case only.
+@pytest.mark.parametrize("name", [n for n in CHECKS if not CHECKS[n].signature.endswith("()")])
 def test_hidden_cases_differ_from_the_visible_ones(name):
     visible = calls_of(name, np.random.default_rng(VISIBLE_SEED), VISIBLE_CASES)
     hidden = calls_of(name, stream("seed", name), HIDDEN_CASES)
