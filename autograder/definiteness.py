@@ -98,6 +98,7 @@ class Kind(Enum):
 
     DEFINITE = "positive definite"
     INDEFINITE = "indefinite or negative definite"
+    NEGATIVE_DIAGONAL = "indefinite, as its diagonal shows"
     SEMIDEFINITE = "semidefinite, exactly or to rounding"
     SKEWED = "not symmetric"
     ROUNDED = "positive definite, and symmetric to rounding"
@@ -112,7 +113,7 @@ MATRICES = (
     (Kind.INDEFINITE, lambda rng: _saddle(rng, -1)),
     (Kind.INDEFINITE, lambda rng: -_definite(rng, 2)),
     (Kind.INDEFINITE, _two_negative),
-    (Kind.INDEFINITE, _negative_diagonal),
+    (Kind.NEGATIVE_DIAGONAL, _negative_diagonal),
     (Kind.SEMIDEFINITE, _massless_joint),
     (Kind.SEMIDEFINITE, lambda rng: _nearly_singular(rng, 3)),
     (Kind.SEMIDEFINITE, lambda rng: _nearly_singular(rng, 4)),

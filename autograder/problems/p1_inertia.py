@@ -103,7 +103,8 @@ M_TERMS = (
 # answer that is always the same meets one.
 SPEAKS_OF = {
     Kind.DEFINITE: (0, 1, 2),
-    Kind.INDEFINITE: (0, 3),
+    Kind.INDEFINITE: (0,),
+    Kind.NEGATIVE_DIAGONAL: (0, 3),
     Kind.SEMIDEFINITE: (1,),
     Kind.SKEWED: (2,),
     Kind.ROUNDED: (3,),
