@@ -72,3 +72,39 @@ def joints(q, arm) -> list[tuple[float, float]]:
 def changed(arm, **parameters) -> SimpleNamespace:
     """The same arm with some parameters replaced: a wrong arm for a wrong model."""
     return SimpleNamespace(**vars(arm) | parameters)
+
+
+def regressor(q, qd, qdd, arm) -> np.ndarray:
+    """Y with M q̈ + C q̇ + g = Y π for π of `parameters`, (..., 2, 6); q, qd, qdd: (..., 2).
+
+    Of the arm only l1 and g enter. Atkeson, An & Hollerbach 1986, Estimation of Inertial Parameters
+    of Manipulator Loads and Links.
+    """
+    (q1, q2), (qd1, qd2), (qdd1, qdd2) = (np.moveaxis(np.asarray(x), -1, 0) for x in (q, qd, qdd))
+    weight_2 = arm.g * np.cos(q1 + q2)
+    swing = np.cos(q2) * (2 * qdd1 + qdd2) - np.sin(q2) * (2 * qd1 * qd2 + qd2**2)
+    Y = np.zeros((*np.shape(q), 6))
+    Y[..., 0, 1] = arm.g * np.cos(q1)
+    Y[..., 0, 2] = qdd1
+    Y[..., 0, 3] = arm.l1**2 * qdd1 + arm.l1 * arm.g * np.cos(q1)
+    Y[..., 0, 4] = arm.l1 * swing + weight_2
+    Y[..., 1, 4] = arm.l1 * (np.cos(q2) * qdd1 + np.sin(q2) * qd1**2) + weight_2
+    Y[..., :, 5] = (qdd1 + qdd2)[..., np.newaxis]
+    return Y
+
+
+def parameters(arm) -> np.ndarray:
+    """π, (6,): for each link its mass, kg, first moment m ℓc, kg·m, inertia about its joint, kg·m²."""
+    first_1, first_2 = arm.m1 * arm.lc1, arm.m2 * arm.lc2
+    about_joints = arm.I1 + first_1 * arm.lc1, arm.I2 + first_2 * arm.lc2
+    return np.array([arm.m1, first_1, about_joints[0], arm.m2, first_2, about_joints[1]])
+
+
+# The columns of Y that are kept where only base parameters are asked for.
+BASE_COLUMNS = (1, 2, 4, 5)
+
+
+def base_parameters(arm) -> np.ndarray:
+    """β with Y π = Y[:, BASE_COLUMNS] β, (4,), kg·m and kg·m² in turn: what torques show of π."""
+    m2 = arm.m2
+    return parameters(arm)[[*BASE_COLUMNS]] + [m2 * arm.l1, m2 * arm.l1**2, 0.0, 0.0]
