@@ -3,6 +3,7 @@
 import numpy as np
 import sympy as sp
 
+from autograder.diagnosis import Mistake
 from autograder.judge import HIDDEN_CASES
 from autograder.problems import CHECKS
 from autograder.verdict import State, Verdict
@@ -42,4 +43,5 @@ def sentences_of(mistakes) -> set[str]:
         for group in vars(mistakes).values()
         if isinstance(group, tuple)
         for mistake in group
+        if isinstance(mistake, Mistake)  # and no Term
     }
