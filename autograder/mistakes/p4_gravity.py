@@ -205,6 +205,11 @@ GRAVITY = (
         "These are the potential energies of the links, one by one. What turns P(q) into g(q)?",
     ),
     Mistake(
+        "potential energy for torque",
+        lambda q, arm: np.full(2, potential_energy(q, arm)),
+        "This is the potential energy P, in joules. What turns P(q) into g(q)?",
+    ),
+    Mistake(
         "entries swapped",
         lambda q, arm: g_vec(q, arm)[::-1],
         "The torques of the two joints have changed places.",
