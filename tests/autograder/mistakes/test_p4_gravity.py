@@ -575,6 +575,15 @@ def test_one_configuration_too_many_costs_the_other_half():
     )
 
 
+def test_what_is_missing_is_told_apart_though_another_configuration_is_there():
+    """The distances alone must not take absolute angles for angles from the vertical."""
+    pairs = f"[(a, b) for a in (-{HALF_PI}, {HALF_PI}) for b in (-{HALF_PI}, {HALF_PI})]"
+    said = judged("p4-equilibria", f"{pairs} + [(0, 0)]").diagnosis
+    assert said[1:] == (
+        "Your second angle is the direction of link 2 in space. From what is q2 measured?",
+    )
+
+
 @pytest.mark.parametrize(
     ("check_id", "body", "said"),
     [
