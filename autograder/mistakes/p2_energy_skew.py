@@ -136,21 +136,10 @@ M_DOT = (
         "Your Ṁ is zero. M does not change with q1, that is true. What else in M changes with time?",
     ),
     Mistake(
-        "half of it",
-        lambda q, qd, arm: 0.5 * right.M_dot(q, qd, arm),
-        "Your Ṁ is half of the right one. The ½ stands in the kinetic energy; does it stand in M?",
-    ),
-    Mistake(
         "twice C",
         lambda q, qd, arm: 2 * right.C(q, qd, arm),
         "This is 2C. It equals Ṁ only under the quadratic form with q̇; compare the two matrices "
         "entry by entry.",
-    ),
-    Mistake(
-        "C for the derivative",
-        right.C,
-        "This is C. It is made of the same derivatives as Ṁ, but is M symmetric, and can its "
-        "derivative be otherwise?",
     ),
     Mistake(
         "M itself",
@@ -167,6 +156,17 @@ M_DOT = (
         Mistake(name, lambda q, qd, arm, D=D: D(q, arm) @ qd, sentence.format("Ṁ"))
         for name, D, sentence in WRONG_ARMS
     ),
+    Mistake(
+        "C for the derivative",
+        right.C,
+        "This is C. It is made of the same derivatives as Ṁ, but is M symmetric, and can its "
+        "derivative be otherwise?",
+    ),
+    Mistake(
+        "half of it",
+        lambda q, qd, arm: 0.5 * right.M_dot(q, qd, arm),
+        "Your Ṁ is half of the right one. The ½ stands in the kinetic energy; does it stand in M?",
+    ),
 )
 M_DOT_TERMS = (
     Term("the right Ṁ itself", right.M_dot),
@@ -180,7 +180,7 @@ def _h_times(pattern):
 
 
 COLUMN = (
-    "This is the vector C q̇, or a matrix made of it. C is the (2, 2) matrix that gives this vector "
+    "This is the vector C q̇, or a matrix made of it. C is the square matrix that gives this vector "
     "when it is multiplied by q̇."
 )
 ROW_SUMS = (
@@ -226,8 +226,8 @@ NO_VELOCITY = (
     "each h_ijk multiplied?"
 )
 WRONG_VELOCITY = (
-    "You multiply h_ijk by the velocity of the column instead of that of the index you sum over. "
-    "Which index is summed in C_ij?"
+    "You multiply h_ijk by the velocity of the row or the column instead of that of the index you "
+    "sum over. Which index is summed in C_ij?"
 )
 LAST_NOT_HALVED = (
     "The last of the three derivatives in your Christoffel symbol counts twice as much as it should. "
@@ -499,20 +499,13 @@ CHRISTOFFEL = tuple(
         ("M for C", lambda D, qd, M: M, M_FOR_C),
     )
 )
-CHRISTOFFEL_TERMS = tuple(
-    Term(name, at_points(of))
-    for name, of in (
-        (
-            "the first derivative, ∂M_ij/∂q_k",
-            lambda D, qd, M: coriolis(D, qd, second=0.0, third=0.0),
-        ),
-        (
-            "the second derivative, ∂M_ik/∂q_j",
-            lambda D, qd, M: coriolis(D, qd, first=0.0, third=0.0),
-        ),
-        (
-            "the last derivative, ∂M_jk/∂q_i",
-            lambda D, qd, M: coriolis(D, qd, first=0.0, second=0.0),
-        ),
-    )
+CHRISTOFFEL_TERMS = (
+    Term(
+        "the two derivatives with a plus, from d/dt(M q̇)",
+        at_points(lambda D, qd, M: coriolis(D, qd, third=0.0)),
+    ),
+    Term(
+        "the last derivative, from −∂K/∂q",
+        at_points(lambda D, qd, M: coriolis(D, qd, first=0.0, second=0.0)),
+    ),
 )
