@@ -525,7 +525,7 @@ SIMULATE = (
     Mistake(
         "state never moved on",
         lambda f, x0, u, t: np.array(
-            [x0, *(run(f, x0, u, [t[0], t[0] + dt])[-1] for dt in np.diff(t))]
+            [x0, *(run(f, x0, u, t[k : k + 2])[-1] for k in range(len(t) - 1))]
         ),
         "Each of your steps starts from x0 again. Where must step k start?",
     ),

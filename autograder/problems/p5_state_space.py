@@ -39,7 +39,7 @@ def _rate_calls(rng, count):
     for k in range(count):
         q, qd = sampling.angles(rng), sampling.velocities(rng)
         joint = rng.integers(2)
-        qd[joint] *= (1.0, 0.0, 0.001)[k % 3]
+        qd[joint] = qd[joint] * (1.0, 0.0, 0.001)[k % 3] + 0.0  # and no -0.0
         u = rng.choice([-1.0, 1.0], 2) * rng.uniform(1.0, 8.0, 2)
         calls.append(
             Call("f", (np.concatenate([q, qd]), u, sampling.planar_2r(rng, friction=True)))
