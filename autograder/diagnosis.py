@@ -55,11 +55,9 @@ class Known:
 
 def relative_errors(expected: list, given: list) -> np.ndarray:
     """The largest error of each case over the scale of its expected value."""
-    size = np.array([np.max(np.abs(e), initial=0.0) for e in expected])
+    size = np.array([abs(e).max(initial=0.0) for e in expected])
     scale = np.maximum(size, LEAST_SCALE * np.max(size))
-    error = np.array(
-        [np.max(np.abs(g - e), initial=0.0) for e, g in zip(expected, given, strict=True)]
-    )
+    error = np.array([abs(g - e).max(initial=0.0) for e, g in zip(expected, given, strict=True)])
     return error / np.where(scale > 0, scale, 1.0)
 
 

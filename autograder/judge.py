@@ -129,10 +129,17 @@ class Check:
 
     def _errors(self, expected, given) -> list[np.ndarray]:
         """For each criterion the relative error of each case."""
-        return [
-            relative_errors([e[k] for e in expected], [g[k] for g in given])
-            for k in range(len(self.criteria))
-        ]
+        return [self._error_of(k, expected, given) for k in range(len(self.criteria))]
+
+    def _error_of(self, k, expected, given) -> np.ndarray:
+        return relative_errors([e[k] for e in expected], [g[k] for g in given])
+
+    def _same(self, expected, given) -> bool:
+        """Whether all criteria are met, asked no further than the first that is not."""
+        return all(
+            np.all(self._error_of(k, expected, given) <= criterion.tolerance)
+            for k, criterion in enumerate(self.criteria)
+        )
 
     def _met(self, errors) -> list[bool]:
         return [
@@ -147,7 +154,7 @@ class Check:
         """What to say of each criterion that is not met."""
         wrong = [(mistake, self._quantities_of(mistake.wrong, calls)) for mistake in self.mistakes]
         for mistake, values in wrong:
-            if all(self._met(self._errors(values, given))):  # it explains the whole answer
+            if self._same(values, given):  # it explains the whole answer
                 return (mistake.sentence,)
         parts = [(term, self._quantities_of(term.model, calls)) for term in self.terms]
         sentences = []
