@@ -80,7 +80,8 @@ def regressor(q, qd, qdd, arm) -> np.ndarray:
     Of the arm only l1 and g enter. Atkeson, An & Hollerbach 1986, Estimation of Inertial Parameters
     of Manipulator Loads and Links.
     """
-    (q1, q2), (qd1, qd2), (qdd1, qdd2) = (np.moveaxis(np.asarray(x), -1, 0) for x in (q, qd, qdd))
+    q1, q2, qd1, qd2 = q[..., 0], q[..., 1], qd[..., 0], qd[..., 1]
+    qdd1, qdd2 = qdd[..., 0], qdd[..., 1]
     weight_2 = arm.g * np.cos(q1 + q2)
     swing = np.cos(q2) * (2 * qdd1 + qdd2) - np.sin(q2) * (2 * qd1 * qd2 + qd2**2)
     Y = np.zeros((*np.shape(q), 6))
@@ -89,7 +90,7 @@ def regressor(q, qd, qdd, arm) -> np.ndarray:
     Y[..., 0, 3] = arm.l1**2 * qdd1 + arm.l1 * arm.g * np.cos(q1)
     Y[..., 0, 4] = arm.l1 * swing + weight_2
     Y[..., 1, 4] = arm.l1 * (np.cos(q2) * qdd1 + np.sin(q2) * qd1**2) + weight_2
-    Y[..., :, 5] = (qdd1 + qdd2)[..., np.newaxis]
+    Y[..., 0, 5] = Y[..., 1, 5] = qdd1 + qdd2
     return Y
 
 
