@@ -3,6 +3,7 @@
 import difflib
 
 from autograder.problems import (
+    c6_regressor,
     p1_inertia,
     p2_energy_skew,
     p3_pendulum,
@@ -11,7 +12,15 @@ from autograder.problems import (
     start_here,
 )
 
-MODULES = (start_here, p1_inertia, p2_energy_skew, p3_pendulum, p4_gravity, p5_state_space)
+MODULES = (
+    start_here,
+    p1_inertia,
+    p2_energy_skew,
+    p3_pendulum,
+    p4_gravity,
+    p5_state_space,
+    c6_regressor,
+)
 CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 
 
