@@ -9,11 +9,11 @@ from math import cos, sin, sqrt
 import numpy as np
 
 from autograder import sampling
-from autograder.wall import Symbol
+from autograder.diagnosis import Term
 from autograder.judge import Check, Criterion
 from autograder.mistakes import p3_pendulum as mistakes
 from autograder.quantities import UnfitError, each
-from autograder.wall import Call
+from autograder.wall import Call, Symbol
 
 LAGRANGIAN_ARGUMENTS = ("q", "qd", "m", "lc", "I", "g")
 
@@ -77,6 +77,26 @@ CHECKS = (
             Criterion("potential part of L", "J", 0.5),
         ),
         mistakes=mistakes.LAGRANGIAN,
+        terms=(
+            Term(
+                "the kinetic energy of the body",
+                lambda q, qd, m, lc, I, g: 0.5 * I * qd**2,
+            ),
+            Term(
+                "the potential energy of the raised mass",
+                lambda q, qd, m, lc, I, g: -m * g * lc * (1 - cos(q)),
+            ),
+        ),
+        hints=(
+            "Two energies, one each: how fast does the body turn, and how high has its centre of mass "
+            "risen?",
+            "The body turns about a fixed point. If the inertia is taken about that point, one term "
+            "holds the whole kinetic energy. For the height, draw the pendulum at q and mark how far "
+            "below the pivot the centre of mass is.",
+            "Half an inertia times the square of a velocity; a weight times a height that is 0 at "
+            "q = 0, ℓc at q = π/2 and twice ℓc at q = π. Which function of q does that? Then L is the "
+            "first less the second.",
+        ),
     ),
     Check(
         id="p3-M",
@@ -85,6 +105,17 @@ CHECKS = (
         calls=_position_calls("M"),
         criteria=(Criterion("inertia about the pivot", "kg·m²"),),
         mistakes=mistakes.INERTIA,
+        terms=(
+            Term("the inertia about the pivot", lambda q, pend: pend.I),
+            Term("the inertia of a point mass", lambda q, pend: pend.m * pend.lc**2),
+        ),
+        hints=(
+            "The cell below your Lagrangian prints the equation of motion. What stands before qdd?",
+            "Compare with the figure's table: about which point is the given inertia taken, and about "
+            "which does the body turn?",
+            "The same point: nothing is to be added to the given inertia, and q does not enter. Give "
+            "it the form of a matrix with one row and one column.",
+        ),
     ),
     Check(
         id="p3-C",
@@ -100,6 +131,11 @@ CHECKS = (
             ),
         ),
         mistakes=mistakes.CORIOLIS,
+        hints=(
+            "Look at the printed equation of motion: does any term hold qd?",
+            "C comes from the change of M with q. How does this M change when the pendulum turns?",
+            "A constant M has no derivative. Return the matrix of one row and one column that says so.",
+        ),
     ),
     Check(
         id="p3-g_vec",
@@ -108,6 +144,17 @@ CHECKS = (
         calls=_position_calls("g_vec"),
         criteria=(Criterion("gravity torque", "N·m"),),
         mistakes=mistakes.GRAVITY,
+        terms=(
+            Term("the torque of the weight", lambda q, pend: pend.m * pend.g * pend.lc * sin(q[0])),
+        ),
+        hints=(
+            "What is left of the printed equation of motion when nothing moves?",
+            "It is the derivative of P by q. Where does it vanish, and where is it largest: hanging, "
+            "or level?",
+            "A weight on a lever arm, and the arm is the horizontal distance of the centre of mass "
+            "from the pivot, q counted from hanging. To hold the body at a small positive q the motor "
+            "must push in the positive direction: that is the sign of g on the left side.",
+        ),
     ),
     Check(
         id="p3-inertia_about_pivot",
@@ -116,6 +163,17 @@ CHECKS = (
         calls=_inertia_calls,
         criteria=(Criterion("inertia moved to the pivot", "kg·m²"),),
         mistakes=mistakes.INERTIA_ABOUT_PIVOT,
+        terms=(
+            Term("the inertia about the centre of mass", lambda I_com, m, lc: I_com),
+            Term("the inertia of a point mass", lambda I_com, m, lc: m * lc**2),
+        ),
+        hints=(
+            "The parallel-axis theorem moves an inertia between two parallel axes, of which one goes "
+            "through the centre of mass.",
+            "What is added is what a point mass would have that sits where the centre of mass is.",
+            "Of all parallel axes the one through the centre of mass has the smallest inertia, so the "
+            "inertia of that point mass comes on top. Check the unit: kg·m².",
+        ),
     ),
     Check(
         id="p3-small_angle_frequency",
@@ -124,5 +182,12 @@ CHECKS = (
         calls=_frequency_calls,
         criteria=(Criterion("angular frequency of small swings", "rad/s"),),
         mistakes=mistakes.SMALL_ANGLE_FREQUENCY,
+        hints=(
+            "Write the equation of motion with u = 0, and put q in the place of sin q.",
+            "Divide by what stands before q̈. An oscillator has q̈ and the angle itself, with one "
+            "constant factor: what is that factor called?",
+            "The factor before q is the square of the angular frequency. In it stand the weight, its "
+            "lever arm and the inertia about the pivot. A root gives rad/s; 2π is not needed.",
+        ),
     ),
 )

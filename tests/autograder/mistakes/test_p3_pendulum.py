@@ -329,14 +329,49 @@ def test_two_mistakes_in_different_terms_are_both_named():
 
 
 @pytest.mark.parametrize(
-    ("check_id", "returned"),
+    ("check_id", "returned", "said"),
     [
-        ("p3-M", "1.1 * pend.I"),
-        ("p3-g_vec", f"{MGL} * np.sin(q) * 1.0001"),
-        ("p3-g_vec", f"-{MGL} * np.sin(q) * 1.0001"),
-        ("p3-small_angle_frequency", "1.0"),
-        ("p3-inertia_about_pivot", "I_com + 0.9 * m * lc**2"),
+        (
+            "p3-M",
+            "1.1 * pend.I",
+            "inertia about the pivot varies like the inertia about the pivot (+0.1",
+        ),
+        (
+            "p3-g_vec",
+            f"{MGL} * np.sin(q) * 1.0001",
+            "gravity torque varies like the torque of the weight (+0.0001",
+        ),
+        (
+            "p3-g_vec",
+            f"-{MGL} * np.sin(q) * 1.0001",
+            "gravity torque varies like the torque of the weight (-2",
+        ),
+        (
+            "p3-inertia_about_pivot",
+            "I_com + 0.9 * m * lc**2",
+            "inertia moved to the pivot varies like the inertia of a point mass (-0.1",
+        ),
+        (
+            "p3-lagrangian",
+            f"1.2 * {KINETIC} - {POTENTIAL}",
+            "kinetic part of L varies like the kinetic energy of the body (+0.2",
+        ),
+        (
+            "p3-lagrangian",
+            f"{KINETIC} - 0.7 * {POTENTIAL}",
+            "potential part of L varies like the potential energy of the raised mass (-0.3",
+        ),
     ],
+)
+def test_unknown_error_is_traced_to_its_term(check_id, returned, said):
+    verdict = judged(check_id, returned)
+    assert verdict.diagnosis == (f"What is off in your {said} times it).",)
+    assert verdict.witness is not None
+
+
+@pytest.mark.parametrize(
+    ("check_id", "returned"),
+    [("p3-M", "q[0]"), ("p3-g_vec", "q[0] ** 4"), ("p3-small_angle_frequency", "1.0")],
 )
 def test_unknown_error_is_not_diagnosed(check_id, returned):
     verdict = judged(check_id, returned)
