@@ -289,7 +289,7 @@ def test_points_are_those_of_the_grade_cells():
 
 
 def test_the_release_is_not_attempted_and_holds_no_answer(release):
-    assert states(grade(release, SOURCE, "seed")) == {State.NOT_ATTEMPTED}
+    assert states(grade(p4_gravity.blank(release), SOURCE, "seed")) == {State.NOT_ATTEMPTED}
     text = nbformat.writes(release)
     assert "SOLUTION" not in text
     assert "HIDDEN" not in text
