@@ -27,8 +27,11 @@ def _definite(rng, n):
     while True:
         turn = np.linalg.qr(rng.normal(size=(n, n)))[0]
         A = _symmetrised(turn * rng.uniform(0.4, 1.2, n) @ turn.T)
-        if np.min(A) < -0.1:
-            return A
+        i, j = np.unravel_index(np.argmax(np.abs(np.triu(A, 1))), A.shape)
+        if abs(A[i, j]) > 0.1:
+            side = np.ones(n)
+            side[i] = -np.sign(A[i, j])  # the same body with this joint's angle counted backwards
+            return A * np.outer(side, side)
 
 
 def _symmetrised(A):

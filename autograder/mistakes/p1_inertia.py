@@ -449,7 +449,7 @@ IS_SPD = (
     ),
     Mistake(
         "one triangle read",
-        # As np.linalg.cholesky does; but no exception, and a half read is a half read.
+        # eigvalsh reads the lower triangle, as cholesky does, and raises nothing.
         lambda A: np.linalg.eigvalsh(A)[0] > 0,
         "You accept matrices that are not symmetric: cholesky and eigvalsh read one triangle and "
         "never look at the other. What must be asked before them?",

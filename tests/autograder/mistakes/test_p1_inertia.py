@@ -582,6 +582,15 @@ def test_sentence_credit_and_witness(check_id, body, credit, sentence):
     assert verdict.witness.returned.startswith(("True, where False is", "False, where True is"))
 
 
+def test_worst_case_of_a_truth_value():
+    verdict = judged("p1-is_spd", "True")
+    asked = "(positive definite told from indefinite)"
+    shown = " ".join(str(verdict).split())
+    assert f"gave True, where False is right {asked}. Change" in shown
+    shown = " ".join(str(verdict.without_inputs()).split())
+    assert f"Worst case: your function gave True, where False is right {asked}." in shown
+
+
 @pytest.mark.parametrize(("parameters", "q", "credit", "sentence"), SINGULAR)
 def test_arm_that_does_not_do(parameters, q, credit, sentence):
     verdict = judged("p1-singular_arm", f"{BASE | parameters}, {q}")
