@@ -90,7 +90,7 @@ def _torques_and_distances(call, value):
     given = _configurations(value)
     (arm,) = call.args
     largest = planar_2r.g_vec(np.zeros(2), arm)
-    left = np.abs([planar_2r.g_vec(q, arm) for q in given]) / largest
+    left = np.abs(planar_2r.g_vec(given.T, arm).T) / largest
     torques = np.zeros((MOST_TORQUES, 2))
     kept = -np.sort(-left, axis=0)[:MOST_TORQUES]
     torques[: len(kept)] = kept
