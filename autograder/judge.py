@@ -36,7 +36,9 @@ class Criterion:
     """One thing that is asked of an answer: in words, its unit, its share of the credit.
 
     otherwise: what to say where it is not met and no known mistake matches. tolerance: the relative
-    error that rounding, or the method that is asked for, explains. is_property: true of the answer
+    error that rounding, or the method that is asked for, explains. matching: the error within which
+    an answer shows a known mistake, where that must be less, as wrong answers lie close together;
+    by default the same. is_property: true of the answer
     as a whole, as skew-symmetry is; what breaks it is looked for among the mistakes that are shown
     already, and not in its own numbers, which many answers share.
     """
@@ -47,6 +49,11 @@ class Criterion:
     otherwise: str = ""
     tolerance: float = TOLERANCE
     is_property: bool = False
+    matching: float | None = None
+
+    def allows(self, met: bool) -> float:
+        """The relative error within which a mistake's numbers are an answer's, met or not."""
+        return self.tolerance if met or self.matching is None else self.matching
 
 
 class Check:
@@ -134,10 +141,10 @@ class Check:
     def _error_of(self, k, expected, given) -> np.ndarray:
         return relative_errors([e[k] for e in expected], [g[k] for g in given])
 
-    def _same(self, expected, given) -> bool:
-        """Whether all criteria are met, asked no further than the first that is not."""
+    def _same(self, wrong, given, met) -> bool:
+        """Whether a mistake's numbers are those given, asked no further than where they differ."""
         return all(
-            np.all(self._error_of(k, expected, given) <= criterion.tolerance)
+            np.all(self._error_of(k, wrong, given) <= criterion.allows(met[k]))
             for k, criterion in enumerate(self.criteria)
         )
 
@@ -154,7 +161,7 @@ class Check:
         """What to say of each criterion that is not met."""
         wrong = [(mistake, self._quantities_of(mistake.wrong, calls)) for mistake in self.mistakes]
         for mistake, values in wrong:
-            if self._same(values, given):  # it explains the whole answer
+            if self._same(values, given, met):  # it explains the whole answer
                 return (mistake.sentence,)
         parts = [(term, self._quantities_of(term.model, calls)) for term in self.terms]
         sentences = []
@@ -164,7 +171,7 @@ class Check:
             right, theirs = [e[k] for e in expected], [g[k] for g in given]
             known = [Known(mistake, [value[k] for value in values]) for mistake, values in wrong
                      if mistake.sentence in sentences or not criterion.is_property]  # fmt: skip
-            shown = mistakes_shown(right, theirs, known, criterion.tolerance)
+            shown = mistakes_shown(right, theirs, known, criterion.allows(met=False))
             sentences += [mistake.sentence for mistake in shown]
             if not shown:
                 known = [Known(term, [value[k] for value in values]) for term, values in parts
