@@ -78,7 +78,7 @@ def number(rng, low, high) -> str:
 
 
 def _vector_of(entries) -> str:
-    return f"[{', '.join(entries)}]"
+    return f"[{', '.join(entries)}]".replace("+ -", "- ")
 
 
 def steady(rng, size, inputs) -> Function:

@@ -60,7 +60,7 @@ def right(release):
 
 
 def partly_right(release):
-    """Friction the wrong way, Euler in the shell of RK4, which the run shows too, the drift of K alone."""
+    """Friction the wrong way, Euler in the shell of RK4 (which the run shows), a drift of K alone."""
     return right_but(
         release,
         f=RIGHT["f"].replace("-= arm.viscous", "+= arm.viscous"),
