@@ -198,10 +198,10 @@ def test_right_in_any_style(name, style):
     ("name", "style", "seeds"),
     [
         ("f", "list", 1000),
-        ("energy_drift", "single precision", 500),
-        ("rk4_step", "single precision", 500),
-        ("simulate", "single precision", 150),
-        ("simulate", "three eighths", 50),
+        ("energy_drift", "single precision", 200),
+        ("rk4_step", "single precision", 200),
+        ("simulate", "single precision", 50),
+        ("simulate", "three eighths", 20),
     ],
 )
 def test_no_false_alarm_at_any_seed(name, style, seeds):
@@ -234,7 +234,7 @@ LOW_ORDER = [KUTTA_3, *(m.wrong for m in METHODS)]
 
 @pytest.mark.parametrize("step", LOW_ORDER, ids=["Kutta 3", *(m.name for m in METHODS)])
 def test_methods_of_lower_order_never_pass(step):
-    for seed in range(8):
+    for seed in range(4):
         assert not judged("rk4_step", step, seed, VISIBLE_CASES).rows[1].met
         rows = judged("simulate", lambda *args: run(*args, step=step), seed, VISIBLE_CASES).rows
         assert [row.met for row in rows[2:]] == [False, False, False]
@@ -260,11 +260,11 @@ def test_reference_run_agrees_with_a_tight_solver():
     for call in calls:
         args = [*map(real, call.args)]
         tight = held_ivp(*args, method="DOP853", rtol=1e-12, atol=1e-13)
-        np.testing.assert_allclose(exact_run(*args), tight, atol=2e-8)
+        np.testing.assert_allclose(exact_run(*args), tight, atol=2e-7)
         if isinstance(call, FreeRun):
-            np.testing.assert_allclose(call.end, tight[-1], atol=2e-8)
+            np.testing.assert_allclose(call.end, tight[-1], atol=2e-7)
             energy = call.energy(np.array(tight))
-            np.testing.assert_allclose(energy, energy[0])
+            np.testing.assert_allclose(energy, energy[0], rtol=1e-9)
 
 
 def test_references_agree_with_the_library():
