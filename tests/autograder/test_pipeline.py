@@ -1,15 +1,8 @@
-"""Many submissions: killed runs go on, unchanged work is not redone, nobody stops the others."""
+"""Many submissions: unchanged work is not redone, nobody stops the others."""
 
 import json
 import operator
 import os
-import random
-import signal
-import subprocess
-import sys
-import time
-import uuid
-from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -22,13 +15,8 @@ from autograder.executors import Processes, outcomes
 from autograder.grade import Graded
 from autograder.verdict import Row, State, Verdict, Witness
 from tests.autograder import courses
-from tests.autograder.courses import P3, rows, submit
+from tests.autograder.courses import P3, submit
 from tests.submissions import p3_pendulum
-
-KILLS = 3
-STUDENTS = 20
-KINDS = (p3_pendulum.right, p3_pendulum.partly_right, p3_pendulum.wrong, p3_pendulum.blank)
-PATIENCE = 60.0
 
 
 @pytest.fixture
@@ -38,60 +26,6 @@ def course(tmp_path, monkeypatch):
     submit(root, "ada", p3_pendulum.right(courses.release(root)))
     monkeypatch.chdir(root)
     return root
-
-
-def with_mark(mark: str) -> list[int]:
-    """The processes that carry this mark in their environment."""
-    found = []
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            if mark.encode() in (folder / "environ").read_bytes():
-                found.append(int(folder.name))
-        except OSError:
-            continue
-    return found
-
-
-def until(condition) -> None:
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
-
-
-def test_killed_runs_go_on_to_the_same_gradebook(tmp_path):
-    undisturbed, killed = (courses.new_course(tmp_path / name) for name in ("whole", "killed"))
-    release = courses.release(killed)
-    for root in (undisturbed, killed):
-        for number in range(STUDENTS):
-            submit(root, f"student{number:02}", KINDS[number % len(KINDS)](release))
-    rng, mark = random.Random(4), uuid.uuid4().hex
-    results = killed / "course" / "cache-of-results" / "results"
-    command = [Path(sys.executable).parent / "autograder", "grade", P3, "--jobs", "2"]
-    reached = 0
-    for _ in range(KILLS):
-        process = subprocess.Popen(
-            command,
-            cwd=killed,
-            env=os.environ | {"MARK_OF_TEST": mark},
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        reached += rng.randint(1, STUDENTS // KILLS - 1)
-        until(lambda: len(list(results.rglob("*.json"))) >= reached)  # noqa: B023
-        time.sleep(rng.uniform(0, 0.05))
-        assert process.poll() is None
-        process.kill()
-        assert process.wait() == -signal.SIGKILL
-        until(lambda: not with_mark(mark))
-    judged = {path: path.stat().st_mtime_ns for path in results.rglob("*.json")}
-    assert reached <= len(judged) < STUDENTS
-    lines = pipeline.grade_all(killed, P3, jobs=2)
-    assert all(line.graded for line in lines)
-    assert {path: path.stat().st_mtime_ns for path in judged} == judged
-    pipeline.grade_all(undisturbed, P3, jobs=2)
-    assert rows(courses.database(killed)) == rows(courses.database(undisturbed))
-    assert not list((killed / "course").rglob("*.part"))
 
 
 def test_only_what_changed_is_judged_again(course, monkeypatch, capsys):
