@@ -16,6 +16,7 @@ HERE = Path(__file__).parent
 INSIDE = {
     HERE / "room" / "runner.py": "runner.py",
     HERE / "room" / "forks.py": "forks.py",
+    HERE / "room" / "first.py": "first.py",
     HERE / "room" / "namespaces.py": "namespaces.py",
     HERE / "room" / "stubs" / "autograder.py": "autograder.py",
     HERE / "room" / "stubs" / "armdyn.py": "armdyn.py",
