@@ -5,8 +5,10 @@ What the fallback without bubblewrap does not stop is each attack's `fallback`; 
 
 from tests.submissions import (
     hostile_answers,  # noqa: F401
+    hostile_hooks,  # noqa: F401
     hostile_judge,  # noqa: F401
     hostile_notebooks,  # noqa: F401
+    hostile_pages,  # noqa: F401
     hostile_processes,  # noqa: F401
 )
 from tests.submissions.attack import ATTACKS
