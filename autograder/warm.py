@@ -72,8 +72,7 @@ class Nursery:
             os.close(request_end)
             os.close(reply_end)
             handle_end.close()
-        with handles:
-            return WarmProcess(self, requests, replies, _receive_handle(handles))
+        return WarmProcess(self, requests, replies, handles)
 
     def close(self) -> None:
         """End the process and all its rooms."""
@@ -93,14 +92,20 @@ class Nursery:
 
 
 class WarmProcess:
-    """One room's processes. requests, replies: descriptors, as of a subprocess's pipes."""
+    """One room's processes. requests, replies: descriptors, as of a subprocess's pipes.
 
-    def __init__(self, nursery: Nursery, requests: int, replies: int, handle: int | None):
-        self._nursery, self._handle = nursery, handle
+    line: brings a handle on process 1 of the room, and why that ends the room where it does.
+    """
+
+    def __init__(self, nursery: Nursery, requests: int, replies: int, line: socket.socket):
+        self._nursery, self._line, self._handle = nursery, line, _receive_handle(line)
         self.requests, self.replies = requests, replies
         self.ended = False
 
     def said(self) -> str:
+        self._line.setblocking(False)
+        with suppress(OSError):
+            return self._line.recv(300).decode(errors="replace")
         return ""
 
     def outlived_its_keeper(self) -> bool:
@@ -118,6 +123,7 @@ class WarmProcess:
             # Readable when the last process of the namespace is gone.
             select.select([self._handle], [], [], START_SECONDS)
             os.close(self._handle)
+        self._line.close()
         os.close(self.requests)
         os.close(self.replies)
 

@@ -1,8 +1,9 @@
 """Runs a student's cells and answers calls, inside the sandbox.
 
 One request a line on standard input, one reply a line on standard output, both JSON:
-{"run": source} → {"outputs": [...]}, {"ask": [calls]} → {"replies": [...]}. Both descriptors are
-moved out of the way first, so that what the student's code prints cannot mix with the replies.
+{"run": source} → {"outputs": [...]}, {"ask": [calls]} → a {"reply": ...} for each call in turn, up
+to the first fault. Both descriptors are moved out of the way first, so that what the student's code
+prints cannot mix with the replies.
 """
 
 import base64
@@ -12,6 +13,7 @@ import os
 import random
 import resource
 import sys
+import time
 
 # A room has no more processes and threads than this, its keeper among them.
 MOST_PROCESSES = 64
@@ -19,6 +21,8 @@ MEMORY_BYTES = 4 << 30
 FILE_BYTES = 64 << 20
 MOST_TEXT = 200_000
 MOST_OUTPUTS = 50
+# Quick calls are answered in one go: each time that the judge is woken costs more than a call.
+HELD_SECONDS = 0.02
 # What a feedback page shows of a student's output. No HTML or JavaScript: it would run in the
 # instructor's browser.
 SHOWN = ("text/plain", "text/latex", "image/png")
@@ -57,9 +61,7 @@ def serve(shell=None, walled=False):
             outputs = _run(shell, request["run"], request["seconds"], wall)
             _reply(replies, {"outputs": outputs})
         else:
-            calls = [wall.decode_call(call) for call in request["ask"]]
-            answers = _quietly(wall.answer_all, calls, shell.user_ns)
-            _reply(replies, {"replies": [wall.encode_reply(answer) for answer in answers]})
+            _quietly(_answer, request["ask"], shell.user_ns, replies, wall)
 
 
 def _private_channel():
@@ -148,6 +150,20 @@ def _show_figures():
         from matplotlib_inline.backend_inline import flush_figures
 
         flush_figures()
+
+
+def _answer(calls, namespace, replies, wall):
+    """Write a line for each call, and let go of the lines written before one that may take long."""
+    written = time.monotonic()
+    for call in calls:
+        if time.monotonic() - written > HELD_SECONDS:
+            replies.flush()
+            written = time.monotonic()
+        answer = wall.answer(wall.decode_call(call), namespace)
+        replies.write(json.dumps({"reply": wall.encode_reply(answer)}) + "\n")
+        if answer.fault:
+            break
+    replies.flush()
 
 
 def _quietly(function, *args):

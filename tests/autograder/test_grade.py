@@ -210,7 +210,7 @@ class Script:
             raise RoomLostError("it ended")
         return []
 
-    def ask(self, calls):
+    def ask(self, calls, seconds):
         if calls[0].name in self.deadly:
             raise RoomLostError("it ended")
         return [Reply(fault=Fault(FaultKind.MISSING, "near"))]
