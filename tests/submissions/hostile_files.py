@@ -55,6 +55,26 @@ def deep_json(release):
 
 
 @file()
+def deep_settings(release):
+    """A right notebook with a cell's settings nested deeper than it could be copied."""
+    notebook = copy.deepcopy(right(release))
+    notebook.cells[0].metadata["deep"] = None
+    return _json(notebook).replace(b'"deep": null', b'"deep": ' + b"[" * 900 + b"]" * 900)
+
+
+@file()
+def utf_16(release):
+    """A right notebook in UTF-16, which no Jupyter writes."""
+    return json.dumps(right(release)).encode("utf-16")
+
+
+@file()
+def version_in_words(release):
+    """Its version is text."""
+    return _json({**right(release), "nbformat": "4"})
+
+
+@file()
 def a_list(release):
     """JSON, but no object."""
     return b"[1, 2, 3]"
