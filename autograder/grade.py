@@ -127,7 +127,9 @@ class Sitting:
 
     def ask(self, calls: list[Call]) -> list[Reply]:
         """The replies to calls of the student's functions."""
-        limit = Fault(FaultKind.TIMED_OUT, f"the {NOTEBOOK_SECONDS:g} s that the whole notebook has")
+        limit = Fault(
+            FaultKind.TIMED_OUT, f"the {NOTEBOOK_SECONDS:g} s that the whole notebook has"
+        )
         if self._is_over():
             return [Reply(fault=limit)]
         try:

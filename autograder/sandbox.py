@@ -167,7 +167,7 @@ class Room:
         self.close()
         if innocent:
             raise OSError("the process that keeps the sandboxes ended, and this one with it")
-        raise RoomLostError(f"{why} {said}".strip())
+        raise RoomLostError(f"{why}: {said}" if said else why)
 
 
 class ColdProcess:
@@ -200,7 +200,7 @@ class ColdProcess:
     def said(self) -> str:
         stderr = self._process.stderr
         ready, _, _ = select.select([stderr], [], [], 0)
-        return os.read(stderr.fileno(), 4096).decode(errors="replace") if ready else ""
+        return os.read(stderr.fileno(), 4096).decode(errors="replace").strip() if ready else ""
 
     def outlived_its_keeper(self) -> bool:
         return False

@@ -60,6 +60,8 @@ def main():
         message, descriptors, *_ = socket.recv_fds(channel, 16, REQUEST)
         if not message:
             return
+        if message == b"alive?":
+            channel.send(b"alive")
         if len(descriptors) == REQUEST:
             _start_room(*descriptors, to_warm, first, namespaces)
         for descriptor in descriptors:

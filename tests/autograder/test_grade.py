@@ -219,6 +219,35 @@ class Script:
         type(self).ran.append("close")
 
 
+def failing(times: int):
+    """A sitting whose sandbox ends by itself, so many times."""
+
+    class Failing(Sitting):
+        left = times
+
+        def ask(self, calls):
+            if type(self).left:
+                type(self).left -= 1
+                raise OSError("the process that keeps the sandboxes ended")
+            return super().ask(calls)
+
+    return Failing
+
+
+def test_a_sandbox_that_ends_by_itself_costs_nobody_a_point(release, wrong, monkeypatch, caplog):
+    monkeypatch.setattr(grading, "Sitting", failing(1))
+    again = grade(p3_pendulum.wrong(release), SOURCE, "seed")
+    assert again.verdicts == wrong.verdicts
+    assert "the process that keeps the sandboxes ended: the notebook is graded" in caplog.text
+
+
+def test_a_sandbox_that_always_ends_is_tried_twice(release, monkeypatch):
+    monkeypatch.setattr(grading, "Sitting", sitting := failing(9))
+    with pytest.raises(OSError, match="keeps the sandboxes"):
+        grade(p3_pendulum.wrong(release), SOURCE, "seed")
+    assert sitting.left == 7
+
+
 def test_a_new_room_runs_the_earlier_cells_but_not_the_one_that_ended_the_last():
     class Room(Script):
         ran: ClassVar[list[str]] = []
