@@ -5,6 +5,7 @@ metadata as submitted; here it is rebuilt from the source, and every change is r
 """
 
 import copy
+import json
 import re
 from itertools import count
 
@@ -23,6 +24,12 @@ def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode
     without the claim.
     """
     notebook, notes = copy.deepcopy(submission), []
+    for cell in notebook.cells:
+        cell.pop("outputs", None)  # made anew
+    clean = without_surrogates(notebook)
+    if clean is not notebook:
+        notes.append("characters that no text can hold were replaced by \ufffd")
+        notebook = clean
     _give_form(notebook, source, notes)
     known = {grade_id(cell): cell for cell in source.cells if grade_id(cell)}
     at = _last_places(notebook, known, notes)
@@ -39,6 +46,28 @@ def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode
     _put_back(notebook, known, placed, notes)
     _tell_apart(notebook)
     return notebook, notes
+
+
+def without_surrogates(value):
+    """The same JSON value, in it \ufffd for each half of a surrogate pair: JSON can write one, no file.
+
+    Where there is none, `value` itself.
+    """
+    try:
+        json.dumps(value, ensure_ascii=False).encode()
+    except UnicodeEncodeError:
+        return _replaced(value)
+    return value
+
+
+def _replaced(value):
+    if isinstance(value, str):
+        return re.sub("[\ud800-\udfff]", "\ufffd", value)
+    if isinstance(value, dict):
+        return type(value)({_replaced(key): _replaced(part) for key, part in value.items()})
+    if isinstance(value, list):
+        return [_replaced(part) for part in value]
+    return value
 
 
 # What nbformat has rules for; a cell's settings that break them would stop its student's grading.

@@ -1,19 +1,18 @@
 """Many submissions: unchanged work is not redone, nobody stops the others."""
 
-import json
 import operator
 import os
+import subprocess
+import sys
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from autograder import pipeline
-from autograder.cache import Cache, digest, from_json, to_json
+from autograder.cache import Cache, digest
 from autograder.cli import main
 from autograder.executors import Processes, outcomes
-from autograder.grade import Graded
-from autograder.verdict import Row, State, Verdict, Witness
 from tests.autograder import courses
 from tests.autograder.courses import P3, submit
 from tests.submissions import p3_pendulum
@@ -86,23 +85,46 @@ def test_different_parts_have_different_digests(one, other):
     assert (digest(*one) == digest(*other)) == (one == other)
 
 
-verdicts = st.builds(
-    Verdict,
-    check=st.text(),
-    state=st.sampled_from(State),
-    credit=st.floats(0, 1),
-    rows=st.lists(st.builds(Row, st.text(), st.floats(0, 1), st.booleans())).map(tuple),
-    witness=st.none() | st.builds(Witness, st.text(), st.text(), st.text()),
-    problem=st.text(),
-    diagnosis=st.lists(st.text()).map(tuple),
-    next_step=st.text(),
+def test_a_second_run_at_once_is_told_so(course):
+    """The lock ends with its process, so that a killed run holds up nobody."""
+    hold = "import sys; from pathlib import Path; from autograder import lock\n"
+    hold += "with lock.locked(Path(sys.argv[1]), ''): print('held', flush=True); sys.stdin.read()"
+    command = [sys.executable, "-c", hold, course / pipeline.LOCK]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
+        assert holder.stdout.readline() == b"held\n"
+        said = courses.run(course, "autograder", "grade", P3, status=2)
+        assert said == f"autograder: another `autograder grade` is at work in {course}\n"
+        assert not (course / "course" / "autograded").exists()
+        holder.kill()
+    assert main(["grade", P3, "--jobs", "1"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("setting", "named"),
+    [
+        ("c.Autograde.autograde_preprocessors = []", "Autograde.autograde_preprocessors"),
+        ("c.OverwriteCells.add_missing_cells = True", "OverwriteCells"),
+        ("c.Autograde.post_convert_hook = print", "Autograde.post_convert_hook"),
+    ],
 )
+def test_what_only_nbgrader_can_do_is_refused(course, capsys, setting, named):
+    with (course / "nbgrader_config.py").open("a") as config:
+        config.write(setting + "\n")
+    assert main(["grade", P3, "--jobs", "1"]) == 2
+    assert f"nbgrader_config.py sets {named}, which only nbgrader" in capsys.readouterr().err
 
 
-@given(verdicts)
-def test_results_come_back_from_the_cache_as_they_went(verdict):
-    graded = Graded({"cells": []}, {"p3-M": verdict}, ("a note",))
-    assert from_json(json.loads(json.dumps(to_json(graded)))) == graded
+def test_steps_on_the_judged_notebook_run(course):
+    """nbgrader's own, with their settings."""
+    with (course / "nbgrader_config.py").open("a") as config:
+        config.write("c.LimitOutput.max_lines = 3\n")
+    notebook = p3_pendulum.right(courses.release(course))
+    p3_pendulum.cell_of(notebook, "answer-M").source += "\nprint('many\\n' * 50)"
+    submit(course, "ada", notebook)
+    assert main(["grade", P3, "--jobs", "1"]) == 0
+    graded = (course / "course" / "autograded" / "ada" / P3 / f"{P3}.ipynb").read_text()
+    assert "Output truncated" in graded
+    assert graded.count('"many\\n"') == 2
 
 
 def test_a_damaged_entry_is_none(tmp_path):
