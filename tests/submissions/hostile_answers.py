@@ -132,15 +132,15 @@ def g_vec(q, pend):
 
 @attack()
 def table_of_visible_cases(release):
-    """Right for the cases that a student sees, which are written into the answer."""
+    """Right for the cases that a student sees, and those that would follow, in a table."""
     from numpy.random import default_rng
 
     from autograder.check import VISIBLE_SEED
-    from autograder.judge import VISIBLE_CASES
+    from autograder.judge import HIDDEN_CASES
     from autograder.problems import CHECKS
 
     check = CHECKS["p3-g_vec"]
-    calls = check.calls(default_rng(VISIBLE_SEED), VISIBLE_CASES)
+    calls = check.calls(default_rng(VISIBLE_SEED), HIDDEN_CASES)
     table = {f"{call.args[0][0]:.9f}": check.reference(*call.args) for call in calls}
     return cheat(release, g_vec=function("g_vec", f"{table!r}.get(f'{{q[0]:.9f}}', 1.0)"))
 
