@@ -36,6 +36,7 @@ WORDS_OF_THE_GUIDE = {
     "reads_the_solution": "the solutions",
     "hunts_modules": "this project's own modules",
     "follows_symlinks": "follow links",
+    "another_language": "whatever you can read",
     "writes_the_gradebook": "the gradebook",
     "writes_outside": "write any file",
     "shadowed_modules": "modules",

@@ -20,7 +20,9 @@ def warns_in_the_check(release):
     return notebook
 
 
-@attack(says="The notebook defines no g_vec.")
+@attack(
+    says="The notebook defines no g_vec.", fallback="a shell reads all that the instructor may read"
+)
 def another_language(release):
     """Hands its cell to a shell, with commands that read and write."""
     return cheat(
