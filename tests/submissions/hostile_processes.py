@@ -237,7 +237,7 @@ except OSError:
 
 @attack(fallback="the network is as open as to the instructor")
 def reaches_the_network(release):
-    """Calls a server on this machine, through a socket of its own and with curl."""
+    """Calls a server on this machine."""
     return cheat(
         release,
         f"""
@@ -247,7 +247,6 @@ try:
     print({GOT!r})
 except OSError:
     pass
-!curl -s -m 1 http://127.0.0.1:{LISTENING.port}
 """,
     )
 
