@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from nbformat import NotebookNode
-from nbformat.v4 import new_output
 
+from autograder import outputs
 from autograder.judge import HIDDEN_CASES
 from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
 from autograder.sandbox import Room, RoomLostError
 from autograder.verdict import State, Verdict
-from autograder.wall import Call, Fault, FaultKind, Reply, shortened
+from autograder.wall import Call, Fault, FaultKind, Reply
 
 log = logging.getLogger(__name__)
 
@@ -58,7 +58,8 @@ def _graded(submission, source, seed) -> Graded:
                 continue
             cell.outputs, cell.execution_count = [], None
             if not is_judged(cell):
-                cell.outputs = [_output(output) for output in sitting.run(cell.source)]
+                shown = map(outputs.of_student, sitting.run(cell.source))
+                cell.outputs = [output for output in shown if output]
                 continue
             name = grade_id(cell)
             if name in CHECKS:
@@ -110,20 +111,20 @@ class Sitting:
         """The outputs of a cell; an error output where it ends its process."""
         if self._is_over():
             text = f"not run: the notebook took {NOTEBOOK_SECONDS:g} s before it came to this cell"
-            return [_error("TimeoutError", text, [text])]
+            return [outputs.error("TimeoutError", text, [text])]
         try:
-            outputs = self._current().run(source)
+            shown = self._current().run(source)
         except RoomLostError as error:
             self._room = None
             text = f"this cell ended Python itself: {error}"
-            outputs = [_error("RoomLostError", text, [text])]
+            shown = [outputs.error("RoomLostError", text, [text])]
         else:
             self._ran.append(source)
-        for output in outputs:
+        for output in shown:
             if output.get("output_type") == "error":
                 said = f"{output.get('ename')}: {output.get('evalue')}"
                 self._failed.append((source, said))
-        return outputs
+        return shown
 
     def ask(self, calls: list[Call]) -> list[Reply]:
         """The replies to calls of the student's functions."""
@@ -159,40 +160,3 @@ class Sitting:
             if re.search(rf"\bdef\s+{re.escape(name)}\b", source):
                 return Reply(fault=replace(reply.fault, kind=FaultKind.CELL_FAILED, message=error))
         return reply
-
-
-def _output(output: dict) -> NotebookNode:
-    """A notebook's output from what came back through the wall; nothing else gets in."""
-    match output:
-        case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
-            return new_output("stream", name=name, text=shortened(text, MOST_TEXT))
-        case {"output_type": "display_data", "data": dict(data)}:
-            shown = {kind: data[kind] for kind in SHOWN if _is_shown(kind, data.get(kind))}
-            return new_output("display_data", data=shown)
-        case {"output_type": "error", "ename": str(name), "evalue": str(value)}:
-            lines = output.get("traceback")
-            text = "\n".join(map(str, lines)) if isinstance(lines, list) else ""
-            lines = shortened(text, MOST_TEXT).split("\n") if text else []
-            return NotebookNode(_error(shortened(name), shortened(value), lines))
-    return new_output("stream", name="stderr", text="(an output that could not be read)")
-
-
-SHOWN = ("text/plain", "text/latex", "image/png")
-# The runner sends no more; a forged reply may.
-MOST_TEXT = 200_000
-MOST_PICTURE = 4 << 20
-
-
-def _is_shown(kind: str, data) -> bool:
-    """Whether a feedback page may hold it: text of a decent length, and pictures that are no markup."""
-    if not isinstance(data, str):
-        return False
-    if kind != "image/png":
-        return len(data) <= MOST_TEXT
-    return (
-        len(data) <= MOST_PICTURE and re.fullmatch(r"[A-Za-z0-9+/\s]*={0,2}\s*", data) is not None
-    )
-
-
-def _error(name: str, value: str, lines: list[str]) -> dict:
-    return {"output_type": "error", "ename": name, "evalue": value, "traceback": lines}

@@ -6,9 +6,8 @@ number, and where no verdict could be reached as an error.
 """
 
 from nbformat import NotebookNode
-from nbformat.v4 import new_output
 
-from autograder import card
+from autograder import card, outputs
 from autograder.grade import Graded, is_judged
 from autograder.repair import grade_id, without_surrogates
 from autograder.verdict import State, Verdict
@@ -28,11 +27,11 @@ def with_verdicts(graded: Graded) -> NotebookNode:
 
 def outputs_for(verdict: Verdict, points: float) -> list[NotebookNode]:
     """The outputs from which nbgrader reads the verdict's score and people read the verdict."""
-    shown = new_output("display_data", data=card.mimebundle(verdict))
+    shown = outputs.display(card.mimebundle(verdict))
     if verdict.state is State.CHECK_FAILED:
         text = "this cell could not be judged and has no score yet"
-        error = new_output("error", ename="CheckFailed", evalue=text, traceback=[text])
+        error = outputs.error("CheckFailed", text, [text])
         return [shown, error]
     credit = min(max(0.0, float(verdict.credit)), 1.0)  # in this order NaN is 0 as well
     score = repr(credit * float(points))
-    return [shown, new_output("execute_result", data={"text/plain": score}, execution_count=1)]
+    return [shown, outputs.result(score)]
