@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from nbgrader.utils import determine_grade
 
 from autograder import grade as grading
+from autograder import outputs
 from autograder.check import VISIBLE_SEED
 from autograder.grade import Sitting, grade, is_judged, stream
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
@@ -290,11 +291,17 @@ def test_a_missing_name_is_blamed_on_the_cell_that_failed_to_define_it():
     ],
 )
 def test_no_forged_output_reaches_the_notebook(output):
-    written = grading._output(output)
-    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(outputs=[written])])
+    written = outputs.of_student(output)
+    shown = [written] if written else []
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(outputs=shown)])
     nbformat.validate(notebook)
     assert "script" not in str(notebook)
-    assert written.output_type != "execute_result"
+    assert "execute_result" not in str(notebook)
+
+
+def test_an_output_of_which_nothing_can_be_shown_leaves_none():
+    shown = {"text/html": "<b>", "application/javascript": "1"}
+    assert outputs.of_student({"output_type": "display_data", "data": shown}) is None
 
 
 VERDICTS = st.builds(

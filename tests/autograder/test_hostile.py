@@ -91,7 +91,6 @@ def orphans_come_here():
 def short_limits(monkeypatch):
     """A second for what takes ten: the limits are what is tested, not how long they are."""
     monkeypatch.setattr(Room.run, "__defaults__", (1.0,))
-    monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
     monkeypatch.setattr(sandbox, "GRACE_SECONDS", 1.0)
 
 

@@ -255,7 +255,7 @@ def look_alike_name(release):
 
 @attack()
 def great_docstring(release):
-    """Hides behind ten megabytes of documentation."""
-    words = "The torque. " * 800_000
+    """Hides behind megabytes of documentation."""
+    words = "The torque. " * 200_000
     text = f'def g_vec(q, pend):\n    "{words}"\n    return 1 + 0 * q'
     return cheat(release, g_vec=text)
