@@ -175,18 +175,14 @@ def _tell_apart(notebook) -> None:
     """Each cell an id of its own, as nbformat 4.5 asks for: a copied cell has that of the first."""
     if notebook.nbformat_minor < 5:
         return
+    ids = {cell["id"] for cell in notebook.cells if isinstance(cell.get("id"), str)}
+    new = (name for number in count() if (name := f"cell-{number}") not in ids)
     taken = set()
-    for index, cell in enumerate(notebook.cells):
+    for cell in notebook.cells:
         name = cell.get("id")
-        if (
-            not (isinstance(name, str) and re.fullmatch("[A-Za-z0-9_-]{1,64}", name))
-            or name in taken
-        ):
-            others = {
-                other.get("id") for other in notebook.cells if isinstance(other.get("id"), str)
-            }
-            name = next(new for n in count(index) if (new := f"cell-{n}") not in taken | others)
-            cell.id = name
+        whole = isinstance(name, str) and re.fullmatch("[A-Za-z0-9_-]{1,64}", name)
+        if not whole or name in taken:
+            cell.id = name = next(new)
         taken.add(name)
 
 
