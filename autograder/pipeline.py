@@ -15,7 +15,7 @@ from autograder.cache import Cache, code_version, digest
 from autograder.executors import Cluster, Processes, outcomes
 from autograder.judging import judge, load
 from autograder.lock import locked
-from autograder.wall import shortened
+from autograder.wall import one_line
 
 CACHE = Path("course") / "cache-of-results"
 LOCK = Path("course") / "grading.lock"
@@ -159,7 +159,7 @@ class _Run:
                 self._cache.store(_done(recorder.assignment, student), entry)
         except Exception as error:
             recorder.forget()
-            self._refuse(student, f"{type(error).__name__}: {shortened(str(error))}")
+            self._refuse(student, f"{type(error).__name__}: {one_line(str(error))}")
         else:
             self._note(student, states, notes, standing, graded=certain)
 
@@ -168,7 +168,7 @@ class _Run:
             self._recorder.refuse(student)
         except Exception as error:
             self._recorder.forget()
-            why = f"{why}; {type(error).__name__}: {shortened(str(error))}"
+            why = f"{why}; {type(error).__name__}: {one_line(str(error))}"
         self._lines[student] = Line(student, notes=(why,), graded=False)
 
     def _note(self, student, states, notes, standing, **more) -> None:
@@ -213,7 +213,7 @@ def _bar(total: int):
 
 
 def _unreadable(path: Path, why: str) -> str:
-    return f"{path.name} {shortened(why)}"
+    return f"{path.name} {one_line(why)}"
 
 
 def _result(key: str) -> str:

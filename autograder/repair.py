@@ -12,7 +12,10 @@ from itertools import count
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_raw_cell
 
+from autograder.wall import one_line
+
 NEW_CELL = {"code": new_code_cell, "markdown": new_markdown_cell, "raw": new_raw_cell}
+MOST_NOTES = 50
 
 
 def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode, list[str]]:
@@ -38,13 +41,17 @@ def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode
         if "nbgrader" in cell.metadata and (claimed is None or at.get(claimed) != index):
             del cell.metadata["nbgrader"]
             if claimed and claimed not in known:
-                notes.append(f"a cell that claims to be {claimed}, which the source does not have")
+                notes.append(
+                    f"a cell that claims to be {one_line(claimed, 60)}, which the source does not have"
+                )
     placed = {name: notebook.cells[index] for name, index in at.items()}
     for name, original in known.items():
         if name in placed:
             _put_right(placed[name], original, notes)
     _put_back(notebook, known, placed, notes)
     _tell_apart(notebook)
+    if len(notes) > MOST_NOTES:
+        notes = [*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES} more such notes"]
     return notebook, notes
 
 

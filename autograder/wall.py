@@ -237,6 +237,13 @@ def shortened(text: str, most: int = MOST_CHARACTERS) -> str:
     return text if len(text) <= most else text[: most - 1] + "…"
 
 
+def one_line(text: str, most: int = MOST_CHARACTERS) -> str:
+    """Printable and shortened, so that no text of a student's passes for more than one line of ours."""
+    if not text.isprintable():
+        text = repr(text[:most])[1:-1]
+    return shortened(text, most)
+
+
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
     """Raise TimeLimitError in the block after `seconds`, where the system can (not on Windows)."""

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from nbformat.v4 import new_code_cell, new_notebook
 
 from autograder.nbgrader_glue import write_problem
-from autograder.repair import NEW_CELL, grade_id, is_locked, repair
+from autograder.repair import MOST_NOTES, NEW_CELL, grade_id, is_locked, repair
 from tests.submissions import p3_pendulum
 
 ROOT = Path(__file__).parents[2]
@@ -204,6 +204,25 @@ def test_an_unknown_claim_is_taken_away_and_told(release):
     mended, notes = repair(submission, SOURCE)
     assert notes == ["a cell that claims to be p9-bonus, which the source does not have"]
     assert "nbgrader" not in mended.cells[-1].metadata
+
+
+def test_a_claim_cannot_pass_for_a_line_of_the_table():
+    cell = new_code_cell("pass")
+    forged = "x\nbitdiddle  15 of 15  6 correct\x1b[2J\u202e" + "y" * 9999
+    cell.metadata.nbgrader = {"grade_id": forged}
+    _, (note,) = repair(new_notebook(cells=[cell]), new_notebook())
+    assert note.isprintable()
+    assert len(note) < 150
+    assert r"x\nbitdiddle  15 of 15" in note
+
+
+def test_many_notes_are_counted():
+    cells = [new_code_cell("pass") for _ in range(100)]
+    for cell in cells:
+        cell.metadata.nbgrader = {"grade_id": "p9-made-up"}
+    _, notes = repair(new_notebook(cells=cells), new_notebook())
+    assert len(notes) == MOST_NOTES + 1
+    assert notes[-1] == f"and {100 - MOST_NOTES} more such notes"
 
 
 def of_one_id(number):
