@@ -39,7 +39,7 @@ def load() -> None:
 
 
 def _judged(content: bytes, source: str, seed: str) -> dict:
-    notebook, notes = _read(content.decode())
+    notebook, notes = _read(content.decode("utf-8-sig"))
     graded = grade(notebook, _source(source), seed)
     notebook = with_verdicts(graded)
     nbformat.validate(notebook, relax_add_props=True)

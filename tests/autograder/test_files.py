@@ -12,26 +12,8 @@ from autograder.repair import without_surrogates
 from tests.autograder import courses
 from tests.autograder.courses import NOTEBOOK, P3, rows, submit
 from tests.submissions import p3_pendulum
-from tests.submissions.hostile_files import FILES, READABLE
+from tests.submissions.hostile_files import FILES, HALF, READABLE
 from tests.submissions.p3_pendulum import POINTS
-
-HALF = "\ud83e"  # of a pair
-
-
-def half_characters(release) -> bytes:
-    """Right answers, with half a character in a comment, in what is printed and in the metadata."""
-    notebook = copy.deepcopy(p3_pendulum.right(release))
-    cell = p3_pendulum.cell_of(notebook, "answer-M")
-    cell.source += f"\n# {HALF}\nprint('\\ud83e')"
-    cell.metadata[HALF] = HALF
-    return json.dumps(notebook).encode()
-
-
-def half_a_name(release) -> bytes:
-    """A settings' name that is half a character, in a cell that counts."""
-    notebook = copy.deepcopy(p3_pendulum.right(release))
-    p3_pendulum.cell_of(notebook, "p3-M").metadata.nbgrader.grade_id = HALF
-    return json.dumps(notebook).encode()
 
 
 def latin_1(release) -> bytes:
@@ -41,9 +23,8 @@ def latin_1(release) -> bytes:
     return json.dumps(notebook, ensure_ascii=False).encode("latin-1", "replace")
 
 
-MORE = {"half_characters": half_characters, "half_a_name": half_a_name, "latin_1": latin_1}
-GRADED = READABLE | {"half_characters": POINTS, "half_a_name": POINTS}
-REFUSED = [name for name in FILES | MORE if name not in GRADED]
+MORE = {"latin_1": latin_1}
+REFUSED = [name for name in FILES | MORE if name not in READABLE]
 
 
 @pytest.fixture(scope="module")
@@ -62,10 +43,10 @@ def course(tmp_path_factory):
     return SimpleNamespace(root=root, lines=lines, scores=scores, printed=printed)
 
 
-@pytest.mark.parametrize("name", [*GRADED, "z_last"])
+@pytest.mark.parametrize("name", [*READABLE, "z_last"])
 def test_what_can_be_read_earns_what_it_should(course, name):
     found = {cell: score for cell, score in course.scores[name].items() if cell in POINTS}
-    assert found == GRADED.get(name, POINTS)
+    assert found == READABLE.get(name, POINTS)
     nbformat.read(course.root / "course" / "autograded" / name / P3 / NOTEBOOK, as_version=4)
 
 
@@ -87,7 +68,7 @@ def test_a_second_run_finds_nothing_new(course, monkeypatch, capsys):
     monkeypatch.chdir(course.root)
     assert main(["grade", P3, "--jobs", "1"]) == 1
     printed = capsys.readouterr().out
-    assert f"0 graded, {len(GRADED) + 1} unchanged, {len(REFUSED)} could not" in printed
+    assert f"0 graded, {len(READABLE) + 1} unchanged, {len(REFUSED)} could not" in printed
 
 
 def test_only_halves_are_replaced():

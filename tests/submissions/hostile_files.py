@@ -10,8 +10,9 @@ import json
 import nbformat
 
 from tests.submissions.hostile import ATTACKS
-from tests.submissions.p3_pendulum import POINTS, right
+from tests.submissions.p3_pendulum import POINTS, cell_of, right
 
+HALF = "\ud83e"  # of a pair
 FILES = {}
 READABLE = {}
 
@@ -28,6 +29,30 @@ def file(points=None):
 
 def _json(notebook) -> bytes:
     return json.dumps(notebook).encode()
+
+
+@file(POINTS)
+def byte_order_mark(release):
+    """A right notebook as editors on Windows save it."""
+    return b"\xef\xbb\xbf" + _json(right(release))
+
+
+@file(POINTS)
+def half_characters(release):
+    """Right answers, with half a character in a comment, in what is printed and in the metadata."""
+    notebook = copy.deepcopy(right(release))
+    cell = cell_of(notebook, "answer-M")
+    cell.source += f"\n# {HALF}\nprint('\\ud83e')"
+    cell.metadata[HALF] = HALF
+    return _json(notebook)
+
+
+@file(POINTS)
+def half_a_name(release):
+    """A settings' name that is half a character, in a cell that counts."""
+    notebook = copy.deepcopy(right(release))
+    cell_of(notebook, "p3-M").metadata.nbgrader.grade_id = HALF
+    return _json(notebook)
 
 
 @file()
