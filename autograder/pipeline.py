@@ -93,6 +93,10 @@ class _Run:
         """What is left to be judged; what needs no judging is settled on the way."""
         for student, path in self._submissions.items():
             try:
+                why = self._recorder.refusal(student)
+                if why:
+                    self._refuse(student, why)
+                    continue
                 task = self._task(student, path)
             except FileNotFoundError:
                 self._refuse(student, f"there is no {path.name}")

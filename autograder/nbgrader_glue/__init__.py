@@ -6,12 +6,14 @@ Importing this package does not import nbgrader, which takes seconds; its module
 from autograder.nbgrader_glue.release import write_problem
 from autograder.nbgrader_glue.scores import outputs_for, with_verdicts
 from autograder.nbgrader_glue.steps import (
+    SUBMISSION_EXPORTER,
     autograde_preprocessors,
     generate_preprocessors,
     sanitize_preprocessors,
 )
 
 __all__ = [
+    "SUBMISSION_EXPORTER",
     "autograde_preprocessors",
     "generate_preprocessors",
     "outputs_for",

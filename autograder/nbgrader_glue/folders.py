@@ -12,6 +12,8 @@ from nbgrader.converters import Autograde
 from nbgrader.coursedir import CourseDirectory
 from traitlets.config import Config
 
+from autograder.nbgrader_glue import submitted
+
 QUIET = logging.getLogger("autograder.nbgrader")
 QUIET.setLevel(logging.CRITICAL)  # what is mended stands in the summary table
 
@@ -53,8 +55,14 @@ class Folders:
         return Path(folder) / f"{self.assignment}.ipynb"
 
     def timestamp(self, student: str):
-        """When it was handed in, in UTC; None where that is not known."""
-        return self.course.get_existing_timestamp(str(self.submitted(student)))
+        """When it was handed in, in UTC; None where that is not known. RefusedError where it is none."""
+        return submitted.timestamp(self.course, self.submitted(student))
+
+    def check(self, student: str) -> None:
+        """RefusedError where nothing of the submission is to be read."""
+        top = Path(self.course.root) / self.course.submitted_directory
+        submitted.check(self.submitted(student), top)
+        self.timestamp(student)
 
     def holds_notebook(self, student: str) -> bool:
         return any(self.submitted(student).glob("*.ipynb"))

@@ -16,6 +16,7 @@ from autograder.nbgrader_glue.gradebook import Rows, Standing
 from autograder.nbgrader_glue.preprocessors import Judge, secret_of, seed_of
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.steps import autograde_preprocessors, sanitize_preprocessors
+from autograder.nbgrader_glue.submitted import RefusedError
 from autograder.repair import grade_id
 
 # Steps whose work is done here or by `repair`, with no regard to their settings.
@@ -73,6 +74,14 @@ class Recorder:
     def autograded(self, student: str) -> Path:
         return self._folders.autograded(student)
 
+    def refusal(self, student: str) -> str:
+        """Why nothing of a submission is to be read, such as a link in it; empty where it may be."""
+        try:
+            self._folders.check(student)
+        except RefusedError as error:
+            return str(error)
+        return ""
+
     def seed_of(self, student: str) -> str:
         return seed_of(self._secret, student, self.assignment)
 
@@ -102,7 +111,11 @@ class Recorder:
         """
         if self._folders.holds_notebook(student):
             self._may_enter(student)
-            self._rows.enter(student, self._folders.timestamp(student))
+            try:
+                timestamp = self._folders.timestamp(student)
+            except RefusedError:
+                timestamp = None
+            self._rows.enter(student, timestamp)
             self._rows.commit()
         self._folders.remove(student)
 

@@ -1,9 +1,11 @@
-"""Which preprocessors nbgrader runs here, by name: naming them imports neither nbgrader nor nbconvert.
+"""What of nbgrader's and nbconvert's own is replaced here, by name: naming it imports neither.
 
-Each list is nbgrader 0.9.6's own with ours put in; a test holds them to that.
+Each list of preprocessors is nbgrader 0.9.6's own with ours put in; a test holds them to that.
 """
 
 OURS = "autograder.nbgrader_glue.preprocessors"
+# For `autograde`: what reads a submission.
+SUBMISSION_EXPORTER = "autograder.nbgrader_glue.submitted.SubmissionExporter"
 
 
 def sanitize_preprocessors() -> list[str]:
