@@ -6,6 +6,7 @@ Importing this package does not import nbgrader, which takes seconds; its module
 from autograder.nbgrader_glue.release import write_problem
 from autograder.nbgrader_glue.scores import outputs_for, with_verdicts
 from autograder.nbgrader_glue.steps import (
+    PAGE_FILTERS,
     SUBMISSION_EXPORTER,
     autograde_preprocessors,
     generate_preprocessors,
@@ -13,6 +14,7 @@ from autograder.nbgrader_glue.steps import (
 )
 
 __all__ = [
+    "PAGE_FILTERS",
     "SUBMISSION_EXPORTER",
     "autograde_preprocessors",
     "generate_preprocessors",

@@ -11,6 +11,7 @@ from nbformat.v4 import new_markdown_cell
 from autograder.nbgrader_glue.submitted import RefusedError, check
 from tests.autograder import courses
 from tests.autograder.courses import NOTEBOOK, P3, submit
+from tests.autograder.test_hostile_pages import live
 from tests.submissions import p3_pendulum
 from tests.submissions.hostile_pages import LIVE
 
@@ -120,6 +121,15 @@ def test_nbgrader_itself_grades_only_plain_files(nbgrader_course):
 @pytest.mark.parametrize("said", REFUSED.values(), ids=REFUSED)
 def test_the_log_of_nbgrader_says_why(nbgrader_course, said):
     assert f"RefusedError: {said}" in nbgrader_course.printed
+
+
+def test_the_feedback_page_runs_nothing(nbgrader_course):
+    root = nbgrader_course.root
+    courses.run(root, "nbgrader", "generate_feedback", P3, "--student", "z_live")
+    page = (root / "course" / "feedback" / "z_live" / P3 / f"{P3}.html").read_text()
+    assert "full marks" in page
+    assert live(page) == []
+    assert 'data-state="correct"' in page  # the cards stay
 
 
 def test_a_course_may_lie_behind_a_link(tmp_path):
