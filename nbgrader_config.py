@@ -38,6 +38,8 @@ c.Exchange.assignment_dir = "problems"
 c.GenerateAssignment.preprocessors = nbgrader_glue.generate_preprocessors()
 c.Autograde.sanitize_preprocessors = nbgrader_glue.sanitize_preprocessors()
 c.Autograde.autograde_preprocessors = nbgrader_glue.autograde_preprocessors()
+c.Autograde.exporter_class = nbgrader_glue.SUBMISSION_EXPORTER
+c.HTMLExporter.filters = nbgrader_glue.PAGE_FILTERS
 
 c.ClearSolutions.code_stub = {"python": "raise NotImplementedError  # your answer goes here"}
 c.ClearSolutions.text_stub = "*(your answer goes here)*"

@@ -16,6 +16,8 @@ HERE = Path(__file__).parent
 INSIDE = {
     HERE / "room" / "runner.py": "runner.py",
     HERE / "room" / "forks.py": "forks.py",
+    HERE / "room" / "first.py": "first.py",
+    HERE / "room" / "watch.py": "watch.py",
     HERE / "room" / "namespaces.py": "namespaces.py",
     HERE / "room" / "stubs" / "autograder.py": "autograder.py",
     HERE / "room" / "stubs" / "armdyn.py": "armdyn.py",
@@ -87,8 +89,9 @@ def _root_can_step_down() -> bool:
     for folder in python_folders():
         if os.stat(folder).st_mode & 0o005 != 0o005:
             log.warning(
-                "%s is readable by root alone: student code runs as root's and WITHOUT a limit on "
-                "the number of its processes. Grade as an ordinary user, or chmod -R o+rX it",
+                "%s is readable by root alone: student code runs as root's, whose processes the "
+                "kernel does NOT limit; a room that has too many ends a moment later. Grade as an "
+                "ordinary user, or chmod -R o+rX it",
                 folder,
             )
             return False
@@ -101,8 +104,9 @@ def has_bubblewrap() -> bool:
     if _runs("--unshare-all"):
         return True
     log.warning(
-        "bubblewrap does not work here: student code runs with limits on time and memory, but "
-        "is NOT shut off from files and network. On Debian: apt-get install bubblewrap"
+        "bubblewrap does not work here: student code runs with limits on the time, and on the "
+        "memory and files of each process, but is NOT shut off from files and network, and may "
+        "start any number of processes. On Debian: apt-get install bubblewrap"
     )
     return False
 

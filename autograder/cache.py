@@ -8,15 +8,10 @@ import hashlib
 import json
 import sys
 from collections.abc import Iterator
-from dataclasses import asdict
 from functools import cache
 from importlib import metadata
+from importlib.util import find_spec
 from pathlib import Path
-
-from nbformat import NotebookNode, from_dict
-
-from autograder.grade import Graded
-from autograder.verdict import Row, State, Verdict, Witness
 
 PACKAGES = ("ipython", "matplotlib", "nbformat", "numpy", "scipy", "sympy")
 
@@ -61,10 +56,9 @@ def digest(*parts: str | bytes) -> str:
 @cache
 def code_version() -> str:
     """A digest of the code that grades: this package, armdyn, Python and the packages under them."""
-    import armdyn
-
+    armdyn = find_spec("armdyn").origin  # importing it would load SciPy
     parts = [sys.version, *(f"{name} {metadata.version(name)}" for name in PACKAGES)]
-    for package in (Path(__file__).parent, Path(armdyn.__file__).parent):
+    for package in (Path(__file__).parent, Path(armdyn).parent):
         parts += [f"{name}\0{text}" for name, text in _sources(package)]
     return digest(*parts)
 
@@ -72,27 +66,3 @@ def code_version() -> str:
 def _sources(package: Path) -> Iterator[tuple[str, str]]:
     for path in sorted(package.rglob("*.py")):
         yield path.relative_to(package).as_posix(), path.read_text(encoding="utf-8")
-
-
-def to_json(graded: Graded) -> dict:
-    verdicts = {name: asdict(verdict) for name, verdict in graded.verdicts.items()}
-    return {"notebook": graded.notebook, "verdicts": verdicts, "notes": list(graded.notes)}
-
-
-def from_json(entry: dict) -> Graded:
-    """The result that `to_json` wrote."""
-    verdicts = {name: _verdict(said) for name, said in entry["verdicts"].items()}
-    notebook: NotebookNode = from_dict(entry["notebook"])
-    return Graded(notebook, verdicts, tuple(entry["notes"]))
-
-
-def _verdict(said: dict) -> Verdict:
-    return Verdict(
-        **said
-        | {
-            "state": State(said["state"]),
-            "rows": tuple(Row(**row) for row in said["rows"]),
-            "witness": said["witness"] and Witness(**said["witness"]),
-            "diagnosis": tuple(said["diagnosis"]),
-        }
-    )

@@ -60,7 +60,9 @@ def _paragraph(kind: str, text: str) -> str:
     if not text:
         return ""
     weight = "; font-weight: 600" if kind == "diagnosis" else ""
-    return f'<p class="armdyn-{kind}" style="margin: 0.3em 0{weight}">{escape(text)}</p>'
+    # Only there may a student's own words stand. As a formula they could be a link that runs code.
+    plain = " tex2jax_ignore mathjax_ignore" if kind == "problem" else ""
+    return f'<p class="armdyn-{kind}{plain}" style="margin: 0.3em 0{weight}">{escape(text)}</p>'
 
 
 def _rows(verdict: Verdict) -> str:

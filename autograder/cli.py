@@ -30,6 +30,10 @@ def main(arguments: list[str] | None = None) -> int:
     grading.add_argument(
         "--force", action="store_true", help="judge again what has been judged before"
     )
+    reporting = commands.add_parser(
+        "report", help="write a page on how a class did: scores, and who made which mistake"
+    )
+    reporting.add_argument("assignment", help="as it is called in solutions/, such as p1-inertia")
     if arguments[:1] == ["lab"]:
         from autograder.lab import lab  # imports Jupyter, which takes a second
 
@@ -43,12 +47,14 @@ def main(arguments: list[str] | None = None) -> int:
         )
     if given.command == "grade":
         return grade(root, given.assignment, given.jobs, given.scheduler, given.force)
+    if given.command == "report":
+        return report(root, given.assignment)
     return problems(root)
 
 
 def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: bool) -> int:
     """Grade an assignment's submissions; 1 where one could not be graded."""
-    from autograder import pipeline
+    from autograder import lean, pipeline  # noqa: F401  lean first
 
     if not (root / "solutions" / assignment / f"{assignment}.ipynb").exists():
         return _complain(f"there is no solutions/{assignment}/{assignment}.ipynb")
@@ -62,6 +68,25 @@ def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: 
         return _complain(f"nobody has handed in {assignment}")
     print(pipeline.table(lines))
     return 0 if all(line.graded for line in lines) else 1
+
+
+def report(root: Path, assignment: str) -> int:
+    """Write the report on an assignment's class to course/report/, and a summary to the terminal."""
+    from autograder import lean, report  # noqa: F401  lean first
+    from autograder.nbgrader_glue.class_list import read_class
+
+    try:
+        most, students = read_class(root, assignment)
+    except ValueError as error:
+        return _complain(str(error))
+    if not students:
+        return _complain(f"nobody has handed in {assignment}")
+    to = root / "course" / "report" / f"{assignment}.html"
+    to.parent.mkdir(exist_ok=True)
+    to.write_text(report.page(assignment, most, students), encoding="utf-8")
+    print(report.summary(most, students))
+    print(f"The whole page: {to.relative_to(root)}")
+    return 0
 
 
 def problems(root: Path) -> int:

@@ -67,7 +67,7 @@ def outcomes(
 class Processes:
     """Processes of this machine; started when first needed, and again after one died."""
 
-    def __init__(self, jobs: int, preload: str):
+    def __init__(self, jobs: int, *preload: str):
         if jobs < 1:
             raise ValueError(f"jobs is {jobs}; at least one process is needed")
         self.window = AHEAD * jobs
@@ -97,16 +97,16 @@ class Processes:
             servers = "forkserver" in multiprocessing.get_all_start_methods()
             context = multiprocessing.get_context("forkserver" if servers else "spawn")
             if servers:
-                context.set_forkserver_preload([self._preload])
+                context.set_forkserver_preload(list(self._preload))
             self._executor = ProcessPoolExecutor(self._jobs, context, _begin)
         return self._executor
 
-    def warm(self) -> None:
-        """Start the processes now: they load what they need while this one does."""
+    def warm(self, load: Callable) -> None:
+        """Start the processes now, each with `load`: they get ready while this one does."""
 
         def start():
             for _ in range(self._jobs):
-                self._started().submit(os.getpid)
+                self._started().submit(load)
 
         self._warming = threading.Thread(target=start)
         self._warming.start()
@@ -155,7 +155,7 @@ class Cluster:
     def executor(self) -> Executor:
         return self._executor
 
-    def warm(self) -> None:
+    def warm(self, load: Callable) -> None:
         """The workers run already."""
 
     def close(self) -> None:

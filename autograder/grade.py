@@ -8,21 +8,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from nbformat import NotebookNode
-from nbformat.v4 import new_output
 
+from autograder import outputs
 from autograder.judge import HIDDEN_CASES
 from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
 from autograder.sandbox import Room, RoomLostError
 from autograder.verdict import State, Verdict
-from autograder.wall import Call, Fault, FaultKind, Reply, shortened
+from autograder.wall import Call, Fault, FaultKind, Reply
 
 log = logging.getLogger(__name__)
 
 # A notebook in which everything takes as long as it may must not hold up a batch.
 NOTEBOOK_SECONDS = 60.0
-# So many calls share one limit from outside, which is all that binds code that ignores its own.
-CALLS_AT_ONCE = 4
 
 
 @dataclass(frozen=True)
@@ -41,8 +39,17 @@ def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
 
     seed: decides the random cases; the same seed gives the same verdicts. Each check has its own
     stream, so that adding a problem changes no other's cases. A grade cell that no check belongs
-    to gets no credit and says so.
+    to gets no credit and says so. Where a sandbox is lost through no fault of the notebook's, that
+    is graded once more. OSError where that happens again, or no sandbox starts.
     """
+    try:
+        return _graded(submission, source, seed)
+    except OSError as error:
+        log.warning("%s: the notebook is graded once more", error)
+        return _graded(submission, source, seed)
+
+
+def _graded(submission, source, seed) -> Graded:
     notebook, notes = repair(submission, source)
     verdicts = {}
     with Sitting() as sitting:
@@ -51,7 +58,8 @@ def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
                 continue
             cell.outputs, cell.execution_count = [], None
             if not is_judged(cell):
-                cell.outputs = [_output(output) for output in sitting.run(cell.source)]
+                shown = map(outputs.of_student, sitting.run(cell.source))
+                cell.outputs = [output for output in shown if output]
                 continue
             name = grade_id(cell)
             if name in CHECKS:
@@ -103,35 +111,34 @@ class Sitting:
         """The outputs of a cell; an error output where it ends its process."""
         if self._is_over():
             text = f"not run: the notebook took {NOTEBOOK_SECONDS:g} s before it came to this cell"
-            return [_error("TimeoutError", text, [text])]
+            return [outputs.error("TimeoutError", text, [text])]
         try:
-            outputs = self._current().run(source)
+            shown = self._current().run(source)
         except RoomLostError as error:
             self._room = None
             text = f"this cell ended Python itself: {error}"
-            outputs = [_error("RoomLostError", text, [text])]
+            shown = [outputs.error("RoomLostError", text, [text])]
         else:
             self._ran.append(source)
-        for output in outputs:
+        for output in shown:
             if output.get("output_type") == "error":
                 said = f"{output.get('ename')}: {output.get('evalue')}"
                 self._failed.append((source, said))
-        return outputs
+        return shown
 
     def ask(self, calls: list[Call]) -> list[Reply]:
         """The replies to calls of the student's functions."""
-        replies = []
-        for start in range(0, len(calls), CALLS_AT_ONCE):
-            if self._is_over():
-                limit = f"the {NOTEBOOK_SECONDS:g} s that the whole notebook has"
-                return [Reply(fault=Fault(FaultKind.TIMED_OUT, limit))]
-            try:
-                replies += self._current().ask(calls[start : start + CALLS_AT_ONCE])
-            except RoomLostError:
-                self._room = None
-                return [Reply(fault=Fault(FaultKind.DIED))]
-            if replies[-1].fault:
-                break
+        limit = Fault(
+            FaultKind.TIMED_OUT, f"the {NOTEBOOK_SECONDS:g} s that the whole notebook has"
+        )
+        if self._is_over():
+            return [Reply(fault=limit)]
+        try:
+            room = self._current()
+            replies = room.ask(calls, self._ends - time.monotonic())
+        except RoomLostError:
+            self._room = None
+            return [Reply(fault=limit if self._is_over() else Fault(FaultKind.DIED))]
         return [self._explained(calls[0].name, reply) for reply in replies]
 
     def _current(self):
@@ -153,40 +160,3 @@ class Sitting:
             if re.search(rf"\bdef\s+{re.escape(name)}\b", source):
                 return Reply(fault=replace(reply.fault, kind=FaultKind.CELL_FAILED, message=error))
         return reply
-
-
-def _output(output: dict) -> NotebookNode:
-    """A notebook's output from what came back through the wall; nothing else gets in."""
-    match output:
-        case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
-            return new_output("stream", name=name, text=shortened(text, MOST_TEXT))
-        case {"output_type": "display_data", "data": dict(data)}:
-            shown = {kind: data[kind] for kind in SHOWN if _is_shown(kind, data.get(kind))}
-            return new_output("display_data", data=shown)
-        case {"output_type": "error", "ename": str(name), "evalue": str(value)}:
-            lines = output.get("traceback")
-            text = "\n".join(map(str, lines)) if isinstance(lines, list) else ""
-            lines = shortened(text, MOST_TEXT).split("\n") if text else []
-            return NotebookNode(_error(shortened(name), shortened(value), lines))
-    return new_output("stream", name="stderr", text="(an output that could not be read)")
-
-
-SHOWN = ("text/plain", "text/latex", "image/png")
-# The runner sends no more; a forged reply may.
-MOST_TEXT = 200_000
-MOST_PICTURE = 4 << 20
-
-
-def _is_shown(kind: str, data) -> bool:
-    """Whether a feedback page may hold it: text of a decent length, and pictures that are no markup."""
-    if not isinstance(data, str):
-        return False
-    if kind != "image/png":
-        return len(data) <= MOST_TEXT
-    return (
-        len(data) <= MOST_PICTURE and re.fullmatch(r"[A-Za-z0-9+/\s]*={0,2}\s*", data) is not None
-    )
-
-
-def _error(name: str, value: str, lines: list[str]) -> dict:
-    return {"output_type": "error", "ename": name, "evalue": value, "traceback": lines}

@@ -7,19 +7,19 @@ was judged is in the cache before it is recorded, so that a killed run goes on w
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 
-import nbformat
 from tqdm import tqdm
 
-from autograder.cache import Cache, code_version, digest, from_json, to_json
+from autograder.cache import Cache, code_version, digest
 from autograder.executors import Cluster, Processes, outcomes
-from autograder.grade import grade
-from autograder.verdict import State
-from autograder.wall import shortened
+from autograder.judging import judge, load
+from autograder.lock import locked
+from autograder.wall import one_line
 
 CACHE = Path("course") / "cache-of-results"
+LOCK = Path("course") / "grading.lock"
+PRELOAD = ("autograder.lean", "autograder.judging")
 
 
 @dataclass(frozen=True)
@@ -43,17 +43,6 @@ class OtherVersionError(Exception):
     """A worker of the cluster has other code than this machine."""
 
 
-def judge(submission: str, source: str, seed: str) -> dict:
-    """grade(submission, source, seed) between texts, so that it can be called from another machine."""
-    graded = grade(nbformat.reads(submission, as_version=4), _source(source), seed)
-    return to_json(graded) | {"code": code_version()}
-
-
-@lru_cache(maxsize=8)
-def _source(text: str) -> nbformat.NotebookNode:
-    return nbformat.reads(text, as_version=4)
-
-
 def grade_all(
     root: Path,
     assignment: str,
@@ -64,11 +53,16 @@ def grade_all(
     """Grade each submission of an assignment and record it; a line for each student, in order.
 
     jobs: how many processes judge. scheduler: the address of a Dask cluster that judges instead.
-    force: judge again what is in the cache. ValueError where the assignment cannot be graded at all.
+    force: judge again what is in the cache. ValueError where the assignment cannot be graded at all,
+    BlockingIOError while another run is at work.
     """
-    with Cluster(scheduler) if scheduler else Processes(jobs, __name__) as pool:
-        pool.warm()
-        from autograder.nbgrader_glue import Recorder  # takes seconds, while the processes start
+    with (
+        locked(root / LOCK, f"another `autograder grade` is at work in {root}"),
+        Cluster(scheduler) if scheduler else Processes(jobs, *PRELOAD) as pool,
+    ):
+        if force or not (root / CACHE / _done(assignment, "")).parent.exists():
+            pool.warm(load)  # while this process loads nbgrader
+        from autograder.nbgrader_glue.recorder import Recorder  # takes seconds
 
         with Recorder(root, assignment) as recorder:
             return _Run(root, recorder, pool, force).lines()
@@ -82,8 +76,9 @@ class _Run:
         self._recorder, self._pool, self._force = recorder, pool, force
         self._submissions = recorder.submissions()
         self._standings = recorder.standings()
+        # What decides every result; the rest is the submission's own.
+        self._common = digest(recorder.source, recorder.settings, code_version())
         self._keys: dict[str, str] = {}
-        self._notes: dict[str, list[str]] = {}
         self._lines: dict[str, Line] = {}
 
     def lines(self) -> list[Line]:
@@ -94,23 +89,27 @@ class _Run:
             bar.update(len(self._lines) - bar.n)
         return [self._lines[student] for student in self._submissions]
 
-    def _tasks(self) -> Iterator[tuple[str, tuple[str, str, str]]]:
+    def _tasks(self) -> Iterator[tuple[str, tuple[bytes, str, str]]]:
         """What is left to be judged; what needs no judging is settled on the way."""
         for student, path in self._submissions.items():
             try:
+                why = self._recorder.refusal(student)
+                if why:
+                    self._refuse(student, why)
+                    continue
                 task = self._task(student, path)
+            except FileNotFoundError:
+                self._refuse(student, f"there is no {path.name}")
             except Exception as error:
-                self._refuse(student, _broken(path, error))
+                self._refuse(student, _unreadable(path, f"{type(error).__name__}: {error}"))
             else:
                 if task:
                     yield student, task
 
-    def _task(self, student: str, path: Path) -> tuple[str, str, str] | None:
+    def _task(self, student: str, path: Path) -> tuple[bytes, str, str] | None:
         recorder = self._recorder
-        if not path.is_file():
-            raise FileNotFoundError(path)
         content, seed = path.read_bytes(), recorder.seed_of(student)
-        key = digest(content, recorder.source, recorder.settings, seed, code_version())
+        key = digest(content, seed, self._common)
         self._keys[student] = key
         if not self._force:
             if self._unchanged(student, key):
@@ -119,8 +118,7 @@ class _Run:
             if known:
                 self._settle(student, known, new=False)
                 return None
-        text, self._notes[student] = recorder.prepare(student, content.decode())
-        return text, recorder.source, seed
+        return content, recorder.source, seed
 
     def _unchanged(self, student: str, key: str) -> bool:
         """Whether this very submission was recorded, and its rows and files are still there."""
@@ -152,31 +150,29 @@ class _Run:
                 raise outcome
             if outcome["code"] != code_version():
                 raise OtherVersionError("a worker of the cluster has another version of the course")
-            notes = self._notes.pop(student, [])
-            outcome["notes"] = [*notes, *outcome["notes"]]
-            graded = from_json(outcome)
-            certain = all(v.state is not State.CHECK_FAILED for v in graded.verdicts.values())
+            if "refused" in outcome:
+                path = self._submissions[student]
+                self._refuse(student, _unreadable(path, outcome["refused"]))
+                return
+            certain, states, notes = (outcome[name] for name in ("certain", "states", "notes"))
             if certain and new:
                 self._cache.store(_result(self._keys[student]), outcome)
-            recorder.record(student, graded)
-            standing = recorder.standings(student)[student]
-            states = [verdict.state.value for verdict in graded.verdicts.values()]
+            standing = recorder.record(student, outcome["notebook"])
             if certain:
-                entry = self._state(student, standing)
-                entry |= {"states": states, "notes": outcome["notes"]}
+                entry = self._state(student, standing) | {"states": states, "notes": notes}
                 self._cache.store(_done(recorder.assignment, student), entry)
         except Exception as error:
             recorder.forget()
-            self._refuse(student, f"{type(error).__name__}: {shortened(str(error))}")
+            self._refuse(student, f"{type(error).__name__}: {one_line(str(error))}")
         else:
-            self._note(student, states, outcome["notes"], standing, graded=certain)
+            self._note(student, states, notes, standing, graded=certain)
 
     def _refuse(self, student: str, why: str) -> None:
         try:
             self._recorder.refuse(student)
         except Exception as error:
             self._recorder.forget()
-            why = f"{why}; {type(error).__name__}: {shortened(str(error))}"
+            why = f"{why}; {type(error).__name__}: {one_line(str(error))}"
         self._lines[student] = Line(student, notes=(why,), graded=False)
 
     def _note(self, student, states, notes, standing, **more) -> None:
@@ -220,12 +216,8 @@ def _bar(total: int):
     return tqdm(total=total, unit="notebook", disable=None, leave=False)
 
 
-def _broken(path: Path, error: Exception) -> str:
-    if isinstance(error, FileNotFoundError):
-        return f"there is no {path.name}"
-    if isinstance(error, UnicodeDecodeError | nbformat.reader.NotJSONError):
-        return f"{path.name} is not valid JSON: ask for it again"
-    return f"{path.name} cannot be read: {type(error).__name__}: {shortened(str(error))}"
+def _unreadable(path: Path, why: str) -> str:
+    return f"{path.name} {one_line(why)}"
 
 
 def _result(key: str) -> str:

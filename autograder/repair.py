@@ -5,13 +5,17 @@ metadata as submitted; here it is rebuilt from the source, and every change is r
 """
 
 import copy
+import json
 import re
 from itertools import count
 
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_raw_cell
 
+from autograder.wall import one_line
+
 NEW_CELL = {"code": new_code_cell, "markdown": new_markdown_cell, "raw": new_raw_cell}
+MOST_NOTES = 50
 
 
 def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode, list[str]]:
@@ -23,6 +27,12 @@ def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode
     without the claim.
     """
     notebook, notes = copy.deepcopy(submission), []
+    for cell in notebook.cells:
+        cell.pop("outputs", None)  # made anew
+    clean = without_surrogates(notebook)
+    if clean is not notebook:
+        notes.append("characters that no text can hold were replaced by \ufffd")
+        notebook = clean
     _give_form(notebook, source, notes)
     known = {grade_id(cell): cell for cell in source.cells if grade_id(cell)}
     at = _last_places(notebook, known, notes)
@@ -31,14 +41,40 @@ def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode
         if "nbgrader" in cell.metadata and (claimed is None or at.get(claimed) != index):
             del cell.metadata["nbgrader"]
             if claimed and claimed not in known:
-                notes.append(f"a cell that claims to be {claimed}, which the source does not have")
+                notes.append(
+                    f"a cell that claims to be {one_line(claimed, 60)}, which the source does not have"
+                )
     placed = {name: notebook.cells[index] for name, index in at.items()}
     for name, original in known.items():
         if name in placed:
             _put_right(placed[name], original, notes)
     _put_back(notebook, known, placed, notes)
     _tell_apart(notebook)
+    if len(notes) > MOST_NOTES:
+        notes = [*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES} more such notes"]
     return notebook, notes
+
+
+def without_surrogates(value):
+    """The same JSON value, in it \ufffd for each half of a surrogate pair: JSON can write one, no file.
+
+    Where there is none, `value` itself.
+    """
+    try:
+        json.dumps(value, ensure_ascii=False).encode()
+    except UnicodeEncodeError:
+        return _replaced(value)
+    return value
+
+
+def _replaced(value):
+    if isinstance(value, str):
+        return re.sub("[\ud800-\udfff]", "\ufffd", value)
+    if isinstance(value, dict):
+        return type(value)({_replaced(key): _replaced(part) for key, part in value.items()})
+    if isinstance(value, list):
+        return [_replaced(part) for part in value]
+    return value
 
 
 # What nbformat has rules for; a cell's settings that break them would stop its student's grading.
@@ -146,18 +182,14 @@ def _tell_apart(notebook) -> None:
     """Each cell an id of its own, as nbformat 4.5 asks for: a copied cell has that of the first."""
     if notebook.nbformat_minor < 5:
         return
+    ids = {cell["id"] for cell in notebook.cells if isinstance(cell.get("id"), str)}
+    new = (name for number in count() if (name := f"cell-{number}") not in ids)
     taken = set()
-    for index, cell in enumerate(notebook.cells):
+    for cell in notebook.cells:
         name = cell.get("id")
-        if (
-            not (isinstance(name, str) and re.fullmatch("[A-Za-z0-9_-]{1,64}", name))
-            or name in taken
-        ):
-            others = {
-                other.get("id") for other in notebook.cells if isinstance(other.get("id"), str)
-            }
-            name = next(new for n in count(index) if (new := f"cell-{n}") not in taken | others)
-            cell.id = name
+        whole = isinstance(name, str) and re.fullmatch("[A-Za-z0-9_-]{1,64}", name)
+        if not whole or name in taken:
+            cell.id = name = next(new)
         taken.add(name)
 
 

@@ -8,6 +8,7 @@ containers) there are limits on time, memory and file size only, and `Room` says
 
 import json
 import logging
+import math
 import os
 import select
 import shutil
@@ -23,7 +24,7 @@ from pathlib import Path
 
 from autograder import warm
 from autograder.bubblewrap import ENVIRONMENT, INSIDE, bubblewrapped, has_bubblewrap
-from autograder.wall import CALL_SECONDS, Call, Fault, FaultKind, Reply, decode_reply, encode_call
+from autograder.wall import CALL_SECONDS, MOST_NUMBERS, Call, Reply, decode_reply, encode_call
 
 log = logging.getLogger(__name__)
 
@@ -31,8 +32,11 @@ START_SECONDS = 60.0
 CELL_SECONDS = 10.0
 # Over the limit inside by this much, the process is taken to be out of its own control.
 GRACE_SECONDS = 3.0
+# What a cell may show, and what one call may answer: more than the runner ever sends.
 MOST_BYTES = 32 << 20
-MOST_OUTPUTS = 100  # the runner sends fewer; a forged reply may not
+MOST_VALUES = 1 << 20
+MOST_OUTPUTS = 100
+BYTES_A_NUMBER = 32
 
 
 class Way(Enum):
@@ -56,11 +60,11 @@ class Room:
 
     def __init__(self, way: Way | None = None):
         self.way = way or _best_way()
-        self._buffer = b""
+        self._buffer = bytearray()
         self._process = _start_warm() if self.way is Way.WARM else ColdProcess(self.way)
         os.set_blocking(self._process.requests, False)
         try:
-            hello = self._receive(START_SECONDS)
+            hello = self._receive(START_SECONDS, MOST_BYTES, MOST_VALUES)
             if not hello.get("ready"):
                 self._lost(str(hello.get("refused")))
         except RoomLostError as error:
@@ -74,23 +78,30 @@ class Room:
         self.close()
 
     def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
-        message = self._exchange({"run": source, "seconds": seconds}, seconds)
+        self._send({"run": source, "seconds": seconds})
+        message = self._receive(seconds + GRACE_SECONDS, MOST_BYTES, MOST_VALUES)
         outputs = message.get("outputs")
         if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
             self._lost("it sent no outputs")
         return outputs[:MOST_OUTPUTS]
 
-    def ask(self, calls: list[Call]) -> list[Reply]:
-        # Each call has its own limit inside; slow calls that keep it are no lost room.
-        seconds = CALL_SECONDS * len(calls)
-        message = self._exchange({"ask": [encode_call(call) for call in calls]}, seconds)
-        replies = message.get("replies")
-        if not isinstance(replies, list):
-            self._lost("it sent no replies")
-        decoded = [decode_reply(reply) for reply in replies[: len(calls)]]
-        if len(decoded) < len(calls) and not (decoded and decoded[-1].fault):
-            decoded.append(Reply(fault=Fault(FaultKind.GARBLED)))
-        return decoded
+    def ask(self, calls: list[Call], seconds: float = math.inf) -> list[Reply]:
+        """The replies to calls, up to the first fault. seconds: what they have all together.
+
+        Each call has its own limit, inside and, for code that ignores that, from here.
+        """
+        ends = time.monotonic() + seconds
+        self._send({"ask": [encode_call(call) for call in calls]})
+        replies = []
+        while len(replies) < len(calls):
+            left = min(CALL_SECONDS + GRACE_SECONDS, ends - time.monotonic())
+            message = self._receive(left, BYTES_A_NUMBER * MOST_NUMBERS, 4 * MOST_NUMBERS)
+            if "reply" not in message:
+                self._lost("it sent no reply")
+            replies.append(decode_reply(message["reply"]))
+            if replies[-1].fault:
+                break
+        return replies
 
     @property
     def closed(self) -> bool:
@@ -100,7 +111,7 @@ class Room:
         """End the process, and all that it started."""
         self._process.end()
 
-    def _exchange(self, request: dict, seconds: float) -> dict:
+    def _send(self, request: dict) -> None:
         left = memoryview(json.dumps(request).encode() + b"\n")
         stdin = self._process.requests
         try:
@@ -111,22 +122,12 @@ class Room:
                 left = left[os.write(stdin, left) :]
         except OSError:
             self._lost("it has ended")
-        return self._receive(seconds + GRACE_SECONDS)
 
-    def _receive(self, seconds: float) -> dict:
-        deadline = time.monotonic() + seconds
-        stdout = self._process.replies
-        while b"\n" not in self._buffer:
-            left = deadline - time.monotonic()
-            if left <= 0 or not select.select([stdout], [], [], left)[0]:
-                self._lost(f"no reply within {seconds:g} s")
-            chunk = os.read(stdout, 1 << 16)
-            if not chunk:
-                self._lost("it ended")
-            self._buffer += chunk
-            if len(self._buffer) > MOST_BYTES:
-                self._lost("it wrote too much")
-        line, _, self._buffer = self._buffer.partition(b"\n")
+    def _receive(self, seconds: float, most_bytes: int, most_values: int) -> dict:
+        line = self._read_line(seconds, most_bytes)
+        # An empty list is two bytes there and fifty here. Commas in texts count along.
+        if line.count(b",") + line.count(b"[") + line.count(b"{") > most_values:
+            self._lost("it wrote too much")
         try:
             message = json.loads(line)
             if b"\\ud" in line.lower():
@@ -139,13 +140,34 @@ class Room:
             self._lost("it wrote what is no reply")
         return message
 
+    def _read_line(self, seconds: float, most_bytes: int) -> bytes:
+        deadline = time.monotonic() + seconds
+        stdout = self._process.replies
+        searched = 0
+        while (end := self._buffer.find(b"\n", searched)) < 0:
+            searched = len(self._buffer)
+            if searched > most_bytes:
+                self._lost("it wrote too much")
+            left = deadline - time.monotonic()
+            if left <= 0 or not select.select([stdout], [], [], left)[0]:
+                self._lost(f"no reply within {seconds:g} s")
+            chunk = os.read(stdout, 1 << 16)
+            if not chunk:
+                self._lost("it ended")
+            self._buffer += chunk
+        line = bytes(self._buffer[:end])
+        del self._buffer[: end + 1]
+        if len(line) > most_bytes:
+            self._lost("it wrote too much")
+        return line
+
     def _lost(self, why: str):
         said = self._process.said()
         innocent = self._process.outlived_its_keeper()
         self.close()
         if innocent:
             raise OSError("the process that keeps the sandboxes ended, and this one with it")
-        raise RoomLostError(f"{why} {said}".strip())
+        raise RoomLostError(f"{why}: {said}" if said else why)
 
 
 class ColdProcess:
@@ -178,7 +200,7 @@ class ColdProcess:
     def said(self) -> str:
         stderr = self._process.stderr
         ready, _, _ = select.select([stderr], [], [], 0)
-        return os.read(stderr.fileno(), 4096).decode(errors="replace") if ready else ""
+        return os.read(stderr.fileno(), 4096).decode(errors="replace").strip() if ready else ""
 
     def outlived_its_keeper(self) -> bool:
         return False

@@ -54,6 +54,14 @@ class Nursery:
         with self._lock:
             return self._process.poll() is None
 
+    def answers(self) -> bool:
+        """Whether it works: that it is ending shows here before `alive` does."""
+        with self._lock, suppress(OSError):
+            self._channel.send(b"alive?")
+            if select.select([self._channel], [], [], END_SECONDS)[0]:
+                return self._channel.recv(16) == b"alive"
+        return False
+
     def start_room(self) -> "WarmProcess":
         """A fork in namespaces of its own, where the runner starts."""
         request_end, requests = os.pipe()
@@ -72,8 +80,7 @@ class Nursery:
             os.close(request_end)
             os.close(reply_end)
             handle_end.close()
-        with handles:
-            return WarmProcess(self, requests, replies, _receive_handle(handles))
+        return WarmProcess(self, requests, replies, handles)
 
     def close(self) -> None:
         """End the process and all its rooms."""
@@ -93,19 +100,25 @@ class Nursery:
 
 
 class WarmProcess:
-    """One room's processes. requests, replies: descriptors, as of a subprocess's pipes."""
+    """One room's processes. requests, replies: descriptors, as of a subprocess's pipes.
 
-    def __init__(self, nursery: Nursery, requests: int, replies: int, handle: int | None):
-        self._nursery, self._handle = nursery, handle
+    line: brings a handle on process 1 of the room, and why that ends the room where it does.
+    """
+
+    def __init__(self, nursery: Nursery, requests: int, replies: int, line: socket.socket):
+        self._nursery, self._line, self._handle = nursery, line, _receive_handle(line)
         self.requests, self.replies = requests, replies
         self.ended = False
 
     def said(self) -> str:
+        self._line.setblocking(False)
+        with suppress(OSError):
+            return self._line.recv(300).decode(errors="replace")
         return ""
 
     def outlived_its_keeper(self) -> bool:
         """Whether the warm process ended, so that the end of this room is not the room's doing."""
-        return not self._nursery.alive
+        return not self._nursery.answers()
 
     def end(self) -> None:
         """Kill process 1 of the room, with which the kernel ends all others; wait for it."""
@@ -118,6 +131,7 @@ class WarmProcess:
             # Readable when the last process of the namespace is gone.
             select.select([self._handle], [], [], START_SECONDS)
             os.close(self._handle)
+        self._line.close()
         os.close(self.requests)
         os.close(self.replies)
 

@@ -15,11 +15,10 @@ import jinja2
 import nbformat
 
 from autograder.card import LOOKS
+from autograder.outputs import read_verdict
 from autograder.problems import CHECKS
-from autograder.verdict import State, Verdict
+from autograder.verdict import State
 
-# Under this key the output that shows a verdict carries it for programs, too.
-METADATA = "armdyn"
 MOST_LINES = 10  # of mistakes in the terminal; the page has them all
 
 
@@ -48,18 +47,6 @@ class Made:
     students: tuple[str, ...]
 
 
-def metadata_of(verdict: Verdict) -> dict:
-    """What the output that shows a verdict carries for `read_verdicts`."""
-    return {
-        METADATA: {
-            "check": verdict.check,
-            "state": verdict.state.value,
-            "credit": verdict.credit,
-            "diagnosis": list(verdict.diagnosis),
-        }
-    }
-
-
 def read_verdicts(notebook: Path) -> dict[str, dict]:
     """The verdicts in an autograded notebook, by check. ValueError where it cannot be read."""
     try:
@@ -67,7 +54,7 @@ def read_verdicts(notebook: Path) -> dict[str, dict]:
     except (OSError, UnicodeDecodeError, nbformat.reader.NotJSONError) as error:
         raise ValueError(f"{notebook.name} cannot be read: {error}") from None
     said = [
-        output.get("metadata", {}).get(METADATA)
+        read_verdict(output)
         for cell in cells
         if cell.metadata.get("nbgrader", {}).get("grade")
         for output in cell.get("outputs", [])

@@ -1,23 +1,25 @@
 """The warm process: everything a notebook imports is loaded, and each room is a fork of it.
 
 It runs inside bubblewrap, holds nothing of the course and never any student code: a request brings
-the descriptors of a room, and only that room's fork touches them. The fork goes into namespaces of
-its own, as far from the other rooms as bubblewrap's are from each other:
+the descriptors of a room, and only that room's processes touch them. Each room has namespaces of its
+own, as far from the other rooms as bubblewrap's are from each other. A fork copies the tables of all
+the memory its parent has, so that all but the student's own process are forks of a small one:
 
-    this process → a fork that enters new namespaces and waits → process 1, which furnishes them,
-    gives up all rights and reaps → the runner, where the student's code is.
+    the keeper, small → process 1 of new namespaces, which furnishes them and reaps (first.py)
+    the keeper, small → the warm process, loaded → the runner, in those namespaces, where the
+    student's code is.
 """
 
 import gc
 import io
-import json
 import os
+import select
 import signal
 import socket
 import sys
 from contextlib import suppress
 
-DESCRIPTORS = 3  # requests, replies, and a socket for the handle on process 1
+REQUEST = 3  # descriptors: requests, replies, and a socket for the handle on process 1
 
 
 def main():
@@ -27,10 +29,66 @@ def main():
     os.dup2(nothing, 1)
     os.close(nothing)
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import first
     import namespaces
 
     if os.getuid() == 0:
-        namespaces.become_nobody()
+        namespaces.step_down()
+    # To fork into a room's namespaces and come back, the warm process needs rights in both.
+    namespaces.unshare(namespaces.CLONE_NEWUSER | namespaces.CLONE_NEWPID)
+    if os.fork():
+        channel.close()
+        os.wait()
+        return
+    to_warm, to_keeper = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    warm = os.fork()
+    if warm == 0:
+        channel.close()
+        to_warm.close()
+        _serve(to_keeper)
+        os._exit(0)
+    to_keeper.close()
+    warm_lives = os.pidfd_open(warm)
+    if to_warm.recv(16) != b"ready":
+        return
+    channel.send(b"ready")
+    while True:
+        ready, _, _ = select.select([channel, warm_lives], [], [])
+        if warm_lives in ready:
+            return
+        message, descriptors, *_ = socket.recv_fds(channel, 16, REQUEST)
+        if not message:
+            return
+        if message == b"alive?":
+            channel.send(b"alive")
+        if len(descriptors) == REQUEST:
+            _start_room(*descriptors, to_warm, first, namespaces)
+        for descriptor in descriptors:
+            os.close(descriptor)
+
+
+def _start_room(requests, replies, handles, to_warm, first, namespaces):
+    user, group = os.getuid(), os.getgid()
+    try:
+        process = namespaces.clone(namespaces.EVERY_KIND)
+    except OSError as error:
+        first.refuse(replies, error)
+        return
+    if process == 0:
+        first.furnish_and_wait(requests, replies, handles, to_warm.fileno(), (user, group))
+    with suppress(OSError), socket.socket(fileno=os.dup(handles)) as line:  # it may have ended
+        handle = os.pidfd_open(process)
+        try:
+            socket.send_fds(line, [b"started"], [handle])
+        finally:
+            os.close(handle)
+
+
+def _serve(channel):
+    """Load everything, then fork a runner into each room that its process 1 tells of."""
+    import first
+    import namespaces
     import runner
 
     shell = runner.new_shell()
@@ -39,16 +97,48 @@ def main():
         raise RuntimeError("a thread was started: no fork of this process would be whole")
     gc.collect()
     gc.freeze()  # a collection in a room would copy every page it looks at
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    own = os.pidfd_open(os.getpid())
     channel.send(b"ready")
     while True:
-        message, descriptors, *_ = socket.recv_fds(channel, 16, DESCRIPTORS)
+        message, descriptors, *_ = socket.recv_fds(channel, 16, first.DESCRIPTORS)
         if not message:
             return
-        if len(descriptors) == DESCRIPTORS and os.fork() == 0:
-            _room(descriptors, shell, runner, namespaces)
+        requests, replies, room, line = descriptors
+        try:
+            namespaces.enter(room, namespaces.CLONE_NEWPID)
+            if os.fork() == 0:
+                _run(requests, replies, room, line, shell)
+        except OSError as error:
+            first.refuse(replies, error)
+        finally:
+            namespaces.enter(own, namespaces.CLONE_NEWPID)
         for descriptor in descriptors:
             os.close(descriptor)
+
+
+def _run(requests, replies, room, line, shell):
+    """Never returns. What goes wrong is said on the room's own channel."""
+    import first
+    import namespaces
+    import runner
+
+    try:
+        os.dup2(requests, 0)
+        os.dup2(replies, 1)
+        namespaces.enter(room, namespaces.EVERY_KIND & ~namespaces.CLONE_NEWPID)
+        os.setsid()
+        os.chdir("/tmp")
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        namespaces.drop_privileges()
+        namespaces.new_keys()
+        first.join(line)
+        os.closerange(2, os.sysconf("SC_OPEN_MAX"))
+        os.open(os.devnull, os.O_RDWR)
+        runner.serve(shell, walled=True)
+    except BaseException as error:
+        first.refuse(1, error)
+    finally:
+        os._exit(0)
 
 
 def _warm_up():
@@ -69,48 +159,6 @@ def _warm_up():
     # Drawn anew by each process, and dummy symbols sort by it.
     sympy.Dummy._base_dummy_index = 10_000_000
     numpy.linalg.solve([[1.0]], [1.0])
-
-
-def _room(descriptors, shell, runner, namespaces):
-    """Never returns. What goes wrong is said on the room's own channel."""
-    try:
-        for place, descriptor in enumerate(descriptors):
-            os.dup2(descriptor, place)
-        os.closerange(DESCRIPTORS, os.sysconf("SC_OPEN_MAX"))
-        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-        namespaces.unshare(namespaces.EVERY_KIND)
-        first = os.fork()
-        if first:
-            with socket.socket(fileno=2) as handles:
-                socket.send_fds(handles, [b"started"], [os.pidfd_open(first)])
-            os.closerange(0, DESCRIPTORS)
-            os.waitpid(first, 0)
-            os._exit(0)
-        os.close(2)
-        os.open(os.devnull, os.O_RDWR)
-        namespaces.furnish()
-        os.setsid()
-        os.chdir("/tmp")
-        namespaces.drop_privileges()
-        student = os.fork()
-        if student == 0:
-            runner.serve(shell, walled=True)
-            os._exit(0)
-        os.closerange(0, DESCRIPTORS)
-        # Process 1 gets no signal from within but those it handles.
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-        namespaces.close_to_tracing()
-        while os.wait()[0] != student:
-            pass
-    except BaseException as error:
-        _refuse(f"{type(error).__name__}: {error}")
-    finally:
-        os._exit(0)
-
-
-def _refuse(why):
-    with suppress(OSError):
-        os.write(1, json.dumps({"refused": why}).encode() + b"\n")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import ctypes
 import os
 import platform
+import signal
 from contextlib import suppress
 
 NOBODY = 65534
@@ -10,26 +11,39 @@ TMPFS_BYTES = 64 << 20
 MOST_FILES = 20_000
 
 CLONE_NEWUSER = 0x10000000
+CLONE_NEWPID = 0x20000000
 # Mounts, cgroups, host name, IPC, users, processes, network.
 EVERY_KIND = (
-    0x00020000 | 0x02000000 | 0x04000000 | 0x08000000 | CLONE_NEWUSER | 0x20000000 | 0x40000000
+    0x00020000 | 0x02000000 | 0x04000000 | 0x08000000 | CLONE_NEWUSER | CLONE_NEWPID | 0x40000000
 )
 MS_NOSUID, MS_NODEV, MS_NOEXEC, MS_BIND, MS_REC, MS_PRIVATE = 2, 4, 8, 1 << 12, 1 << 14, 1 << 18
 PR_SET_DUMPABLE, PR_CAPBSET_DROP, PR_SET_NO_NEW_PRIVS = 4, 24, 38
 CAPABILITY_VERSION = 0x20080522
+CLONE = {"x86_64": 56, "aarch64": 220}
 KEYCTL = {"x86_64": 250, "aarch64": 219}
 KEYCTL_JOIN_SESSION_KEYRING = 1
 
 _libc = ctypes.CDLL(None, use_errno=True)
+_pythons = ctypes.PyDLL(None, use_errno=True)  # keeps the interpreter's lock: a fork has it, too
 _libc.mount.argtypes = [ctypes.c_char_p] * 3 + [ctypes.c_ulong, ctypes.c_char_p]
 _libc.prctl.argtypes = [ctypes.c_int] + [ctypes.c_ulong] * 4
 
 
 def become_nobody() -> None:
-    """From root inside bubblewrap to a user without rights, whom the limit on processes holds.
+    """From root inside bubblewrap to a user without rights, whom the limit on processes holds."""
+    step_down()
+    # In a namespace of its own, this user's processes elsewhere do not count. Some kernels keep
+    # that from all but root: then all rooms share the limit.
+    with suppress(OSError):
+        unshare(CLONE_NEWUSER)
+    drop_privileges()
 
-    bubblewrap gives root the capabilities for these three steps alone. Its own /proc would be
-    partly covered, and under a covered one the kernel lets no room mount its own.
+
+def step_down() -> None:
+    """From root inside bubblewrap to another user, with a /proc.
+
+    bubblewrap gives root the capabilities for these steps alone. Its own /proc would be partly
+    covered, and under a covered one the kernel lets no room mount its own.
     """
     if os.path.exists("/proc/self"):
         raise RuntimeError("this is no room: it has a /proc already")
@@ -39,24 +53,39 @@ def become_nobody() -> None:
     os.setresuid(NOBODY, NOBODY, NOBODY)
     # A change of user makes a process's own /proc files root's.
     _libc.prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)
-    # In a namespace of its own, this user's processes elsewhere do not count. Some kernels keep
-    # that from all but root: then all rooms share the limit.
-    with suppress(OSError):
-        unshare(CLONE_NEWUSER)
-    drop_privileges()
+
+
+def clone(kinds: int) -> int:
+    """A fork in new namespaces, one of users among them; the process, and 0 in the fork.
+
+    For a fork that starts nothing: neither Python nor the C library knows of it.
+    """
+    return _checked(
+        "clone", _pythons.syscall(CLONE[platform.machine()], kinds | signal.SIGCHLD, *[0] * 4)
+    )
+
+
+def enter(process: int, kinds: int) -> None:
+    """Into namespaces of the process that a pidfd stands for; of processes, for the next fork."""
+    _checked("setns", _libc.setns(process, kinds))
 
 
 def unshare(kinds: int) -> None:
     """Into new namespaces, one of users among them, as the same user."""
     user, group = os.getuid(), os.getgid()
     _checked("unshare", _libc.unshare(kinds))
+    map_user(user, group)
+
+
+def map_user(user: int, group: int) -> None:
+    """Be the same user in a new namespace of users as outside it."""
     _write("/proc/self/setgroups", "deny")
     _write("/proc/self/uid_map", f"{user} {user} 1")
     _write("/proc/self/gid_map", f"{group} {group} 1")
 
 
 def furnish() -> None:
-    """Give process 1 of new namespaces its own /proc, /tmp, terminals and keys."""
+    """Give process 1 of new namespaces its own /proc, /tmp and terminals."""
     _mount(None, "/", None, MS_REC | MS_PRIVATE)
     mount_proc()
     covered = {place: os.open(place, os.O_PATH) for place in _mounted_under("/tmp")}
@@ -71,6 +100,10 @@ def furnish() -> None:
     _mount("devpts", "/dev/pts", "devpts", MS_NOSUID | MS_NOEXEC, options)
     # No further namespaces: inside one of its own, a process would have all capabilities.
     _write("/proc/sys/user/max_user_namespaces", "0")
+
+
+def new_keys() -> None:
+    """A keyring that this process and those it starts share with nobody."""
     if platform.machine() in KEYCTL:
         # Where the kernel has no keys there are none to share.
         _libc.syscall(KEYCTL[platform.machine()], KEYCTL_JOIN_SESSION_KEYRING, None)
@@ -124,6 +157,7 @@ def _write(path, text):
 
 
 def _checked(what, result):
-    if result != 0:
+    if result < 0:
         number = ctypes.get_errno()
         raise OSError(number, f"{what}: {os.strerror(number)}")
+    return result

@@ -1,8 +1,9 @@
 """Runs a student's cells and answers calls, inside the sandbox.
 
 One request a line on standard input, one reply a line on standard output, both JSON:
-{"run": source} → {"outputs": [...]}, {"ask": [calls]} → {"replies": [...]}. Both descriptors are
-moved out of the way first, so that what the student's code prints cannot mix with the replies.
+{"run": source} → {"outputs": [...]}, {"ask": [calls]} → a {"reply": ...} for each call in turn, up
+to the first fault. Both descriptors are moved out of the way first, so that what the student's code
+prints cannot mix with the replies.
 """
 
 import base64
@@ -12,13 +13,14 @@ import os
 import random
 import resource
 import sys
+import time
 
-# A room has no more processes and threads than this, its keeper among them.
-MOST_PROCESSES = 64
 MEMORY_BYTES = 4 << 30
 FILE_BYTES = 64 << 20
 MOST_TEXT = 200_000
 MOST_OUTPUTS = 50
+# Quick calls are answered in one go: each time that the judge is woken costs more than a call.
+HELD_SECONDS = 0.02
 # What a feedback page shows of a student's output. No HTML or JavaScript: it would run in the
 # instructor's browser.
 SHOWN = ("text/plain", "text/latex", "image/png")
@@ -31,7 +33,21 @@ def main():
         import namespaces
 
         namespaces.become_nobody()
+    if walled:
+        _leave_to_watch()
     serve(walled=walled)
+
+
+def _leave_to_watch():
+    """Go on as a child of this process, which ends the room when it uses too much."""
+    import watch
+
+    child = os.fork()
+    if child == 0:
+        return
+    os.closerange(0, 2)
+    os.write(2, watch.until_ended(os.pidfd_open(child)).encode())
+    os._exit(0)
 
 
 def serve(shell=None, walled=False):
@@ -57,9 +73,7 @@ def serve(shell=None, walled=False):
             outputs = _run(shell, request["run"], request["seconds"], wall)
             _reply(replies, {"outputs": outputs})
         else:
-            calls = [wall.decode_call(call) for call in request["ask"]]
-            answers = _quietly(wall.answer_all, calls, shell.user_ns)
-            _reply(replies, {"replies": [wall.encode_reply(answer) for answer in answers]})
+            _quietly(_answer, request["ask"], shell.user_ns, replies, wall)
 
 
 def _private_channel():
@@ -81,6 +95,8 @@ def _limit_resources(walled):
         with open("/proc/self/oom_score_adj", "w") as file:
             file.write("1000")
     if walled:
+        from watch import MOST_PROCESSES
+
         resource.setrlimit(resource.RLIMIT_NPROC, (MOST_PROCESSES, MOST_PROCESSES))
 
 
@@ -148,6 +164,20 @@ def _show_figures():
         from matplotlib_inline.backend_inline import flush_figures
 
         flush_figures()
+
+
+def _answer(calls, namespace, replies, wall):
+    """Write a line for each call, and let go of the lines written before one that may take long."""
+    written = time.monotonic()
+    for call in calls:
+        if time.monotonic() - written > HELD_SECONDS:
+            replies.flush()
+            written = time.monotonic()
+        answer = wall.answer(wall.decode_call(call), namespace)
+        replies.write(json.dumps({"reply": wall.encode_reply(answer)}) + "\n")
+        if answer.fault:
+            break
+    replies.flush()
 
 
 def _quietly(function, *args):

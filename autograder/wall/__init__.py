@@ -23,10 +23,11 @@ from .calls import (
     said_by,
     time_limit,
 )
-from .readings import FaultKind, NotNumbersError, shortened
+from .readings import MOST_NUMBERS, FaultKind, NotNumbersError, one_line, shortened
 
 __all__ = [
     "CALL_SECONDS",
+    "MOST_NUMBERS",
     "Call",
     "Expressions",
     "Fault",
@@ -42,6 +43,7 @@ __all__ = [
     "decode_reply",
     "encode_call",
     "encode_reply",
+    "one_line",
     "read",
     "real",
     "said_by",

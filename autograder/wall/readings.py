@@ -127,6 +127,13 @@ def shortened(text: str, most: int = MOST_CHARACTERS) -> str:
     return text if len(text) <= most else text[: most - 1] + "…"
 
 
+def one_line(text: str, most: int = MOST_CHARACTERS) -> str:
+    """Printable and shortened, so that no text of a student's passes for more than one line of ours."""
+    if not text.isprintable():
+        text = repr(text[:most])[1:-1]
+    return shortened(text, most)
+
+
 def encode_value(value):
     """What `read_numbers` or `read_parts` gave, in JSON's terms."""
     if isinstance(value, dict):

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from nbgrader.utils import determine_grade
 
 from autograder import grade as grading
+from autograder import outputs
 from autograder.check import VISIBLE_SEED
 from autograder.grade import Sitting, grade, is_judged, stream
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
@@ -211,13 +212,42 @@ class Script:
             raise RoomLostError("it ended")
         return []
 
-    def ask(self, calls):
+    def ask(self, calls, seconds):
         if calls[0].name in self.deadly:
             raise RoomLostError("it ended")
         return [Reply(fault=Fault(FaultKind.MISSING, "near"))]
 
     def close(self):
         type(self).ran.append("close")
+
+
+def failing(times: int):
+    """A sitting whose sandbox ends by itself, so many times."""
+
+    class Failing(Sitting):
+        left = times
+
+        def ask(self, calls):
+            if type(self).left:
+                type(self).left -= 1
+                raise OSError("the process that keeps the sandboxes ended")
+            return super().ask(calls)
+
+    return Failing
+
+
+def test_a_sandbox_that_ends_by_itself_costs_nobody_a_point(release, wrong, monkeypatch, caplog):
+    monkeypatch.setattr(grading, "Sitting", failing(1))
+    again = grade(p3_pendulum.wrong(release), SOURCE, "seed")
+    assert again.verdicts == wrong.verdicts
+    assert "the process that keeps the sandboxes ended: the notebook is graded" in caplog.text
+
+
+def test_a_sandbox_that_always_ends_is_tried_twice(release, monkeypatch):
+    monkeypatch.setattr(grading, "Sitting", sitting := failing(9))
+    with pytest.raises(OSError, match="keeps the sandboxes"):
+        grade(p3_pendulum.wrong(release), SOURCE, "seed")
+    assert sitting.left == 7
 
 
 def test_a_new_room_runs_the_earlier_cells_but_not_the_one_that_ended_the_last():
@@ -262,11 +292,17 @@ def test_a_missing_name_is_blamed_on_the_cell_that_failed_to_define_it():
     ],
 )
 def test_no_forged_output_reaches_the_notebook(output):
-    written = grading._output(output)
-    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(outputs=[written])])
+    written = outputs.of_student(output)
+    shown = [written] if written else []
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(outputs=shown)])
     nbformat.validate(notebook)
     assert "script" not in str(notebook)
-    assert written.output_type != "execute_result"
+    assert "execute_result" not in str(notebook)
+
+
+def test_an_output_of_which_nothing_can_be_shown_leaves_none():
+    shown = {"text/html": "<b>", "application/javascript": "1"}
+    assert outputs.of_student({"output_type": "display_data", "data": shown}) is None
 
 
 VERDICTS = st.builds(

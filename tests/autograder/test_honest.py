@@ -5,10 +5,11 @@ import pytest
 
 from autograder.grade import grade
 from autograder.nbgrader_glue import write_problem
-from autograder.repair import grade_id
+from autograder.repair import grade_id, repair
 from autograder.verdict import State
 from tests.submissions.attack import ROOT
 from tests.submissions.honest import VARIANTS
+from tests.submissions.honest_styles import FILES
 from tests.submissions.p3_pendulum import POINTS, cell_of
 
 P3 = "p3-pendulum"
@@ -56,3 +57,20 @@ def test_a_student_sees_prints_plots_and_errors(release):
     assert "u =" in cell_of(graded.notebook, "p3-euler-lagrange").outputs[0].text
     assert "image/png" in cell_of(graded.notebook, "p3-swing-plot").outputs[0].data
     assert graded.notes == ()
+
+
+@pytest.mark.parametrize("make", FILES.values(), ids=FILES)
+def test_honest_files_lose_nothing(make, release):
+    submission = nbformat.reads(make(without_plots(nbformat.from_dict(release))).decode(), 4)
+    graded = grade(submission, without_plots(nbformat.from_dict(SOURCE)), "seed")
+    assert states(graded) == ALL
+    assert graded.notes == ()
+
+
+def test_honest_variants_are_no_matter_for_the_instructor(release):
+    """Only copied cells are mended; nothing else is reported of the honest."""
+    told = {}
+    for name, edit in VARIANTS.items():
+        _, notes = repair(edit(release), SOURCE)
+        told |= {name: notes} if notes else {}
+    assert told.keys() == {"copied_cells"}

@@ -2,8 +2,10 @@
 
 import ctypes
 import os
+import re
 import shutil
 import signal
+import socket
 import time
 from pathlib import Path
 
@@ -14,17 +16,37 @@ from autograder import grade as grading
 from autograder import sandbox
 from autograder.grade import grade
 from autograder.nbgrader_glue import outputs_for, write_problem
-from autograder.repair import grade_id
+from autograder.repair import grade_id, is_locked
 from autograder.sandbox import Room, Way
 from autograder.verdict import State
 from tests.submissions import p3_pendulum
-from tests.submissions.attack import GOT, OUTSIDE, ROOT
-from tests.submissions.hostile import ATTACKS, SAFE_WITHOUT_WALLS, unstopped
+from tests.submissions.attack import GOT, LISTENING, OUTSIDE, ROOT
+from tests.submissions.hostile import (
+    ATTACKS,
+    SAFE_WITHOUT_WALLS,
+    STOPPED_WITHOUT_WALLS,
+    unstopped,
+)
 from tests.submissions.p3_pendulum import POINTS, cell_of
 
 P3 = "p3-pendulum"
 SHOWN_OFF = ("p3-euler-lagrange", "p3-swing-plot")
 PR_SET_CHILD_SUBREAPER = 36
+WORDS_OF_THE_GUIDE = {
+    "reads_the_solution": "the solutions",
+    "hunts_modules": "this project's own modules",
+    "follows_symlinks": "follow links",
+    "another_language": "whatever you can read",
+    "writes_the_gradebook": "the gradebook",
+    "writes_outside": "write any file",
+    "shadowed_modules": "modules",
+    "leaves_notes": "notes for the next",
+    "reads_proc": "see your other processes",
+    "kills_its_parent": "kill the grader",
+    "outlives_all": "live on",
+    "fork_bomb": "as many processes",
+    "reaches_the_network": "the network",
+}
 
 
 def without_plots(notebook):
@@ -69,7 +91,6 @@ def orphans_come_here():
 def short_limits(monkeypatch):
     """A second for what takes ten: the limits are what is tested, not how long they are."""
     monkeypatch.setattr(Room.run, "__defaults__", (1.0,))
-    monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.5)
     monkeypatch.setattr(sandbox, "GRACE_SECONDS", 1.0)
 
 
@@ -118,6 +139,19 @@ def said(graded) -> str:
     return "\n".join([*sentences, *graded.notes, *outputs])
 
 
+def claims(notebook) -> dict[str, tuple]:
+    """The graded cells: kind, points and flags, and the text of those that nobody may edit."""
+    kept = ("grade", "solution", "locked", "task", "points")
+    found = {}
+    for cell in notebook.cells:
+        if grade_id(cell):
+            settings = cell.metadata["nbgrader"]
+            text = cell.source if is_locked(cell) else ""
+            assert grade_id(cell) not in found
+            found[grade_id(cell)] = cell.cell_type, text, [settings.get(key) for key in kept]
+    return found
+
+
 @pytest.fixture(scope="module")
 def before(orphans_come_here, release, needs):
     """The processes there are when nothing hostile has run yet."""
@@ -132,7 +166,9 @@ def outside():
     (OUTSIDE / "course").mkdir(parents=True)
     for name in ("gradebook.db", "seed"):
         (OUTSIDE / "course" / name).touch()
-    yield OUTSIDE
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        LISTENING.port = server.getsockname()[1]
+        yield OUTSIDE
     shutil.rmtree(OUTSIDE)
 
 
@@ -143,12 +179,15 @@ def test_no_attack_earns_a_point(attack, release, before, outside, short_limits)
     assert all(verdict.state is not State.CHECK_FAILED for verdict in graded.verdicts.values())
 
     told = said(graded)
-    assert attack.says in told or not attack.lost
+    assert attack.says in told
+    assert all(len(note) < 500 and note.isprintable() for note in graded.notes)
     assert GOT not in told
     assert "<script" not in told
     for name in attack.lost:
-        assert graded.verdicts[name].lines()
+        verdict = graded.verdicts[name]
+        assert verdict.problem or verdict.diagnosis or verdict.witness
     nbformat.validate(graded.notebook)
+    assert claims(graded.notebook) == claims(SOURCE)
     assert len(nbformat.writes(graded.notebook)) < 60_000_000
     assert sorted(path.name for path in outside.rglob("*")) == ["course", "gradebook.db", "seed"]
     assert (outside / "course" / "gradebook.db").stat().st_size == 0
@@ -166,9 +205,30 @@ def test_what_the_fallback_does_not_stop_is_so(name, release, before, outside, m
     left_behind = descendants() - before
     for process in left_behind:
         os.kill(process, signal.SIGKILL)
-    got = GOT in said(graded) or (outside / "written").exists() or left_behind
-    assert got
+    assert GOT in said(graded) or (outside / "written").exists() or left_behind
     assert name in unstopped()
+
+
+@pytest.mark.parametrize("name", STOPPED_WITHOUT_WALLS)
+def test_what_the_fallback_stops_too(name, release, before, outside, monkeypatch):
+    monkeypatch.setattr(sandbox, "_best_way", lambda: Way.NONE)
+    attack = ATTACKS[name]
+    graded = grade(attack.edit(release), SOURCE, "seed")
+    assert points(graded) == attack.points
+    assert attack.says in said(graded)
+    assert GOT not in said(graded)
+    assert not (outside / "written").exists()
+    assert eventually(lambda: descendants() <= before), "a process was left behind"
+    assert name not in unstopped()
+
+
+def test_the_guide_names_what_the_fallback_does_not_stop():
+    """docs/instructors.md says in words what `unstopped` lists: a word for each kind."""
+    guide = (ROOT / "docs" / "instructors.md").read_text(encoding="utf-8")
+    (part,) = re.findall(r"Without bubblewrap.*?(?=\nA student.s text)", guide, re.DOTALL)
+    for name, said_of_it in unstopped().items():
+        assert WORDS_OF_THE_GUIDE[name] in part, said_of_it
+    assert WORDS_OF_THE_GUIDE.keys() == unstopped().keys()
 
 
 def test_many_loops_cost_one_limit_of_the_whole_notebook(release, short_limits, monkeypatch):

@@ -1,34 +1,21 @@
-"""Many submissions: killed runs go on, unchanged work is not redone, nobody stops the others."""
+"""Many submissions: unchanged work is not redone, nobody stops the others."""
 
-import json
 import operator
 import os
-import random
-import signal
 import subprocess
 import sys
-import time
-import uuid
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from autograder import pipeline
-from autograder.cache import Cache, digest, from_json, to_json
+from autograder.cache import Cache, digest
 from autograder.cli import main
 from autograder.executors import Processes, outcomes
-from autograder.grade import Graded
-from autograder.verdict import Row, State, Verdict, Witness
 from tests.autograder import courses
-from tests.autograder.courses import P3, rows, submit
+from tests.autograder.courses import P3, submit
 from tests.submissions import p3_pendulum
-
-KILLS = 3
-STUDENTS = 20
-KINDS = (p3_pendulum.right, p3_pendulum.partly_right, p3_pendulum.wrong, p3_pendulum.blank)
-PATIENCE = 60.0
 
 
 @pytest.fixture
@@ -38,60 +25,6 @@ def course(tmp_path, monkeypatch):
     submit(root, "ada", p3_pendulum.right(courses.release(root)))
     monkeypatch.chdir(root)
     return root
-
-
-def with_mark(mark: str) -> list[int]:
-    """The processes that carry this mark in their environment."""
-    found = []
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            if mark.encode() in (folder / "environ").read_bytes():
-                found.append(int(folder.name))
-        except OSError:
-            continue
-    return found
-
-
-def until(condition) -> None:
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
-
-
-def test_killed_runs_go_on_to_the_same_gradebook(tmp_path):
-    undisturbed, killed = (courses.new_course(tmp_path / name) for name in ("whole", "killed"))
-    release = courses.release(killed)
-    for root in (undisturbed, killed):
-        for number in range(STUDENTS):
-            submit(root, f"student{number:02}", KINDS[number % len(KINDS)](release))
-    rng, mark = random.Random(4), uuid.uuid4().hex
-    results = killed / "course" / "cache-of-results" / "results"
-    command = [Path(sys.executable).parent / "autograder", "grade", P3, "--jobs", "2"]
-    reached = 0
-    for _ in range(KILLS):
-        process = subprocess.Popen(
-            command,
-            cwd=killed,
-            env=os.environ | {"MARK_OF_TEST": mark},
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        reached += rng.randint(1, STUDENTS // KILLS - 1)
-        until(lambda: len(list(results.rglob("*.json"))) >= reached)  # noqa: B023
-        time.sleep(rng.uniform(0, 0.05))
-        assert process.poll() is None
-        process.kill()
-        assert process.wait() == -signal.SIGKILL
-        until(lambda: not with_mark(mark))
-    judged = {path: path.stat().st_mtime_ns for path in results.rglob("*.json")}
-    assert reached <= len(judged) < STUDENTS
-    lines = pipeline.grade_all(killed, P3, jobs=2)
-    assert all(line.graded for line in lines)
-    assert {path: path.stat().st_mtime_ns for path in judged} == judged
-    pipeline.grade_all(undisturbed, P3, jobs=2)
-    assert rows(courses.database(killed)) == rows(courses.database(undisturbed))
-    assert not list((killed / "course").rglob("*.part"))
 
 
 def test_only_what_changed_is_judged_again(course, monkeypatch, capsys):
@@ -152,23 +85,46 @@ def test_different_parts_have_different_digests(one, other):
     assert (digest(*one) == digest(*other)) == (one == other)
 
 
-verdicts = st.builds(
-    Verdict,
-    check=st.text(),
-    state=st.sampled_from(State),
-    credit=st.floats(0, 1),
-    rows=st.lists(st.builds(Row, st.text(), st.floats(0, 1), st.booleans())).map(tuple),
-    witness=st.none() | st.builds(Witness, st.text(), st.text(), st.text()),
-    problem=st.text(),
-    diagnosis=st.lists(st.text()).map(tuple),
-    next_step=st.text(),
+def test_a_second_run_at_once_is_told_so(course):
+    """The lock ends with its process, so that a killed run holds up nobody."""
+    hold = "import sys; from pathlib import Path; from autograder import lock\n"
+    hold += "with lock.locked(Path(sys.argv[1]), ''): print('held', flush=True); sys.stdin.read()"
+    command = [sys.executable, "-c", hold, course / pipeline.LOCK]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
+        assert holder.stdout.readline() == b"held\n"
+        said = courses.run(course, "autograder", "grade", P3, status=2)
+        assert said == f"autograder: another `autograder grade` is at work in {course}\n"
+        assert not (course / "course" / "autograded").exists()
+        holder.kill()
+    assert main(["grade", P3, "--jobs", "1"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("setting", "named"),
+    [
+        ("c.Autograde.autograde_preprocessors = []", "Autograde.autograde_preprocessors"),
+        ("c.OverwriteCells.add_missing_cells = True", "OverwriteCells"),
+        ("c.Autograde.post_convert_hook = print", "Autograde.post_convert_hook"),
+    ],
 )
+def test_what_only_nbgrader_can_do_is_refused(course, capsys, setting, named):
+    with (course / "nbgrader_config.py").open("a") as config:
+        config.write(setting + "\n")
+    assert main(["grade", P3, "--jobs", "1"]) == 2
+    assert f"nbgrader_config.py sets {named}, which only nbgrader" in capsys.readouterr().err
 
 
-@given(verdicts)
-def test_results_come_back_from_the_cache_as_they_went(verdict):
-    graded = Graded({"cells": []}, {"p3-M": verdict}, ("a note",))
-    assert from_json(json.loads(json.dumps(to_json(graded)))) == graded
+def test_steps_on_the_judged_notebook_run(course):
+    """nbgrader's own, with their settings."""
+    with (course / "nbgrader_config.py").open("a") as config:
+        config.write("c.LimitOutput.max_lines = 3\n")
+    notebook = p3_pendulum.right(courses.release(course))
+    p3_pendulum.cell_of(notebook, "answer-M").source += "\nprint('many\\n' * 50)"
+    submit(course, "ada", notebook)
+    assert main(["grade", P3, "--jobs", "1"]) == 0
+    graded = (course / "course" / "autograded" / "ada" / P3 / f"{P3}.ipynb").read_text()
+    assert "Output truncated" in graded
+    assert graded.count('"many\\n"') == 2
 
 
 def test_a_damaged_entry_is_none(tmp_path):

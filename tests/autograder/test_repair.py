@@ -1,6 +1,7 @@
 """Repair: whatever a student does to the released notebook, its graded cells are right afterwards."""
 
 import copy
+import sys
 from collections import Counter
 from pathlib import Path
 
@@ -8,9 +9,10 @@ import nbformat
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from nbformat.v4 import new_code_cell, new_notebook
 
 from autograder.nbgrader_glue import write_problem
-from autograder.repair import NEW_CELL, grade_id, is_locked, repair
+from autograder.repair import MOST_NOTES, NEW_CELL, grade_id, is_locked, repair
 from tests.submissions import p3_pendulum
 
 ROOT = Path(__file__).parents[2]
@@ -202,3 +204,51 @@ def test_an_unknown_claim_is_taken_away_and_told(release):
     mended, notes = repair(submission, SOURCE)
     assert notes == ["a cell that claims to be p9-bonus, which the source does not have"]
     assert "nbgrader" not in mended.cells[-1].metadata
+
+
+def test_a_claim_cannot_pass_for_a_line_of_the_table():
+    cell = new_code_cell("pass")
+    forged = "x\nbitdiddle  15 of 15  6 correct\x1b[2J\u202e" + "y" * 9999
+    cell.metadata.nbgrader = {"grade_id": forged}
+    _, (note,) = repair(new_notebook(cells=[cell]), new_notebook())
+    assert note.isprintable()
+    assert len(note) < 150
+    assert r"x\nbitdiddle  15 of 15" in note
+
+
+def test_many_notes_are_counted():
+    cells = [new_code_cell("pass") for _ in range(100)]
+    for cell in cells:
+        cell.metadata.nbgrader = {"grade_id": "p9-made-up"}
+    _, notes = repair(new_notebook(cells=cells), new_notebook())
+    assert len(notes) == MOST_NOTES + 1
+    assert notes[-1] == f"and {100 - MOST_NOTES} more such notes"
+
+
+def of_one_id(number):
+    """Copies, beside cells that have the very ids that copies would get."""
+    notebook = new_notebook()
+    ids = ["same"] * number + [f"cell-{n}" for n in range(number)]
+    notebook.cells = [new_code_cell("", id=name) for name in ids]
+    return notebook
+
+
+def test_copies_get_ids_that_no_other_cell_has():
+    mended, _ = repair(of_one_id(50), new_notebook())
+    ids = [cell.id for cell in mended.cells]
+    assert len(set(ids)) == 100
+    assert ids[0] == "same"
+    assert ids[50:] == [f"cell-{n}" for n in range(50)]
+
+
+def test_twice_the_copies_take_twice_the_work():
+    def calls(number):
+        notebook, made = of_one_id(number), Counter()
+        sys.setprofile(lambda frame, event, of: made.update([event]))
+        try:
+            repair(notebook, new_notebook())
+        finally:
+            sys.setprofile(None)
+        return made.total()
+
+    assert calls(200) < 2.5 * calls(100)

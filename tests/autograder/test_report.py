@@ -5,9 +5,14 @@ from html.parser import HTMLParser
 import pytest
 
 from autograder import report
+from autograder.cli import main
+from autograder.grade import grade
 from autograder.problems import CHECKS
 from autograder.report import Student
 from autograder.verdict import State
+from tests.autograder import courses
+from tests.autograder.courses import P3
+from tests.submissions import p3_pendulum
 
 M = CHECKS["p3-M"].mistakes
 
@@ -91,3 +96,29 @@ def test_a_damaged_notebook_is_refused_by_name(tmp_path):
     path.write_text("{")
     with pytest.raises(ValueError, match=r"p3-pendulum\.ipynb cannot be read"):
         report.read_verdicts(path)
+
+
+def test_the_command_reports_what_grading_left(tmp_path, monkeypatch, capsys):
+    root = courses.new_course(tmp_path / "course")
+    release = courses.release(root)
+    for student, made in (("ada", p3_pendulum.right), ("bob", p3_pendulum.wrong)):
+        courses.submit(root, student, made(release))
+    monkeypatch.chdir(root)
+    assert main(["grade", P3, "--jobs", "1"]) == 0
+    courses.submit(root, "cem", "no notebook")
+    capsys.readouterr()
+    assert main(["report", P3]) == 0
+    said = capsys.readouterr().out
+    assert "2 of 3 graded, mean 5, median 5 of 15 points" in said
+    wrong = grade(p3_pendulum.wrong(release), release, "seed").verdicts
+    text = str(Text((root / "course" / "report" / f"{P3}.html").read_text(encoding="utf-8")))
+    for check, verdict in wrong.items():
+        for sentence in verdict.diagnosis:
+            assert f"{sentence} who bob" in text, check
+    assert "cem not graded yet, or could not be" in text
+
+
+def test_an_unknown_assignment_is_refused_by_name(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(courses.new_course(tmp_path / "course"))
+    assert main(["report", "p9-flying"]) == 2
+    assert "the gradebook does not know p9-flying" in capsys.readouterr().err

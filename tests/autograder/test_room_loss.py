@@ -40,6 +40,26 @@ class TestLoss:
         with Room(way) as room, pytest.raises(RoomLostError, match="no reply within"):
             room.run(deaf, seconds=0.2)
 
+    def test_a_call_that_ignores_its_limit_costs_no_more_than_one(self, way, monkeypatch):
+        monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.3)
+        monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.2)
+        with Room(way) as room:
+            room.run(
+                "import signal\n"
+                "def f(n):\n"
+                "    if n < 3: return n\n"
+                "    signal.signal(signal.SIGALRM, signal.SIG_IGN)\n"
+                "    while True: pass"
+            )
+            with pytest.raises(RoomLostError, match=r"no reply within 0\.5 s"):
+                room.ask([Call("f", (float(n),)) for n in range(24)])
+
+    def test_calls_end_with_the_time_they_have_together(self, way):
+        with Room(way) as room:
+            room.run("import time\ndef f():\n    time.sleep(0.1)\n    return 1")
+            with pytest.raises(RoomLostError, match="no reply within 0"):
+                room.ask([Call("f", ())] * 24, seconds=0.35)
+
     def test_a_process_that_does_not_read_is_a_lost_room(self, way, monkeypatch):
         monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.3)
         # Answers by itself, then stays in its cell.
@@ -97,6 +117,42 @@ class TestLoss:
         )
         with Room(way) as room, pytest.raises(RoomLostError, match="too much"):
             room.run(flood)
+
+    @pytest.mark.parametrize(
+        "forged",
+        [
+            'b\'{"reply": {"value": [\' + b"[]," * 250_000 + b"[]]}}\\n"',
+            'b\'{"reply": {"value": \' + b" " * 2_000_000 + b"1}}\\n"',
+        ],
+        ids=["values", "bytes"],
+    )
+    def test_a_forged_reply_is_no_larger_than_the_numbers_asked_for(self, way, forged):
+        source = (
+            "import os\n"
+            "def f():\n"
+            "    for fd in (3, 4):\n"
+            f"        try: left = {forged}\n"
+            "        except OSError: continue\n"
+            "        try:\n"
+            "            while left: left = left[os.write(fd, left):]\n"
+            "        except OSError: pass"
+        )
+        with Room(way) as room:
+            room.run(source)
+            with pytest.raises(RoomLostError, match="too much"):
+                room.ask([Call("f", ())])
+
+    def test_forged_outputs_hold_no_more_values_than_real_ones(self, way):
+        source = (
+            "import os\n"
+            "left = b'{\"outputs\": [' + b'[],' * 1_100_000 + b'[]]}\\n'\n"
+            "for fd in (3, 4):\n"
+            "    try:\n"
+            "        while left: left = left[os.write(fd, left):]\n"
+            "    except OSError: pass"
+        )
+        with Room(way) as room, pytest.raises(RoomLostError, match="too much"):
+            room.run(source)
 
     def test_forged_outputs_are_bounded(self, way):
         forge = "import os\nfor fd in (3, 4):\n    try: os.write(fd, b'{\"outputs\": [' + "

@@ -1,10 +1,9 @@
-"""armdyn's speed beside its peers', in one process: python tests/benchmarks/library.py [FILE].
+"""armdyn's speed beside its peers', in one process: python -m tests.benchmarks.library [FILE].
 
-Prints the table, and writes it to FILE if one is given. Each figure is a ratio of least times,
+Prints the section, and writes it to FILE if one is given. Each figure is a ratio of least times,
 measured in turn. The agreement of the results is checked before anything is timed.
 """
 
-import platform
 import sys
 import time
 from pathlib import Path
@@ -15,15 +14,16 @@ import numpy as np
 import pinocchio as pin
 import sympy as sp
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
-from timing import Row, in_turn, table
 
 from armdyn import Planar2R, codegen, derive
+from tests.benchmarks import report
+from tests.benchmarks.timing import Row, in_turn, table
 
 ARM = {"l1": 1.0, "l2": 0.8, "lc1": 0.5, "lc2": 0.4, "m1": 3.0, "m2": 2.0, "I1": 0.25, "I2": 0.11}
 STATES = 1_000_000
 HOW = """\
-Written by `make bench`. Each figure is the least CPU time of one call, ours and the peer's taken in
-turn in one process; "1/30" means 30 times faster. The results are compared before they are timed.
+Each figure is the least CPU time of one call, ours and the peer's taken in turn in one process. The
+results are compared before they are timed.
 """
 LOOPED = 20_000  # of the states, as many as a Python loop gets through in reasonable time
 
@@ -238,11 +238,10 @@ def main(files: list[str]) -> None:
     counted = (
         f"Operations of M, C and g after cse, planar chain, n = 6: {operations} (goal: 700).\n"
     )
-    machine = f"Python {platform.python_version()}, NumPy {np.__version__}, {platform.machine()}"
-    text = f"# Speed of the library\n\n{HOW}{machine}.\n\n{table(rows)}\n{drifted}{counted}"
+    text = f"{HOW}{report.machine()}.\n\n{table(rows)}\n{drifted}{counted}"
     print(text)
     for file in files:
-        Path(file).write_text(text, encoding="utf-8")
+        report.put(Path(file), "The library", text)
 
 
 if __name__ == "__main__":

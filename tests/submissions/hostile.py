@@ -5,8 +5,10 @@ What the fallback without bubblewrap does not stop is each attack's `fallback`; 
 
 from tests.submissions import (
     hostile_answers,  # noqa: F401
+    hostile_hooks,  # noqa: F401
     hostile_judge,  # noqa: F401
     hostile_notebooks,  # noqa: F401
+    hostile_pages,  # noqa: F401
     hostile_processes,  # noqa: F401
 )
 from tests.submissions.attack import ATTACKS
@@ -18,7 +20,12 @@ SAFE_WITHOUT_WALLS = (
     "writes_outside",
     "outlives_all",
     "hunts_modules",
+    "follows_symlinks",
+    "reads_proc",
+    "reaches_the_network",
 )
+# Some that it stops, one of each kind.
+STOPPED_WITHOUT_WALLS = ("forged_replies", "searches_memory", "replaced_builtins")
 
 
 def unstopped() -> dict[str, str]:

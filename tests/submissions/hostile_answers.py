@@ -132,15 +132,15 @@ def g_vec(q, pend):
 
 @attack()
 def table_of_visible_cases(release):
-    """Right for the cases that a student sees, which are written into the answer."""
+    """Right for the cases that a student sees, and those that would follow, in a table."""
     from numpy.random import default_rng
 
     from autograder.check import VISIBLE_SEED
-    from autograder.judge import VISIBLE_CASES
+    from autograder.judge import HIDDEN_CASES
     from autograder.problems import CHECKS
 
     check = CHECKS["p3-g_vec"]
-    calls = check.calls(default_rng(VISIBLE_SEED), VISIBLE_CASES)
+    calls = check.calls(default_rng(VISIBLE_SEED), HIDDEN_CASES)
     table = {f"{call.args[0][0]:.9f}": check.reference(*call.args) for call in calls}
     return cheat(release, g_vec=function("g_vec", f"{table!r}.get(f'{{q[0]:.9f}}', 1.0)"))
 
@@ -163,3 +163,99 @@ def g_vec(q, pend):
 def clears_the_namespace(release):
     """Takes all names away before it is judged."""
     return cheat(release, g_vec="globals().clear()\n" + RIGHT["g_vec"])
+
+
+@attack()
+def changing_number(release):
+    """Returns an object whose number is another each time one looks."""
+    return cheat(
+        release,
+        g_vec="""
+import itertools
+looks = itertools.count()
+class Changing:
+    def __float__(self): return float(next(looks))
+    def __array__(self, dtype=None, copy=None): return np.array([float(next(looks))])
+    def __format__(self, spec): return "right"
+    __repr__ = __str__ = lambda self: "1000000"
+def g_vec(q, pend):
+    return Changing()
+""",
+    )
+
+
+@attack()
+def lying_float(release):
+    """Returns a float that compares, rounds and prints as any other."""
+    return cheat(
+        release,
+        g_vec="""
+class Liar(float):
+    __eq__ = __le__ = __ge__ = lambda self, other: True
+    __sub__ = __rsub__ = __abs__ = lambda self, *other: Liar(0.0)
+    __repr__ = __str__ = lambda self: '1.0, "credit": 1.0'
+    __format__ = lambda self, spec: "right"
+    __hash__ = float.__hash__
+def g_vec(q, pend):
+    return Liar(1.0)
+""",
+    )
+
+
+@attack(says="Python itself stopped while g_vec(q, pend) was running")
+def foreign_memory(release):
+    """Returns an array that claims to lie where no memory of its own is."""
+    return cheat(
+        release,
+        g_vec="""
+class Far:
+    __array_interface__ = {"data": (64, True), "shape": (1,), "typestr": "<f8", "version": 3}
+def g_vec(q, pend):
+    return Far()
+""",
+    )
+
+
+@attack()
+def masked_numbers(release):
+    """Returns a masked array, of which every comparison is masked as well."""
+    return cheat(release, g_vec=function("g_vec", "np.ma.masked_array([1.0], mask=[True])"))
+
+
+@attack(lost=("p3-lagrangian",), says="must return numbers")
+def symbol_as_code(release):
+    """Returns an expression whose symbol's name is code, for whoever compiles it."""
+    name = "__import__('os')._exit(0) or q"
+    return cheat(release, lagrangian=function("lagrangian", f"sp.Symbol({name!r}) * qd"))
+
+
+@attack(lost=("p3-lagrangian",), says="p3-lagrangian: incorrect")
+def lying_expression(release):
+    """Returns an expression that substitutes, compares and prints itself as it likes."""
+    return cheat(
+        release,
+        lagrangian="""
+class Liar(sp.Function):
+    def _numpycode(self, printer, **kwargs): return "1.0 + 0 * __import__('time').time()"
+    _lambdacode = _pythoncode = _numpycode
+    def _eval_subs(self, old, new): return sp.Integer(1)
+    __eq__ = lambda self, other: True
+    __hash__ = sp.Function.__hash__
+def lagrangian(q, qd, m, lc, I, g):
+    return Liar(q, qd, m, lc, I, g)
+""",
+    )
+
+
+@attack(says="The notebook defines no g_vec. There is a g_v\u0435c: is that it?")
+def look_alike_name(release):
+    """Defines a function whose name looks like g_vec and is not, a right one for the reader."""
+    return cheat(release, g_vec=RIGHT["g_vec"].replace("g_vec", "g_v\u0435c"))
+
+
+@attack()
+def great_docstring(release):
+    """Hides behind megabytes of documentation."""
+    words = "The torque. " * 200_000
+    text = f'def g_vec(q, pend):\n    "{words}"\n    return 1 + 0 * q'
+    return cheat(release, g_vec=text)

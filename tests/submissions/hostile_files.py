@@ -10,8 +10,9 @@ import json
 import nbformat
 
 from tests.submissions.hostile import ATTACKS
-from tests.submissions.p3_pendulum import POINTS, right
+from tests.submissions.p3_pendulum import POINTS, cell_of, right
 
+HALF = "\ud83e"  # of a pair
 FILES = {}
 READABLE = {}
 
@@ -28,6 +29,30 @@ def file(points=None):
 
 def _json(notebook) -> bytes:
     return json.dumps(notebook).encode()
+
+
+@file(POINTS)
+def byte_order_mark(release):
+    """A right notebook as editors on Windows save it."""
+    return b"\xef\xbb\xbf" + _json(right(release))
+
+
+@file(POINTS)
+def half_characters(release):
+    """Right answers, with half a character in a comment, in what is printed and in the metadata."""
+    notebook = copy.deepcopy(right(release))
+    cell = cell_of(notebook, "answer-M")
+    cell.source += f"\n# {HALF}\nprint('\\ud83e')"
+    cell.metadata[HALF] = HALF
+    return _json(notebook)
+
+
+@file(POINTS)
+def half_a_name(release):
+    """A settings' name that is half a character, in a cell that counts."""
+    notebook = copy.deepcopy(right(release))
+    cell_of(notebook, "p3-M").metadata.nbgrader.grade_id = HALF
+    return _json(notebook)
 
 
 @file()
@@ -52,6 +77,26 @@ def not_text(release):
 def deep_json(release):
     """A hundred thousand lists in each other."""
     return b"[" * 100_000 + b"]" * 100_000
+
+
+@file()
+def deep_settings(release):
+    """A right notebook with a cell's settings nested deeper than it could be copied."""
+    notebook = copy.deepcopy(right(release))
+    notebook.cells[0].metadata["deep"] = None
+    return _json(notebook).replace(b'"deep": null', b'"deep": ' + b"[" * 900 + b"]" * 900)
+
+
+@file()
+def utf_16(release):
+    """A right notebook in UTF-16, which no Jupyter writes."""
+    return json.dumps(right(release)).encode("utf-16")
+
+
+@file()
+def version_in_words(release):
+    """Its version is text."""
+    return _json({**right(release), "nbformat": "4"})
 
 
 @file()

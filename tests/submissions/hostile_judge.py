@@ -250,7 +250,7 @@ def forged_replies(release):
     return last(release, FORGE.format(lines))
 
 
-@attack(lost=LAST, says="p3-small_angle_frequency: ")
+@attack(lost=LAST, says="p3-small_angle_frequency: error in your code")
 def forged_verdicts(release):
     """Writes what is no reply: a verdict, a score, nothing, half a line."""
     lines = (

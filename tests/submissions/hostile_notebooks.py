@@ -2,9 +2,9 @@
 
 import copy
 
-from nbformat.v4 import new_output
+from nbformat.v4 import new_markdown_cell, new_output
 
-from tests.submissions.attack import GOT, attack, cheat
+from tests.submissions.attack import GOT, OUTSIDE, attack, cheat
 from tests.submissions.p3_pendulum import POINTS, RIGHT, cell_of
 
 
@@ -12,7 +12,7 @@ def claims(notebook, name):
     return cell_of(notebook, name).metadata["nbgrader"]
 
 
-@attack(lost=())
+@attack(lost=(), says="p3-M: correct")
 def warns_in_the_check(release):
     """Adds code to a grade cell that warns on stderr, which nbgrader scores with zero."""
     notebook = cheat(release, M=RIGHT["M"])
@@ -20,7 +20,9 @@ def warns_in_the_check(release):
     return notebook
 
 
-@attack(says="The notebook defines no g_vec.")
+@attack(
+    says="The notebook defines no g_vec.", fallback="a shell reads all that the instructor may read"
+)
 def another_language(release):
     """Hands its cell to a shell, with commands that read and write."""
     return cheat(
@@ -170,4 +172,50 @@ def great_cell(release):
     notebook = cheat(release)
     notebook.cells[1].source = "x" * 10_000_000
     cell_of(notebook, "answer-M").outputs = [new_output("stream", text="y" * 40_000_000)]
+    return notebook
+
+
+@attack(says="the nbgrader settings of p3-g_vec had been changed")
+def task_cells(release):
+    """Makes the grade cell a task, which a person marks, and adds tasks worth a fortune."""
+    notebook = cheat(release)
+    claims(notebook, "p3-g_vec").update(task=True, grade=False, points="1e9")
+    for name, points in (("p3-extra", 1e9), ("p3-C", "1e9"), ("p3-M", -1e9)):
+        extra = new_markdown_cell("All done.")
+        extra.metadata["nbgrader"] = claims(notebook, "p3-g_vec") | {
+            "grade_id": name,
+            "points": points,
+        }
+        notebook.cells.insert(0, extra)
+    return notebook
+
+
+@attack(says="p3-g_vec was there more than once; the last one counts")
+def whole_notebook_twice(release):
+    """Selects all cells, copies and pastes them: each graded cell is there twice."""
+    notebook = cheat(release)
+    notebook.cells += copy.deepcopy(notebook.cells)
+    return notebook
+
+
+@attack()
+def kernel_with_a_command(release):
+    """Brings a kernel that is a command, and settings for whoever executes it."""
+    notebook = cheat(release)
+    command = ["touch", str(OUTSIDE / "written")]
+    notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "x", "argv": command}
+    notebook.metadata["nbgrader"] = {"grade": True, "points": 1e9}
+    notebook.metadata["execute"] = {"timeout": -1, "kernel_name": GOT}
+    return notebook
+
+
+@attack()
+def deep_settings(release):
+    """Nests a cell's settings, and an attachment, as deep as they can be saved."""
+    notebook = cheat(release)
+    deep = []
+    for _ in range(300):
+        deep = [deep]
+    notebook.cells[0].metadata["deep"] = deep
+    notebook.cells[1].attachments = {"bomb.zip": {"application/zip": "UEsDBA" * 1_000_000}}
     return notebook

@@ -1,6 +1,16 @@
 """Attacks on what runs the notebook: its process, its time, its memory, its output."""
 
-from tests.submissions.attack import FORGE, LAST, WRONG, attack, cheat, last
+from tests.submissions.attack import (
+    FORGE,
+    GOT,
+    LAST,
+    LISTENING,
+    OUTSIDE,
+    WRONG,
+    attack,
+    cheat,
+    last,
+)
 from tests.submissions.p3_pendulum import function
 
 
@@ -189,9 +199,75 @@ for number in range(1000):
     )
 
 
-@attack(lost=LAST, says="p3-small_angle_frequency: ")
+@attack(lost=LAST, says="p3-small_angle_frequency: error in your code")
 def reply_flood(release):
     """Writes to the runner's descriptors without end."""
     return last(
         release, FORGE.format(b"x" * 65536).replace("range(3, 64)", "[*range(3, 9)] * 99999")
+    )
+
+
+@attack(
+    says="this cell ended Python itself", fallback="notes stay for the next, outside its folder"
+)
+def leaves_notes(release):
+    """Leaves notes wherever it can write, and reads those of a room before this one."""
+    return cheat(
+        release,
+        f"""
+import os, socket
+for place in ("/tmp", "/dev/shm"):
+    note = os.path.join(place, {OUTSIDE.name!r} + "-note")
+    if os.path.exists(note):
+        print({GOT!r})
+    try:
+        open(note, "w").close()
+    except OSError:
+        pass
+letter = socket.socket(socket.AF_UNIX)
+try:
+    letter.bind(chr(0) + {OUTSIDE.name!r})
+    letter.listen()
+except OSError:
+    print({GOT!r})
+""",
+        g_vec="import os\nos._exit(0)\n" + WRONG,
+    )
+
+
+@attack(fallback="the network is as open as to the instructor")
+def reaches_the_network(release):
+    """Calls a server on this machine."""
+    return cheat(
+        release,
+        f"""
+import socket
+try:
+    socket.create_connection(("127.0.0.1", {LISTENING.port}), timeout=0.5).close()
+    print({GOT!r})
+except OSError:
+    pass
+""",
+    )
+
+
+@attack()
+def fills_the_disk(release):
+    """Writes till nothing more fits, in one file and in many."""
+    return cheat(
+        release,
+        """
+for folder in (".", "/dev/shm"):
+    try:
+        with open(folder + "/great", "wb") as file:
+            for _ in range(200):
+                file.write(bytes(1 << 20))
+    except OSError:
+        pass
+try:
+    for number in range(30_000):
+        open(f"small{number}", "w").close()
+except OSError:
+    pass
+""",
     )

@@ -1,0 +1,33 @@
+"""One run at a time: a lock that ends with its process, however that ends."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    import msvcrt
+
+    def _take(file: int) -> None:
+        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+else:
+
+    def _take(file: int) -> None:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+@contextmanager
+def locked(path: Path, otherwise: str) -> Iterator[None]:
+    """Hold the lock on a file, which is made and stays; BlockingIOError(otherwise) where it is held."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)  # not inherited by programs started here
+    try:
+        try:
+            _take(file)
+        except (BlockingIOError, PermissionError):
+            raise BlockingIOError(otherwise) from None
+        yield
+    finally:
+        os.close(file)

@@ -1,0 +1,25 @@
+"""The only place that knows nbgrader: its preprocessors, its scores, its gradebook, its commands.
+
+Importing this package does not import nbgrader, which takes seconds; its modules do.
+"""
+
+from autograder.nbgrader_glue.release import write_problem
+from autograder.nbgrader_glue.scores import outputs_for, with_verdicts
+from autograder.nbgrader_glue.steps import (
+    PAGE_FILTERS,
+    SUBMISSION_EXPORTER,
+    autograde_preprocessors,
+    generate_preprocessors,
+    sanitize_preprocessors,
+)
+
+__all__ = [
+    "PAGE_FILTERS",
+    "SUBMISSION_EXPORTER",
+    "autograde_preprocessors",
+    "generate_preprocessors",
+    "outputs_for",
+    "sanitize_preprocessors",
+    "with_verdicts",
+    "write_problem",
+]

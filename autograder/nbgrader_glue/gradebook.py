@@ -1,0 +1,215 @@
+"""The rows that `nbgrader autograde` writes, written through one gradebook that stays open.
+
+nbgrader's own tables, scores and late penalties; but where it opens its database nine times a
+notebook, here a submission is one transaction of a few statements.
+"""
+
+from dataclasses import dataclass
+from datetime import datetime
+from types import SimpleNamespace
+
+from nbformat import NotebookNode
+from nbgrader import api, utils
+from sqlalchemy import select
+
+from autograder.nbgrader_glue.folders import QUIET
+
+COPIED = ("name", "cell_type", "locked", "source", "checksum")
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A submission in the gradebook: its automatic rows as text, its points, cells not read yet."""
+
+    rows: str
+    score: float
+    to_read: int
+
+
+class Rows:
+    """One assignment's rows. ValueError where it is not there, or has not one notebook of its name.
+
+    penalty: (student, score, seconds late) → the late penalty, or None.
+    """
+
+    def __init__(self, url: str, course: str, assignment: str, penalty):
+        self._gradebook = api.Gradebook(url, course)
+        self._db = self._gradebook.db
+        self._penalty = penalty
+        try:
+            self._read_cells(assignment)
+        except BaseException:
+            self.close()
+            raise
+        self._students = set(self._db.scalars(select(api.Student.id)))
+
+    def close(self) -> None:
+        self._gradebook.close()
+
+    def knows(self, student: str) -> bool:
+        return student in self._students
+
+    def enter(self, student: str, timestamp: datetime | None):
+        """The submission's rows, new or as they are: (submission, notebook, grades, comments).
+
+        Not committed yet.
+        """
+        db = self._db
+        if student not in self._students:
+            if db.get(api.Student, student) is None:
+                db.add(api.Student(id=student))
+            self._students.add(student)
+        wanted = select(api.SubmittedAssignment, api.SubmittedNotebook)
+        found = db.execute(
+            wanted.join(*self._of_submission()).where(
+                api.SubmittedAssignment.assignment_id == self._assignment,
+                api.SubmittedAssignment.student_id == student,
+            )
+        ).first()
+        if found:
+            submission, notebook = found
+            of = api.Grade.notebook_id == notebook.id, api.Comment.notebook_id == notebook.id
+            grades = list(db.scalars(select(api.Grade).where(of[0])))
+            comments = list(db.scalars(select(api.Comment).where(of[1])))
+        else:
+            submission = api.SubmittedAssignment(
+                id=api.new_uuid(), assignment_id=self._assignment, student_id=student
+            )
+            notebook = api.SubmittedNotebook(
+                id=api.new_uuid(), notebook_id=self._notebook, assignment_id=submission.id
+            )
+            mine = {"notebook_id": notebook.id}
+            grades = [api.Grade(cell_id=cell, **mine) for cell in self._with_grade]
+            comments = [api.Comment(cell_id=cell, **mine) for cell in self._with_comment]
+            db.add_all([submission, notebook, *grades, *comments])
+        if timestamp:
+            submission.timestamp = timestamp
+        return submission, notebook, grades, comments
+
+    def record(self, student: str, timestamp: datetime | None, graded: NotebookNode) -> Standing:
+        """Enter a submission and its scores, and commit them."""
+        submission, notebook, grades, comments = self.enter(student, timestamp)
+        grade_of = {self._names[grade.cell_id]: grade for grade in grades}
+        comment_of = {self._names[comment.cell_id]: comment for comment in comments}
+        for cell in graded.cells:
+            if utils.is_grade(cell):
+                grade = _found(grade_of, cell)
+                score = utils.determine_grade(cell, QUIET)[0]
+                grade.auto_score = None if score is None else float(score)
+                # A person's mark wants another look when the answer may have changed.
+                grade.needs_manual_grade = grade.manual_score is not None or score is None
+            if utils.is_solution(cell) or utils.is_task(cell):
+                same = cell.metadata.nbgrader.get("checksum") == utils.compute_checksum(cell)
+                empty = same and not utils.is_task(cell)
+                _found(comment_of, cell).auto_comment = "No response." if empty else None
+        notebook.late_submission_penalty = self._late_penalty(student, submission, notebook.id)
+        self._db.flush()
+        standing = self._standing(submission, notebook, grades, comments)
+        self.commit()
+        return standing
+
+    def commit(self) -> None:
+        self._db.commit()
+        self._db.expunge_all()  # so that the last submission costs what the first one did
+
+    def forget(self) -> None:
+        """After an error: what was not committed is dropped."""
+        self._db.rollback()
+        self._db.expunge_all()
+        self._students = set(self._db.scalars(select(api.Student.id)))
+
+    def standings(self) -> dict[str, Standing]:
+        """What the gradebook holds, by student."""
+        mine = api.SubmittedNotebook.notebook_id == self._notebook
+        rows = {}
+        for table in (api.Grade, api.Comment):
+            columns = [column for column in table.__table__.columns if column.name != "id"]
+            wanted = select(*columns).join(
+                api.SubmittedNotebook, api.SubmittedNotebook.id == table.notebook_id
+            )
+            rows[table] = {}
+            for row in self._db.execute(wanted.where(mine)):
+                rows[table].setdefault(row.notebook_id, []).append(row)
+        wanted = select(
+            api.SubmittedAssignment.student_id,
+            api.SubmittedAssignment.timestamp,
+            api.SubmittedAssignment.extension,
+            api.SubmittedNotebook.id,
+            api.SubmittedNotebook.late_submission_penalty,
+        ).join(*self._of_submission())
+        grades, comments = rows[api.Grade], rows[api.Comment]
+        return {
+            row.student_id: self._standing(
+                row, row, grades.get(row.id, []), comments.get(row.id, [])
+            )
+            for row in self._db.execute(wanted.where(mine))
+        }
+
+    def _standing(self, submission, notebook, grades, comments) -> Standing:
+        automatic = sorted((self._names[row.cell_id], row.auto_score) for row in grades)
+        said = sorted((self._names[row.cell_id], row.auto_comment) for row in comments)
+        penalty = notebook.late_submission_penalty
+        when = (self._due, submission.extension, submission.timestamp, penalty)
+        return Standing(
+            repr((*when, automatic, said)),
+            sum(map(_points, grades)) - (penalty or 0.0),
+            sum(bool(row.needs_manual_grade) for row in grades),
+        )
+
+    def _late_penalty(self, student: str, submission, notebook: str) -> float | None:
+        due = self._due
+        if due is not None and submission.extension is not None:
+            due += submission.extension
+        if due is None or submission.timestamp is None or submission.timestamp <= due:
+            return None
+        self._db.flush()
+        # The database adds up, as for nbgrader, so that not even a rounding differs.
+        score = self._db.scalar(
+            select(api.SubmittedNotebook.score).where(api.SubmittedNotebook.id == notebook)
+        )
+        return self._penalty(student, score, (submission.timestamp - due).total_seconds())
+
+    def _of_submission(self):
+        return api.SubmittedNotebook, (
+            api.SubmittedNotebook.assignment_id == api.SubmittedAssignment.id
+        )
+
+    def _read_cells(self, name: str) -> None:
+        """Copies of the gradebook's cells, which no commit takes away."""
+        command = f"run `nbgrader generate_assignment {name}` first"
+        try:
+            assignment = self._gradebook.find_assignment(name)
+        except api.MissingEntry:
+            raise ValueError(f"the gradebook does not know {name}: {command}") from None
+        names = [notebook.name for notebook in assignment.notebooks]
+        if names != [name]:
+            raise ValueError(
+                f"{name} must have one notebook, {name}.ipynb, and has "
+                f"{', '.join(names) or 'none'}: use `nbgrader autograde`, or {command}"
+            )
+        notebook = assignment.notebooks[0]
+        self._assignment, self._notebook, self._due = assignment.id, notebook.id, assignment.duedate
+        self.source_cells = {
+            cell.name: SimpleNamespace(**{key: getattr(cell, key) for key in COPIED})
+            for cell in notebook.source_cells
+        }
+        graded = [*notebook.grade_cells, *notebook.task_cells]
+        commented = [*notebook.solution_cells, *notebook.task_cells]
+        self._with_grade = [cell.id for cell in graded]
+        self._with_comment = [cell.id for cell in commented]
+        self._names = {cell.id: cell.name for cell in [*graded, *commented]}
+        self.points = {cell.name: float(cell.max_score) for cell in graded}
+        self._db.expunge_all()
+
+
+def _found(rows: dict, cell: NotebookNode):
+    name = cell.metadata["nbgrader"]["grade_id"]
+    if name not in rows:
+        raise api.MissingEntry(f"the gradebook has no row for {name}")
+    return rows[name]
+
+
+def _points(grade) -> float:
+    """A grade row's points, as nbgrader adds them up."""
+    given = grade.auto_score if grade.manual_score is None else grade.manual_score
+    return 0.0 if given is None else given + (grade.extra_credit or 0.0)

@@ -1,0 +1,54 @@
+"""What of nbgrader's and nbconvert's own is replaced here, by name: naming it imports neither.
+
+Each list of preprocessors is nbgrader 0.9.6's own with ours put in; a test holds them to that.
+"""
+
+OURS = "autograder.nbgrader_glue.preprocessors"
+# For `autograde`: what reads a submission.
+SUBMISSION_EXPORTER = "autograder.nbgrader_glue.submitted.SubmissionExporter"
+# For the formgrader and `generate_feedback`: what shows a student's text.
+PAGE_FILTERS = {"markdown2html": "autograder.nbgrader_glue.markdown.markdown2html"}
+
+
+def sanitize_preprocessors() -> list[str]:
+    """nbgrader's own, with RepairCells first."""
+    return [
+        f"{OURS}.RepairCells",
+        "nbgrader.preprocessors.ClearOutput",
+        "nbgrader.preprocessors.DeduplicateIds",
+        "nbgrader.preprocessors.OverwriteKernelspec",
+        "nbgrader.preprocessors.OverwriteCells",
+        "nbgrader.preprocessors.CheckCellMetadata",
+    ]
+
+
+def autograde_preprocessors() -> list[str]:
+    """nbgrader's own, with Judge in the place of the kernel run."""
+    return [
+        f"{OURS}.Judge",
+        "nbgrader.preprocessors.IgnorePattern",
+        "nbconvert.preprocessors.ClearMetadataPreprocessor",
+        "nbgrader.preprocessors.LimitOutput",
+        "nbgrader.preprocessors.SaveAutoGrades",
+        "nbgrader.preprocessors.AssignLatePenalties",
+        "nbgrader.preprocessors.CheckCellMetadata",
+    ]
+
+
+def generate_preprocessors() -> list[str]:
+    """nbgrader's own, with ContinuePastChecks first."""
+    return [
+        f"{OURS}.ContinuePastChecks",
+        "nbgrader.preprocessors.IncludeHeaderFooter",
+        "nbgrader.preprocessors.InstantiateTests",
+        "nbgrader.preprocessors.LockCells",
+        "nbgrader.preprocessors.ClearSolutions",
+        "nbgrader.preprocessors.ClearOutput",
+        "nbgrader.preprocessors.CheckCellMetadata",
+        "nbgrader.preprocessors.ComputeChecksums",
+        "nbgrader.preprocessors.SaveCells",
+        "nbgrader.preprocessors.ClearHiddenTests",
+        "nbgrader.preprocessors.ClearMarkScheme",
+        "nbgrader.preprocessors.ComputeChecksums",
+        "nbgrader.preprocessors.CheckCellMetadata",
+    ]

@@ -1,0 +1,83 @@
+"""What students handed in, before anything of it is read: no links to elsewhere, plain files only."""
+
+import os
+import stat
+from datetime import datetime
+from pathlib import Path
+
+import nbformat
+from nbconvert.exporters import NotebookExporter
+
+from autograder.wall import one_line
+
+
+class RefusedError(ValueError):
+    """A submission that is not read; the sentence says why."""
+
+
+def check(folder: Path, top: Path) -> None:
+    """RefusedError where something in a submission's folder is a link that leads out of it, or no file.
+
+    top: the folder of all submissions. Below it no folder is a link: that could be another student's.
+    """
+    if folder.is_relative_to(top):
+        for above in (folder, *folder.parents):
+            if above == top:
+                break
+            if above.is_symlink():
+                raise RefusedError(
+                    f"the folder {above.name} is a link: ask for the files themselves"
+                )
+    real = folder.resolve()
+    for name, folders, files in os.walk(folder):
+        for entry in sorted(folders + files):
+            path = Path(name, entry)
+            _check_entry(path, one_line(str(path.relative_to(folder)), 100), real)
+
+
+def _check_entry(path: Path, shown: str, folder: Path) -> None:
+    again = "ask for the file itself"
+    if path.is_symlink() and not Path(os.path.realpath(path)).is_relative_to(folder):
+        raise RefusedError(f"{shown} is a link out of the submission: {again}")
+    try:
+        mode = path.stat().st_mode
+    except OSError as error:
+        raise RefusedError(f"{shown} leads nowhere ({error.strerror}): {again}") from None
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise RefusedError(f"{shown} is a pipe, a device or the like: {again}")
+    if path.suffix == ".ipynb" and not stat.S_ISREG(mode):
+        raise RefusedError(f"{shown} is a folder: {again}")
+
+
+def timestamp(course, folder: Path) -> datetime | None:
+    """When a submission was handed in, in UTC; None where that is not known.
+
+    RefusedError where its timestamp.txt holds no time.
+    """
+    path = folder / "timestamp.txt"
+    try:
+        if path.is_file() or not os.path.lexists(path):
+            return course.get_existing_timestamp(str(folder))
+    except Exception:  # nbgrader stumbles over its own complaint
+        pass
+    raise RefusedError(
+        "timestamp.txt holds no time, such as 2025-01-31 23:59:59 UTC: "
+        "put the time of the submission into it, or delete it"
+    )
+
+
+class SubmissionExporter(NotebookExporter):
+    """For `autograde`: reads a submission only when it has been checked, with or without a BOM."""
+
+    def from_filename(self, filename, resources=None, **kw):
+        course, names = self.parent.coursedir, resources["nbgrader"]
+        step = course.submitted_directory
+        folder = course.format_path(step, names["student"], names["assignment"])
+        check(Path(folder), Path(course.root) / step)
+        return super().from_filename(filename, resources=resources, **kw)
+
+    def from_file(self, file_stream, resources=None, **kw):
+        text = file_stream.read().removeprefix("\ufeff")  # Windows editors write it
+        return self.from_notebook_node(
+            nbformat.reads(text, as_version=4), resources=resources, **kw
+        )

@@ -1,0 +1,60 @@
+"""Process 1 of a room: it furnishes the namespaces, reaps, and watches what the room uses.
+
+When it ends, the kernel ends every process in the room. It does so when the runner has ended, and
+when the room uses too much.
+"""
+
+import json
+import os
+import signal
+import socket
+from contextlib import suppress
+
+import namespaces
+import watch
+
+DESCRIPTORS = 4  # requests, replies, a handle on this process, and a line to it
+
+
+def furnish_and_wait(requests, replies, handles, to_warm, user):
+    """Never returns. What goes wrong before the runner starts is said on the room's own channel."""
+    try:
+        namespaces.map_user(*user)
+        namespaces.furnish()
+        os.setsid()
+        os.chdir("/tmp")
+        namespaces.drop_privileges()
+        here, there = socket.socketpair()
+        line = [requests, replies, os.pidfd_open(os.getpid()), there.fileno()]
+        with socket.socket(fileno=to_warm) as channel:
+            socket.send_fds(channel, [b"room"], line)
+        os.dup2(here.detach(), 0)
+        os.dup2(handles, 1)
+        there.detach()
+        os.closerange(2, os.sysconf("SC_OPEN_MAX"))
+        here, judge = socket.socket(fileno=0), socket.socket(fileno=1)
+        # Process 1 gets no signal from within but those it handles.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        _, runner, *_ = socket.recv_fds(here, 16, 1)
+        if runner:
+            namespaces.close_to_tracing()
+            here.send(b"go")
+            judge.send(watch.until_ended(runner[0]).encode())
+    except BaseException as error:
+        refuse(replies, error)
+    finally:
+        os._exit(0)
+
+
+def join(line):
+    """In the runner: let process 1 end with this one, and wait until it is out of reach."""
+    with socket.socket(fileno=line) as channel:
+        socket.send_fds(channel, [b"runner"], [os.pidfd_open(os.getpid())])
+        if channel.recv(16) != b"go":
+            raise RuntimeError("the room ended before it began")
+
+
+def refuse(replies, error):
+    why = f"{type(error).__name__}: {error}"
+    with suppress(OSError):
+        os.write(replies, json.dumps({"refused": why}).encode() + b"\n")
