@@ -1,0 +1,105 @@
+"""One visible check of an answer that is wrong in a way no mistake explains: the slowest there is.
+
+    python -m tests.benchmarks.checks [FILE]
+
+Every mistake, every pair of them and every term is tried on it. The answers are the solutions' own,
+each number a hundredth too large (a zero 0.01); so what the student's function costs is in the time.
+"""
+
+import sys
+import time
+import types
+from pathlib import Path
+
+import nbformat
+import numpy as np
+import sympy
+
+from autograder.check import VISIBLE_SEED
+from autograder.judge import VISIBLE_CASES, Check
+from autograder.problems import CHECKS
+from autograder.verdict import State
+from autograder.wall import answer_all
+from tests.benchmarks import report
+
+ROOT = Path(__file__).parents[2]
+GOAL = 0.2  # s
+ROUNDS = 5
+
+HOW = """\
+One visible check in the notebook, of an answer that no known mistake explains (a right one, a hundredth
+too large), so that every mistake, pair of mistakes and term is tried: the least CPU time of {rounds},
+the student's function included. {machine}.
+
+| check | time | goal | met |
+|---|---|---|---|
+"""
+
+
+def namespaces() -> dict[str, dict]:
+    """What each solution's set-up and answers define, by its folder."""
+    found = {}
+    for path in sorted((ROOT / "solutions").glob("*/*.ipynb")):
+        namespace = types.ModuleType("__main__").__dict__
+        for cell in nbformat.read(path, as_version=4).cells:
+            name = cell.metadata.get("nbgrader", {}).get("grade_id", "")
+            if cell.cell_type == "code" and (name.startswith("answer-") or name.endswith("-setup")):
+                exec(compile(cell.source, f"{path.stem}/{name}", "exec"), namespace)
+        found[path.parent.name] = namespace
+    return found
+
+
+def too_large(value):
+    """The same result, each number a hundredth too large; a truth value is turned round."""
+    match value:
+        case bool() | np.bool_():
+            return not value
+        case dict():
+            return {name: too_large(entry) for name, entry in value.items()}
+        case types.SimpleNamespace():
+            return types.SimpleNamespace(**too_large(vars(value)))
+        case tuple() | list() if any(isinstance(entry, dict) for entry in value):
+            return [too_large(entry) for entry in value]
+        case tuple() | list():
+            return too_large(np.asarray(value))
+        case sympy.Basic() | sympy.MatrixBase():
+            return value * sympy.Rational(101, 100)
+        case int():
+            return value + 1
+    return 1.01 * value if np.any(value) else value + 0.01
+
+
+def taken(check: Check, namespace: dict) -> float:
+    """The least CPU time, s, of a visible check. ValueError where the answer passes all the same."""
+    right = namespace[check.name]
+    answers = namespace | {check.name: lambda *args: too_large(right(*args))}
+    best = float("inf")
+    for _ in range(ROUNDS):
+        start = time.process_time()
+        verdict = check.run(
+            lambda calls: answer_all(calls, answers),
+            np.random.default_rng(VISIBLE_SEED),
+            VISIBLE_CASES,
+        )
+        best = min(best, time.process_time() - start)
+    if verdict.state not in (State.INCORRECT, State.PARTLY_CORRECT):
+        raise ValueError(f"{check.id} was to be judged wrong, and is: {verdict}")
+    return best
+
+
+def main(arguments: list[str]) -> None:
+    text = HOW.format(rounds=ROUNDS, machine=report.machine())
+    for folder, namespace in namespaces().items():
+        problem = folder.partition("-")[0]
+        for id, check in CHECKS.items():
+            if id.startswith(f"{problem}-"):
+                seconds = taken(check, namespace)
+                met = "yes" if seconds <= GOAL else "no"
+                text += f"| {id} | {1e3 * seconds:.0f} ms | {1e3 * GOAL:.0f} ms | {met} |\n"
+    print(text)
+    for file in arguments:
+        report.put(Path(file), "Feedback", text)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
