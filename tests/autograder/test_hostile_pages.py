@@ -113,7 +113,7 @@ def test_no_script_of_a_student_is_on_the_page(name, release, exporter, needs): 
     "<object data=/forged>", "<meta http-equiv=refresh content='0;url=/forged'>",
     "<base href=//forged>", "<math><mtext><table><mglyph><style><img src=x onerror=forged()>",
     "<svg><p><style><img id='</style><img src=x onerror=forged()>'>", "<img src=/hub/logout?forged>",
-    "![x](../../forged)", "![x](%2e%2e/forged)", "<b data-link=/forged>x</b>",
+    "![x](../../forged)", "![x](%2e%2e/forged)", "![x](a/../../../forged)", "<b data-link=/forged>x</b>",
     "$x$<img src=x onerror=forged()>$y$", "$<img src=x onerror=forged()>$", "![x](attachment:forged)",
     "```forged\n<script>forged()</script>\n```", "```mermaid\n<script>forged()</script>\n```",
     ">" * 9999 + LIVE])  # fmt: skip
