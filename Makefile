@@ -10,7 +10,7 @@ LOG := .venv/install.log
 help:
 	@echo 'make lab       open JupyterLab on the first lesson; ARGS="--port=8899" goes to JupyterLab'
 	@echo 'make test      ruff, pytest, and every lesson and solution run again by nbval'
-	@echo 'make bench     time library and grading beside their peers; writes docs/benchmarks.md'
+	@echo 'make bench     time library, grading and feedback; writes docs/benchmarks.md'
 	@echo 'make lessons   run the lessons and store their outputs'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
 
@@ -30,6 +30,7 @@ lessons: .venv/$(TESTED).done
 bench: .venv/bench.done
 	.venv/bin/python -m tests.benchmarks.library docs/benchmarks.md
 	.venv/bin/python -m tests.benchmarks.grading docs/benchmarks.md
+	.venv/bin/python -m tests.benchmarks.checks docs/benchmarks.md
 
 define install
 @echo "Installing $(1) into .venv; the first time takes some minutes (log: $(LOG))"

@@ -1,6 +1,5 @@
 """p1-inertia: right answers in many styles pass at any seed; references and notebook hold."""
 
-import time
 from pathlib import Path
 
 import nbformat
@@ -195,20 +194,6 @@ def test_no_false_alarm_over_a_thousand_seeds(check_id, variants):
 def test_nearly_right_is_wrong(check_id, body):
     for seed in range(20):
         assert judged(check_id, body, seed, VISIBLE_CASES).state is not State.CORRECT
-
-
-@pytest.mark.parametrize("check_id", ["p1-inertia_from_links", "p1-M", "p1-is_spd"])
-def test_a_wrong_answer_is_judged_in_a_moment(check_id):
-    wrong = {
-        "p1-inertia_from_links": "np.ones((jacobians.shape[2],) * 2)",
-        "p1-M": "np.eye(2) + q[0]",
-    }
-    took = []
-    for _ in range(3):
-        start = time.process_time()
-        judged(check_id, wrong.get(check_id, "A[0, 0] > 1"), count=VISIBLE_CASES)
-        took.append(time.process_time() - start)
-    assert min(took) < 0.2
 
 
 def test_M_agrees_with_the_library():
