@@ -83,7 +83,9 @@ def mistakes_shown(
     for i, j in np.argwhere(np.triu(near, 1)):
         first, second = wrong[i], wrong[j]
         sums = [x + y - e for x, y, e in zip(first.values, second.values, expected, strict=True)]
-        if same(sums, given) and not same(sums, expected):
+        # One error twice is not two mistakes.
+        apart = not same(sums, expected) and not same(first.values, second.values)
+        if apart and same(sums, given):
             return (first.of, second.of)
     return ()
 

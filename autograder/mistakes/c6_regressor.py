@@ -99,8 +99,8 @@ CENTRIFUGAL = (
     "joint gets h and which gets −h, and which sign has h itself?"
 )
 
+# Those about one column stand before those about several, which may look like them in that column.
 REGRESSOR = (
-    Mistake("gravity missing", _with(g=lambda arm: 0.0), NO_GRAVITY),
     Mistake(
         "sign of gravity",
         _with(g=lambda arm: -arm.g),
@@ -123,6 +123,7 @@ REGRESSOR = (
         "In your column of m2 ℓc2 gravity is missing at joint 1. Does the direction of link 2 change "
         "when joint 1 turns?",
     ),
+    Mistake("gravity missing", _with(g=lambda arm: 0.0), NO_GRAVITY),
     Mistake(
         "sine for cosine in gravity",
         _gravity_as(lambda s: np.sin(s.q1), lambda s: np.sin(s.q1 + s.q2)),
@@ -157,16 +158,16 @@ REGRESSOR = (
         "the arm change if the whole arm turned about the shoulder?",
     ),
     Mistake(
-        "velocity products left out",
-        _at(qd=0.0),
-        "Your Y does not depend on the velocities. Where does C(q, q̇) q̇ enter, and with which "
-        "product of parameters?",
-    ),
-    Mistake(
         "velocity products left out at joint 2",
         _coupling(_nothing, lambda s: -s.s2 * s.qd1**2),
         "The row of joint 2 has no product of velocities in your Y. What does link 2 feel at the "
         "elbow when only joint 1 turns?",
+    ),
+    Mistake(
+        "velocity products left out",
+        _at(qd=0.0),
+        "Your Y does not depend on the velocities. Where does C(q, q̇) q̇ enter, and with which "
+        "product of parameters?",
     ),
     Mistake(
         "Coriolis without the factor 2",
@@ -207,11 +208,6 @@ REGRESSOR = (
         "vector must C be multiplied?",
     ),
     Mistake(
-        "no acceleration",
-        _at(qdd=0.0),
-        "Your Y does not depend on the accelerations. It is the whole left side M q̈ + C q̇ + g.",
-    ),
-    Mistake(
         "absolute acceleration of link 2",
         _plus(lambda s, arm: {(0, J2): -s.qdd1, (1, J2): -s.qdd1}),
         "In your column of J2, link 2 turns with q̈2 only. What is its angular acceleration in space?",
@@ -242,6 +238,11 @@ REGRESSOR = (
         _plus(lambda s, arm: {(0, M2): -(arm.l1**2) * s.qdd1}),
         "In your column of m2 only its weight is left. Joint 1 also accelerates the elbow: what "
         "inertia has a mass m2 there?",
+    ),
+    Mistake(
+        "no acceleration",
+        _at(qdd=0.0),
+        "Your Y does not depend on the accelerations. It is the whole left side M q̈ + C q̇ + g.",
     ),
     Mistake(
         "column of m2 missing",
@@ -282,6 +283,12 @@ REGRESSOR = (
         lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm) * parameters(arm),
         "Your columns add up to the torque: each still carries its own parameter. What is left of a "
         "column when π is taken out of it?",
+    ),
+    Mistake(
+        "all reversed",
+        lambda q, qd, qdd, arm: -regressor(q, qd, qdd, arm),
+        "Every entry of your Y has the wrong sign. On which side of the equation of motion do the "
+        "torques u stand?",
     ),
     Mistake("by kind", _columns(M1, M2, MC1, MC2, J1, J2), ORDER),
     Mistake("each link reversed", _columns(J1, MC1, M1, J2, MC2, M2), ORDER),
@@ -664,7 +671,7 @@ RANK = (
     ),
     Mistake(
         "gravity ignored",
-        _rank_with(REGRESSOR[0].wrong),
+        _rank_with(_with(g=lambda arm: 0.0)),
         "You count what would be seen without gravity. Which g does arm have?",
     ),
     Mistake(

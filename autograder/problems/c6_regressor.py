@@ -69,9 +69,10 @@ def known(arm) -> SimpleNamespace:
 
 def _motion(rng, samples):
     """q, q̇, q̈ of a motion that takes both joints everywhere, (samples, 2) each."""
-    q = rng.uniform(-np.pi, np.pi, (samples, 2))
-    qd = np.array([sampling.velocities(rng) for _ in range(samples)])
-    return q, qd, np.array([_accelerations(rng) for _ in range(samples)])
+    shape = (samples, 2)
+    qd = rng.choice([-1.0, 1.0], shape) * rng.uniform(0.5, 3.0, shape)
+    qdd = rng.choice([-1.0, 1.0], shape) * rng.uniform(1.0, 6.0, shape)
+    return rng.uniform(-np.pi, np.pi, shape), qd, qdd
 
 
 def _measured_arm(rng):
