@@ -6,7 +6,7 @@ wrong step does not run away. The right answers of p5 stand here too.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -26,7 +26,7 @@ class FreeRun(Call):
     """A run without torque or friction, of which the judge knows the end and the energy."""
 
     end: np.ndarray | None = None
-    energy: Callable | None = None
+    energy: Callable | None = field(default=None, repr=False)
 
 
 def rk4(f, x, u, dt):
