@@ -18,14 +18,15 @@ def hint(id: str) -> None:
     if not hints:
         left = "There are no hints for this one."
     elif given < len(hints):
-        left = f'{len(hints) - given} more: hint("{id}") again.'
+        left = f'{len(hints) - given} more: run hint("{id}") again.'
     else:
         left = "That was the last one. The matching lesson has the rest."
-    _show([f"{number + 1}. {text}" for number, text in enumerate(hints[:given])], id, left)
+    _show(hints[:given], f"Hints for {id}", left)
 
 
-def _show(lines: list[str], id: str, left: str) -> None:
-    text = "\n".join([f"Hints for {id}", *lines, left])
+def _show(hints: tuple[str, ...], title: str, left: str) -> None:
+    numbered = [f"{number}. {text}" for number, text in enumerate(hints, 1)]
+    text = "\n".join([title, *numbered, left])
     try:
         from IPython import get_ipython
         from IPython.display import display
@@ -34,11 +35,16 @@ def _show(lines: list[str], id: str, left: str) -> None:
         return
     if get_ipython() is None:
         print(text)
-        return
-    items = "".join(f'<p style="margin: 0.3em 0">{escape(line)}</p>' for line in lines)
-    html = (
-        f'<div class="armdyn-hint" role="group" aria-label="Hints for {escape(id)}"'
+    else:
+        display({"text/plain": text, "text/html": _html(hints, title, left)}, raw=True)
+
+
+def _html(hints: tuple[str, ...], title: str, left: str) -> str:
+    items = "".join(f'<li style="margin: 0.3em 0">{escape(text)}</li>' for text in hints)
+    return (
+        f'<div class="armdyn-hint" role="group" aria-label="{escape(title)}"'
         ' style="border-left: 5px solid #56B4E9; padding: 0.4em 0.9em; max-width: 46em">'
-        f"{items}<p><em>{escape(left)}</em></p></div>"
+        f'<p style="margin: 0.2em 0"><strong>{escape(title)}</strong></p>'
+        f'<ol style="margin: 0.3em 0">{items}</ol>'
+        f'<p style="margin: 0.3em 0"><em>{escape(left)}</em></p></div>'
     )
-    display({"text/plain": text, "text/html": html}, raw=True)

@@ -1,25 +1,43 @@
 """The card: every verdict readable without its colour, and nothing of a student's runs as HTML."""
 
+import math
 import re
 from html.parser import HTMLParser
+from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from autograder.card import LOOKS, html_card, mimebundle
+from autograder.card import LOOKS, drawing, html_card, mimebundle
+from autograder.planar_2r import joints
 from autograder.verdict import Row, State, Verdict, Witness
 
 TEXT = st.text(max_size=120) | st.sampled_from(
     ["<script>alert(1)</script>", "\"' onload='x", "</p></div>", "&lt;", "<img src=x onerror=x>"]
 )
+LENGTHS = st.floats(0.01, 10)
+ANGLES = st.floats(-7, 7)
+
+
+def pose_of(links) -> tuple[tuple[float, float], ...]:
+    """The joints of a chain from the origin; links: (length, m, angle to the one before, rad)."""
+    points, direction = [0j], 0.0
+    for length, angle in links:
+        direction += angle
+        points.append(points[-1] + length * complex(math.cos(direction), math.sin(direction)))
+    return tuple((point.real, point.imag) for point in points)
+
+
+POSES = st.lists(st.tuples(LENGTHS, ANGLES), min_size=1, max_size=4).map(pose_of)
 VERDICTS = st.builds(
     Verdict,
     check=TEXT,
     state=st.sampled_from(State),
     credit=st.floats(0, 1),
     rows=st.lists(st.builds(Row, TEXT, st.floats(0, 1), st.booleans()), max_size=3).map(tuple),
-    witness=st.none() | st.builds(Witness, TEXT, TEXT, TEXT),
+    witness=st.none() | st.builds(Witness, TEXT, TEXT, TEXT, st.just(()) | POSES),
     problem=TEXT,
     diagnosis=st.lists(TEXT, max_size=2).map(tuple),
     next_step=TEXT,
@@ -32,6 +50,8 @@ class Card(HTMLParser):
 
     def __init__(self, html: str):
         super().__init__()
+        # A picture's own title is for who cannot see it, or points at it.
+        html = re.sub("<title>.*?</title>", "", html)
         self.tags, self.attributes, self.words = [], [], []
         self.feed(html)
         self.close()
@@ -64,10 +84,14 @@ def full(state: State) -> Verdict:
 
 @given(VERDICTS)
 def test_the_card_has_only_its_own_tags(verdict):
-    card = Card(html_card(verdict))
-    assert set(card.tags) <= {"div", "p", "strong", "span", "ul", "li"}
+    text, _, picture = html_card(verdict).partition("<svg ")
+    card = Card(text)
+    assert set(card.tags) <= {"div", "p", "strong", "span", "ul", "li", "code"}
     names = {name for attributes in card.attributes for name in attributes}
     assert names <= {"class", "data-state", "role", "aria-label", "style", "aria-hidden"}
+    if picture:
+        svg = ElementTree.fromstring(f"<svg {picture.removesuffix('</div></div>')}")
+        assert {part.tag for part in svg} <= {"title", "line", "path", "circle"}
 
 
 @pytest.mark.parametrize(
@@ -168,3 +192,82 @@ def test_plain_text_is_narrow(verdict):
     for line in str(verdict).splitlines():
         if line.startswith("  ") and "[" not in line:
             assert len(line) <= 78
+
+
+def svg_of(pose, **size):
+    return ElementTree.fromstring(drawing(pose, **size))
+
+
+def points_of(svg) -> np.ndarray:
+    """Where joints and hand are drawn, y up, px."""
+    return np.array([[float(c.get("cx")), -float(c.get("cy"))] for c in svg.iter("circle")])
+
+
+@given(POSES)
+def test_the_arm_is_drawn_to_scale_and_upright(pose):
+    drawn, pose = points_of(svg_of(pose)), np.array(pose)
+    drawn, pose = drawn - drawn[0], pose - pose[0]
+    scale = np.linalg.norm(np.diff(drawn, axis=0)) / np.linalg.norm(np.diff(pose, axis=0))
+    np.testing.assert_allclose(drawn, scale * pose, atol=0.3)  # px
+
+
+@given(POSES, st.integers(60, 300))
+def test_the_drawing_fits_its_frame_and_fills_it(pose, size):
+    svg = svg_of(pose, size=size)
+    width, height = float(svg.get("width")), float(svg.get("height"))
+    assert max(width, height) == size + 20
+    ends = [(float(line.get(f"x{k}")), float(line.get(f"y{k}")))
+            for line in svg.iter("line") for k in (1, 2)]  # fmt: skip
+    for x, y in ends:
+        assert 9 < x < width - 9
+        assert 9 < y < height - 9
+
+
+@given(ANGLES, ANGLES)
+def test_dashed_lines_show_from_where_the_angles_are_counted(q1, q2):
+    svg = svg_of(pose_of([(1.0, q1), (0.8, q2)]))
+    dashed = [line for line in svg.iter("line") if line.get("stroke-dasharray")]
+    ways = [
+        complex(
+            float(line.get("x2")) - float(line.get("x1")),
+            float(line.get("y1")) - float(line.get("y2")),
+        )
+        for line in dashed
+    ]
+    for way, angle in zip(ways, (0.0, q1), strict=True):
+        assert abs(way / abs(way) - complex(math.cos(angle), math.sin(angle))) < 0.02
+
+
+@given(ANGLES, ANGLES)
+def test_the_drawing_is_said_in_words(q1, q2):
+    arm = type("Arm", (), {"l1": 0.9, "l2": 0.7})
+    svg = svg_of(joints(np.array([q1, q2]), arm))
+    assert svg.get("role") == "img"
+    said = svg.get("aria-label")
+    assert said == svg.find("title").text
+    found = re.fullmatch(
+        r"The arm in the worst case: link 1 at (−?\d+)° from the x axis, "
+        r"link 2 at (−?\d+)° from link 1\.",
+        said,
+    )
+    for degrees, angle in zip(found.groups(), (q1, q2), strict=True):
+        off = math.radians(float(degrees.replace("−", "-"))) - angle
+        assert abs(math.remainder(off, math.tau)) <= math.radians(0.501)
+
+
+def test_the_drawing_stands_after_the_text_and_not_without_a_pose():
+    verdict = full(State.INCORRECT)
+    assert "<svg" not in html_card(verdict)
+    posed = Verdict("a", State.INCORRECT, witness=Witness("f", "1", "2", pose_of([(1, 0.3)])),
+                    next_step="Go on.")  # fmt: skip
+    html = html_card(posed)
+    assert html.index("Go on.") < html.index("<svg")
+    assert "<svg" not in html_card(posed.without_inputs())
+
+
+@given(TEXT.filter(bool))
+def test_the_call_stands_as_code(call):
+    card = html_card(Verdict("a", State.INCORRECT, witness=Witness(call, "1 N·m", "2 N·m")))
+    words = Card(card).words
+    assert "".join(words).endswith(f"Worst case: {call} gave 1 N·m, off by 2 N·m.")
+    assert card.count("<code ") == card.count("</code>") == 1
