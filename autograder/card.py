@@ -112,7 +112,7 @@ def _degrees(direction: complex) -> str:
 def _beside(text: str, picture: str) -> str:
     return (
         '<div style="display: flex; flex-wrap: wrap; align-items: center; gap: 0.5em 1.5em">'
-        f'<div style="flex: 1; min-width: min(24em, 100%)">{text}</div>{picture}</div>'
+        f'<div style="flex: 1; min-width: min(20em, 100%)">{text}</div>{picture}</div>'
     )
 
 

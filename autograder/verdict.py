@@ -78,7 +78,10 @@ class Verdict:
         ]
 
     def __str__(self):
-        rows = [f"  [{'x' if row.met else ' '}] {row.text}" for row in self.rows]
+        # Of one criterion alone the share is plain.
+        shares = [f" ({row.share:.0%})" if len(self.rows) > 1 else "" for row in self.rows]
+        rows = [f"  [{'x' if row.met else ' '}] {row.text}{share}"
+                for row, share in zip(self.rows, shares, strict=True)]  # fmt: skip
         body = [textwrap.fill(line, 78, initial_indent="  ", subsequent_indent="  ")
                 for line in self.lines()]  # fmt: skip
         return "\n".join([self.headline, *rows, *body])

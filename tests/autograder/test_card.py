@@ -175,7 +175,9 @@ def test_rows_are_marked_in_words_and_in_plain_text():
     assert "met: kinetic part (50%)" in words
     assert "not met: potential part (50%)" in words
     plain = str(full(State.PARTLY_CORRECT))
-    assert "  [x] kinetic part\n  [ ] potential part\n" in plain
+    assert "  [x] kinetic part (50%)\n  [ ] potential part (50%)\n" in plain
+    alone = Verdict("a", State.CORRECT, 1.0, (Row("kinetic part", 1.0, True),))
+    assert str(alone) == "a: correct\n  [x] kinetic part"
 
 
 def test_without_inputs_only_the_size_of_the_error_is_told():

@@ -1,25 +1,27 @@
-"""A student's first problem, in JupyterLab in a browser: blank, mistaken, right, validated."""
+"""A student's problems, in JupyterLab in a browser: blank, mistaken, named, drawn, right, validated."""
 
 import re
 
 import pytest
 from playwright.sync_api import expect
 
+from tests.submissions.p1_inertia import RIGHT as RIGHT_INERTIA
 from tests.submissions.p3_pendulum import RIGHT
 
 COSINE = """
 def g_vec(q, pend):
     return pend.m * pend.g * pend.lc * np.cos(q)
 """
+WITHOUT_I2 = RIGHT_INERTIA["M"].replace("M12 = M22 +", "M12 = M22 - arm.I2 +")
 
 
 class Problem:
-    """The notebook of p3-pendulum as it stands on the screen."""
+    """A problem's notebook as it stands on the screen; title: words of its heading."""
 
-    def __init__(self, page, pictures):
+    def __init__(self, page, pictures, title="Problem 3: the pendulum"):
         self.page = page
         self.pictures = pictures
-        self.panel = page.locator(".jp-NotebookPanel").filter(has_text="Problem 3: the pendulum")
+        self.panel = page.locator(".jp-NotebookPanel").filter(has_text=title)
 
     def cell(self, text: str):
         """The one code cell whose source holds the text."""
@@ -47,6 +49,14 @@ class Problem:
         self.page.keyboard.press("Control+A")
         self.page.keyboard.insert_text(answer.strip())
         self.run(start)
+
+    def insert_below(self, text: str, source: str) -> None:
+        """A new cell with this source, below the one whose source holds the text."""
+        self.cell(text).locator(".jp-InputArea-prompt").click()
+        self.page.keyboard.press("b")
+        self.page.keyboard.press("Enter")
+        self.page.keyboard.insert_text(source)
+        expect(self.cell(source)).to_have_count(1)
 
     def derive(self, text: str) -> None:
         """Put the text into the derivation, the markdown cell that waits for an answer."""
@@ -122,3 +132,59 @@ def test_problem_from_blank_to_validated(page, problem):
 
     # Nothing has come in between: no offer of news, no other notice. One would still be there.
     assert page.locator(".Toastify__toast").count() == 0
+
+
+@pytest.fixture
+def inertia(page, address, tmp_path):
+    """p1-inertia, opened."""
+    page.goto(re.sub(r"/lab[^?]*", "/lab/tree/problems/p1-inertia/p1-inertia.ipynb", address))
+    inertia = Problem(page, tmp_path, "Problem 1: the inertia matrix")
+    expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle")
+    return inertia
+
+
+def test_a_mistake_is_named_drawn_and_mended(inertia):
+    # The figure of the problem is there, and its formulas are typeset.
+    figure = inertia.panel.get_by_role("img", name=re.compile("A planar arm with two links"))
+    assert figure.evaluate("image => image.decode().then(() => image.naturalWidth)") > 200
+    expect(inertia.panel.locator("mjx-container").first).to_be_visible()
+
+    inertia.run("from autograder import check")
+    inertia.write("M", WITHOUT_I2)
+    card = inertia.run('check("p1-M")')
+    expect(card).to_have_attribute("data-state", "partly-correct")
+    expect(card).to_match_aria_snapshot("""
+      - 'group "p1-M: partly correct (75%)"':
+        - paragraph:
+          - strong: "p1-M: partly correct (75%)"
+        - list:
+          - listitem: "met: M11 (50%)"
+          - listitem: "not met: M12 and M21 (25%)"
+          - listitem: "met: M22 (25%)"
+        - paragraph: /Your M12 is right except that I2 is missing/
+        - paragraph:
+          - text: "Worst case:"
+          - code: /M\\(.*l1=/
+          - text: /gave .* kg·m².*, off by .* kg·m²/
+        - paragraph: /Change your function/
+        - img /The arm in the worst case. link 1 at .*° from the x axis/
+    """)
+    arm, words = card.get_by_role("img").bounding_box(), card.locator("p").first.bounding_box()
+    assert arm["width"] > 40
+    assert arm["height"] > 20
+    assert words["x"] + words["width"] <= arm["x"]  # beside the text, not between its lines
+    inertia.picture("mistaken")
+
+    inertia.insert_below('check("p1-M")', 'hint("p1-M")')
+    for count in (1, 2):
+        inertia.run('hint("p1-M")')
+        hints = inertia.panel.get_by_role("group", name="Hints for p1-M")
+        expect(hints.get_by_role("listitem")).to_have_count(count)
+    inertia.picture("hints")
+
+    inertia.write("M", RIGHT_INERTIA["M"])
+    card = inertia.run('check("p1-M")')
+    expect(card).to_have_attribute("data-state", "correct")
+    expect(card.get_by_role("img")).to_have_count(0)
+    expect(inertia.panel.get_by_text("I2 is missing")).to_have_count(0)
+    inertia.picture("mended")
