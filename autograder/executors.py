@@ -65,14 +65,18 @@ def outcomes(
 
 
 class Processes:
-    """Processes of this machine; started when first needed, and again after one died."""
+    """Processes of this machine; started when first needed, and again after one died.
 
-    def __init__(self, jobs: int, *preload: str):
+    preload: what they import. lend() is called here, and borrow in each process with what it gave: a
+    socket of something that is costly to start, or None.
+    """
+
+    def __init__(self, jobs: int, preload: tuple[str, ...], lend: Callable, borrow: Callable):
         if jobs < 1:
             raise ValueError(f"jobs is {jobs}; at least one process is needed")
         self.window = AHEAD * jobs
-        self._jobs, self._preload = jobs, preload
-        self._executor = self._warming = None
+        self._jobs, self._preload, self._lend, self._borrow = jobs, preload, lend, borrow
+        self._executor = self._warming = self._lent = None
 
     def __enter__(self):
         return self
@@ -98,7 +102,12 @@ class Processes:
             context = multiprocessing.get_context("forkserver" if servers else "spawn")
             if servers:
                 context.set_forkserver_preload(list(self._preload))
-            self._executor = ProcessPoolExecutor(self._jobs, context, _begin)
+                from multiprocessing import forkserver  # not on Windows
+
+                forkserver.ensure_running()  # it imports while `lend` starts what it lends
+            self._lent = self._lend()
+            begin = (self._borrow, self._lent)
+            self._executor = ProcessPoolExecutor(self._jobs, context, _begin, begin)
         return self._executor
 
     def warm(self, load: Callable) -> None:
@@ -116,10 +125,14 @@ class Processes:
         if self._executor is not None:
             self._executor.shutdown(cancel_futures=True)
             self._executor = None
+        if self._lent is not None:
+            self._lent.close()
+            self._lent = None
 
 
-def _begin() -> None:
+def _begin(borrow: Callable, lent) -> None:
     """First thing in a process: leave Ctrl-C to the parent, and do not outlive it."""
+    borrow(lent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process().sentinel
 

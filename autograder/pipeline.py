@@ -15,6 +15,7 @@ from autograder.cache import Cache, code_version, digest
 from autograder.executors import Cluster, Processes, outcomes
 from autograder.judging import judge, load
 from autograder.lock import locked
+from autograder.sandbox import borrow, lend
 from autograder.wall import one_line
 
 CACHE = Path("course") / "cache-of-results"
@@ -58,7 +59,7 @@ def grade_all(
     """
     with (
         locked(root / LOCK, f"another `autograder grade` is at work in {root}"),
-        Cluster(scheduler) if scheduler else Processes(jobs, *PRELOAD) as pool,
+        Cluster(scheduler) if scheduler else Processes(jobs, PRELOAD, lend, borrow) as pool,
     ):
         if force or not (root / CACHE / _done(assignment, "")).parent.exists():
             pool.warm(load)  # while this process loads nbgrader

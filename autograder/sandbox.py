@@ -13,6 +13,7 @@ import os
 import select
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -245,4 +246,18 @@ def _warm_works() -> bool:
 
 
 def _start_warm() -> warm.WarmProcess:
-    return warm.nursery(lambda: warm.Nursery(*bubblewrapped("forks.py"))).start_room()
+    return _nursery().start_room()
+
+
+def _nursery() -> warm.Nursery:
+    return warm.nursery(lambda: warm.Nursery(*bubblewrapped("forks.py")))
+
+
+def lend() -> socket.socket | None:
+    """What lets another process `borrow` this one's warm process; None where rooms are not warm."""
+    return _nursery().lend() if _best_way() is Way.WARM else None
+
+
+def borrow(lent: socket.socket | None) -> None:
+    if lent is not None:
+        warm.borrow(lent)

@@ -1,7 +1,8 @@
 """The warm process, from outside: started once, it forks a room in the time a cold one takes to load.
 
 A grader process has one, started with its first room and ended with the process, however that
-ends: the warm process reads a socket whose other end is here, and stops when that is closed.
+ends: the warm process reads a socket whose other end is here, and stops when that is closed. It may
+lend this end to processes that work for it.
 """
 
 import atexit
@@ -82,6 +83,10 @@ class Nursery:
             handle_end.close()
         return WarmProcess(self, requests, replies, handles)
 
+    def lend(self) -> socket.socket:
+        """A copy of this end of the socket, from which another process makes a `LentNursery`."""
+        return self._channel.dup()
+
     def close(self) -> None:
         """End the process and all its rooms."""
         with self._lock:
@@ -97,6 +102,26 @@ class Nursery:
         """In a fork of the grader: this end of the socket must not keep the warm process alive."""
         self._channel.close()
         self._process.returncode = 0  # another process's child, and not to be warned of
+
+
+class LentNursery(Nursery):
+    """Another process's nursery, through a copy of its socket; `close` gives that back."""
+
+    def __init__(self, channel: socket.socket):
+        self._lock = threading.Lock()
+        self._channel = channel
+        self._hangs_up = select.poll()
+        self._hangs_up.register(channel, 0)
+
+    @property
+    def alive(self) -> bool:
+        return not self._hangs_up.poll(0)
+
+    def close(self) -> None:
+        self._channel.close()
+
+    def forget(self) -> None:
+        self.close()
 
 
 class WarmProcess:
@@ -160,6 +185,13 @@ def nursery(start) -> Nursery:
         if _nursery is None:
             _nursery = start()
         return _nursery
+
+
+def borrow(channel: socket.socket) -> None:
+    """Use the nursery that `channel` was lent by, as long as it lives."""
+    global _nursery
+    with _starting:
+        _nursery = LentNursery(channel)
 
 
 def _forget():

@@ -13,6 +13,7 @@ from autograder import pipeline
 from autograder.cache import Cache, digest
 from autograder.cli import main
 from autograder.executors import Processes, outcomes
+from autograder.sandbox import borrow, lend
 from tests.autograder import courses
 from tests.autograder.courses import P3, submit
 from tests.submissions import p3_pendulum
@@ -72,7 +73,7 @@ def test_a_process_that_dies_takes_nobody_along():
     tasks = [(str(n), (abs, -n)) for n in range(6)]
     tasks.insert(2, ("deadly", (os._exit, 1)))
     tasks.insert(4, ("failing", (operator.truediv, 1, 0)))
-    with Processes(2, "autograder.pipeline") as pool:
+    with Processes(2, ("autograder.pipeline",), lend, borrow) as pool:
         found = dict(outcomes(operator.call, tasks, pool))
     assert {name: found[name] for name in "012345"} == {str(n): n for n in range(6)}
     assert isinstance(found["failing"], ZeroDivisionError)

@@ -159,6 +159,24 @@ class TestLife:
             assert printed(room, "print('alive')") == "alive"
         assert warm._nursery is not first
 
+    def test_a_lent_one_is_used_while_it_lives(self, own_nursery, monkeypatch):
+        Room(Way.WARM).close()
+        owner = warm._nursery
+        monkeypatch.setattr(warm, "_nursery", None)
+        warm.borrow(owner.lend())
+        borrowed = warm._nursery
+        with Room(Way.WARM) as room:
+            assert printed(room, "print('alive')") == "alive"
+            assert warm._nursery is borrowed
+            os.kill(max(_warm_processes(owner)), signal.SIGKILL)
+            assert eventually(lambda: not borrowed.alive)
+            with pytest.raises(OSError, match="process that keeps the sandboxes"):
+                room.run("1")
+        with Room(Way.WARM) as room:
+            assert printed(room, "print('alive')") == "alive"
+        assert warm._nursery is not borrowed
+        owner.close()
+
     def test_it_outlives_the_thread_that_started_it(self, own_nursery):
         thread = threading.Thread(target=lambda: Room(Way.WARM).close())
         thread.start()
