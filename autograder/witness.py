@@ -29,8 +29,8 @@ def witness(
     off, size = abs(float(given[at] - right[at])), abs(float(right[at]))
     share = f" ({_percent(off / size)} of the right value)" if size > 0 else ""
     unit = f" {unit}".rstrip()
-    entry = "" if np.size(right) == 1 else f" in entry {tuple(int(i) for i in at)}"
-    of = f" for the {what}" if what else ""
+    entry = "" if np.size(right) == 1 else f" in entry {', '.join(map(str, at))}"
+    of = f" ({what})" if what else ""
     return Witness(
         shown_call(call),
         f"{float(given[at]):.4g}{unit}{entry}{of}",

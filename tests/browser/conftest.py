@@ -1,5 +1,6 @@
 """JupyterLab as `make lab` starts it, in a copy of the course, and a real browser to look at it."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -40,11 +41,14 @@ def course(tmp_path_factory):
 def address(course):
     """What `autograder lab` says to open, while it runs."""
     log = course / "jupyter.log"
+    # Not as whoever runs the tests has set JupyterLab: its theme, say.
+    environment = os.environ | {"JUPYTERLAB_SETTINGS_DIR": str(course / ".venv" / "settings")}
     with (
         log.open("w") as errors,
         subprocess.Popen(
             [AUTOGRADER, "lab", "--no-browser", "--port=0"],
             cwd=course,
+            env=environment,
             stdout=subprocess.PIPE,
             stderr=errors,
             text=True,
