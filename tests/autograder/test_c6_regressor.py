@@ -26,7 +26,7 @@ from autograder.repair import grade_id
 from autograder.verdict import State
 from autograder.wall import answer_all
 from tests.submissions import c6_regressor as submissions
-from tests.submissions.p3_pendulum import answered, cell_of
+from tests.submissions.answers import answered, cell_of
 
 ROOT = Path(__file__).parents[2]
 NAME = "c6-regressor"

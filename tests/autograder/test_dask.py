@@ -15,6 +15,7 @@ from autograder import cli, pipeline
 from tests.autograder import courses
 from tests.autograder.courses import P3, rows, submit
 from tests.submissions import p3_pendulum
+from tests.submissions.answers import blank
 
 START_SECONDS = 60.0
 STUDENTS = 12
@@ -54,7 +55,7 @@ def cluster(tmp_path_factory):
 def test_a_killed_worker_costs_nobody_a_grade(cluster, tmp_path, monkeypatch):
     address, workers = cluster
     there = courses.new_course(tmp_path / "there")
-    kinds = (p3_pendulum.right, p3_pendulum.partly_right, p3_pendulum.blank)
+    kinds = (p3_pendulum.right, p3_pendulum.partly_right, blank)
     for number in range(STUDENTS):
         submit(there, f"student{number:02}", kinds[number % 3](courses.release(there)))
     here = tmp_path / "here"

@@ -24,7 +24,8 @@ from autograder.sandbox import RoomLostError
 from autograder.verdict import State, Verdict, Witness
 from autograder.wall import Call, Fault, FaultKind, Reply
 from tests.submissions import p3_pendulum
-from tests.submissions.p3_pendulum import POINTS, cell_of, function
+from tests.submissions.answers import cell_of
+from tests.submissions.p3_pendulum import POINTS, function
 
 ROOT = Path(__file__).parents[2]
 P3 = "p3-pendulum"

@@ -7,10 +7,11 @@ from autograder.grade import grade
 from autograder.nbgrader_glue import write_problem
 from autograder.repair import grade_id, repair
 from autograder.verdict import State
+from tests.submissions.answers import cell_of
 from tests.submissions.attack import ROOT
 from tests.submissions.honest import VARIANTS
 from tests.submissions.honest_styles import FILES
-from tests.submissions.p3_pendulum import POINTS, cell_of
+from tests.submissions.p3_pendulum import POINTS
 
 P3 = "p3-pendulum"
 SOURCE = nbformat.read(ROOT / "solutions" / P3 / f"{P3}.ipynb", as_version=4)

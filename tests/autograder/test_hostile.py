@@ -20,6 +20,7 @@ from autograder.repair import grade_id, is_locked
 from autograder.sandbox import Room, Way
 from autograder.verdict import State
 from tests.submissions import p3_pendulum
+from tests.submissions.answers import cell_of
 from tests.submissions.attack import GOT, LISTENING, OUTSIDE, ROOT
 from tests.submissions.hostile import (
     ATTACKS,
@@ -27,7 +28,7 @@ from tests.submissions.hostile import (
     STOPPED_WITHOUT_WALLS,
     unstopped,
 )
-from tests.submissions.p3_pendulum import POINTS, cell_of
+from tests.submissions.p3_pendulum import POINTS
 
 P3 = "p3-pendulum"
 SHOWN_OFF = ("p3-euler-lagrange", "p3-swing-plot")

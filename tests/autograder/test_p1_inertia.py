@@ -18,7 +18,7 @@ from autograder.verdict import State
 from autograder.wall import answer_all
 from tests.autograder.judging import judged
 from tests.submissions import p1_inertia as submissions
-from tests.submissions.p3_pendulum import cell_of
+from tests.submissions.answers import cell_of
 
 ROOT = Path(__file__).parents[2]
 NAME = "p1-inertia"

@@ -18,7 +18,7 @@ from autograder.verdict import State
 from autograder.wall import real
 from tests.autograder.judging import judged
 from tests.submissions import p2_energy_skew as submissions
-from tests.submissions.p3_pendulum import blank, cell_of
+from tests.submissions.answers import blank, cell_of
 
 ROOT = Path(__file__).parents[2]
 NAME = "p2-energy-skew"

@@ -17,6 +17,7 @@ from autograder.sandbox import borrow, lend
 from tests.autograder import courses
 from tests.autograder.courses import P3, submit
 from tests.submissions import p3_pendulum
+from tests.submissions.answers import blank, cell_of
 
 
 @pytest.fixture
@@ -30,7 +31,7 @@ def course(tmp_path, monkeypatch):
 
 def test_only_what_changed_is_judged_again(course, monkeypatch, capsys):
     release = courses.release(course)
-    submit(course, "bob", p3_pendulum.blank(release))
+    submit(course, "bob", blank(release))
     assert main(["grade", P3, "--jobs", "1"]) == 0
     assert "2 graded, 0 unchanged" in capsys.readouterr().out
     submit(course, "bob", p3_pendulum.partly_right(release))
@@ -120,7 +121,7 @@ def test_steps_on_the_judged_notebook_run(course):
     with (course / "nbgrader_config.py").open("a") as config:
         config.write("c.LimitOutput.max_lines = 3\n")
     notebook = p3_pendulum.right(courses.release(course))
-    p3_pendulum.cell_of(notebook, "answer-M").source += "\nprint('many\\n' * 50)"
+    cell_of(notebook, "answer-M").source += "\nprint('many\\n' * 50)"
     submit(course, "ada", notebook)
     assert main(["grade", P3, "--jobs", "1"]) == 0
     graded = (course / "course" / "autograded" / "ada" / P3 / f"{P3}.ipynb").read_text()

@@ -14,6 +14,7 @@ from nbformat.v4 import new_code_cell, new_notebook
 from autograder.nbgrader_glue import write_problem
 from autograder.repair import MOST_NOTES, NEW_CELL, grade_id, is_locked, repair
 from tests.submissions import p3_pendulum
+from tests.submissions.answers import blank, cell_of
 
 ROOT = Path(__file__).parents[2]
 P3 = "p3-pendulum"
@@ -133,7 +134,7 @@ def test_graded_cells_are_right_after_any_edits(release, edits):
     nbformat.validate(mended)
 
 
-@pytest.mark.parametrize("make", [p3_pendulum.blank, p3_pendulum.right, p3_pendulum.wrong])
+@pytest.mark.parametrize("make", [blank, p3_pendulum.right, p3_pendulum.wrong])
 def test_nothing_is_said_of_a_notebook_whose_answers_alone_changed(release, make):
     submission = make(release)
     mended, notes = repair(submission, SOURCE)
@@ -187,18 +188,18 @@ def test_notes_say_what_was_mended(release):
 def test_of_several_copies_the_last_one_counts(release):
     submission = copy.deepcopy(release)
     for text in ("first", "second"):
-        cell = copy.deepcopy(p3_pendulum.cell_of(submission, "answer-M"))
+        cell = copy.deepcopy(cell_of(submission, "answer-M"))
         cell.source = text
         submission.cells.insert(0 if text == "first" else len(submission.cells), cell)
     mended, notes = repair(submission, SOURCE)
-    assert p3_pendulum.cell_of(mended, "answer-M").source == "second"
+    assert cell_of(mended, "answer-M").source == "second"
     assert mended.cells[0].source == "first"
     assert notes == ["answer-M was there more than once; the last one counts"] * 2
 
 
 def test_an_unknown_claim_is_taken_away_and_told(release):
     submission = copy.deepcopy(release)
-    cell = copy.deepcopy(p3_pendulum.cell_of(submission, "p3-M"))
+    cell = copy.deepcopy(cell_of(submission, "p3-M"))
     cell.metadata.nbgrader.grade_id = "p9-bonus"
     submission.cells.append(cell)
     mended, notes = repair(submission, SOURCE)

@@ -16,7 +16,8 @@ from types import SimpleNamespace
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell
 
-from tests.submissions.p3_pendulum import POINTS, cell_of, function, right_but
+from tests.submissions.answers import cell_of
+from tests.submissions.p3_pendulum import POINTS, function, right_but
 
 GOT = "got through the wall"
 ROOT = Path(__file__).parents[2]

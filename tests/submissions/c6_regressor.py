@@ -1,11 +1,10 @@
 """Submissions to c6-regressor, made from the released notebook by editing it as a student would."""
 
-from tests.submissions.p3_pendulum import answered, blank, cell_of
+from tests.submissions.answers import Answers, answered, cell_of
 
-__all__ = ["POINTS", "RIGHT", "blank", "function", "partly_right", "right", "right_but", "wrong"]
-
-RIGHT = {
-    "regressor": """
+RIGHT = Answers(
+    {
+        "regressor": """
 def regressor(q, qd, qdd, arm):
     c1, c2, s2, c12 = np.cos(q[0]), np.cos(q[1]), np.sin(q[1]), np.cos(q[0] + q[1])
     l1, g = arm.l1, arm.g
@@ -19,32 +18,24 @@ def regressor(q, qd, qdd, arm):
     Y[:, 5] = qdd[0] + qdd[1]
     return Y
 """,
-    "rank_of_excitation": """
+        "rank_of_excitation": """
 def rank_of_excitation(q, qd, qdd, arm):
     rows = []
     for k in range(len(q)):
         rows.extend(regressor(q[k], qd[k], qdd[k], arm))
     return np.linalg.matrix_rank(np.array(rows))
 """,
-    "identify": """
+        "identify": """
 def identify(q, qd, qdd, u, arm):
     W = np.concatenate([regressor(a, b, c, arm) for a, b, c in zip(q, qd, qdd)])
     W = np.delete(W, [0, 3], axis=1)
     return np.linalg.pinv(W) @ u.reshape(-1)
 """,
-}
+    }
+)
 POINTS = {"c6-regressor": 4.0, "c6-rank_of_excitation": 3.0, "c6-identify": 3.0}
 
-
-def function(name: str, body: str) -> str:
-    """The student's function of that name with another body: lines that end in a return."""
-    head = RIGHT[name].strip().splitlines()[0]
-    return "\n".join([head, *(f"    {line}" for line in body.strip().splitlines())])
-
-
-def right_but(release, **answers):
-    """All answers right but these."""
-    return answered(release, **(RIGHT | answers))
+function, right_but = RIGHT.function, RIGHT.right_but
 
 
 def right(release):

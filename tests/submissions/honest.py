@@ -7,7 +7,8 @@ import copy
 
 from nbformat.v4 import new_code_cell, new_markdown_cell
 
-from tests.submissions.p3_pendulum import RIGHT, cell_of, function, right_but
+from tests.submissions.answers import cell_of
+from tests.submissions.p3_pendulum import RIGHT, function, right_but
 
 VARIANTS = {}
 

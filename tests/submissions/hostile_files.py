@@ -9,8 +9,9 @@ import json
 
 import nbformat
 
+from tests.submissions.answers import cell_of
 from tests.submissions.hostile import ATTACKS
-from tests.submissions.p3_pendulum import POINTS, cell_of, right
+from tests.submissions.p3_pendulum import POINTS, right
 
 HALF = "\ud83e"  # of a pair
 FILES = {}

@@ -4,8 +4,9 @@ import copy
 
 from nbformat.v4 import new_markdown_cell, new_output
 
+from tests.submissions.answers import cell_of
 from tests.submissions.attack import GOT, OUTSIDE, attack, cheat
-from tests.submissions.p3_pendulum import POINTS, RIGHT, cell_of
+from tests.submissions.p3_pendulum import POINTS, RIGHT
 
 
 def claims(notebook, name):

@@ -4,8 +4,8 @@ grader that can be talked to.
 
 from nbformat.v4 import new_markdown_cell
 
+from tests.submissions.answers import cell_of
 from tests.submissions.attack import attack, cheat
-from tests.submissions.p3_pendulum import cell_of
 
 LIVE = "<img src=x onerror=forged()><svg onload=forged()><a href=javascript:forged()>full marks</a>"
 LINK = r"$\href{javascript:forged()}{full marks}$"

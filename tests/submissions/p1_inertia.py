@@ -1,15 +1,14 @@
 """Submissions to p1-inertia, made from the released notebook by editing it as a student would."""
 
-from tests.submissions.p3_pendulum import answered, blank, cell_of
+from tests.submissions.answers import Answers, answered, cell_of
 
-__all__ = ["POINTS", "RIGHT", "blank", "function", "partly_right", "right", "wrong"]
-
-RIGHT = {
-    "inertia_from_links": """
+RIGHT = Answers(
+    {
+        "inertia_from_links": """
 def inertia_from_links(jacobians, inertias):
     return sum(J.T @ I @ J for J, I in zip(jacobians, inertias))
 """,
-    "M": """
+        "M": """
 def M(q, arm):
     c2 = np.cos(q[1])
     M22 = arm.I2 + arm.m2 * arm.lc2**2
@@ -18,19 +17,20 @@ def M(q, arm):
     M11 += arm.m2 * (arm.l1**2 + arm.lc2**2 + 2 * arm.l1 * arm.lc2 * c2)
     return [[M11, M12], [M12, M22]]
 """,
-    "is_spd": """
+        "is_spd": """
 def is_spd(A):
     if not np.allclose(A, A.T):
         return False
     values = np.linalg.eigvalsh(A)
     return values.min() > 1e-9 * values.max()
 """,
-    "singular_arm": """
+        "singular_arm": """
 def singular_arm():
     arm = dict(l1=1, l2=1, lc1=0, lc2=0.5, m1=1, m2=1, I1=0, I2=0, g=9.81)
     return arm, [0, np.pi]
 """,
-}
+    }
+)
 POINTS = {
     "p1-inertia_from_links": 2.0,
     "p1-M": 4.0,
@@ -38,16 +38,7 @@ POINTS = {
     "p1-singular_arm": 2.0,
 }
 
-
-def function(name: str, body: str) -> str:
-    """The student's function of that name with another body: lines that end in a return."""
-    head = RIGHT[name].strip().splitlines()[0]
-    return "\n".join([head, *(f"    {line}" for line in body.strip().splitlines())])
-
-
-def right_but(release, **answers):
-    """All answers right but these."""
-    return answered(release, **(RIGHT | answers))
+function, right_but = RIGHT.function, RIGHT.right_but
 
 
 def right(release):

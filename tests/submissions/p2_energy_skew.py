@@ -1,14 +1,15 @@
 """Submissions to p2-energy-skew, made from the released notebook by editing it as a student would."""
 
-from tests.submissions.p3_pendulum import answered, cell_of
+from tests.submissions.answers import Answers, answered, cell_of
 
-RIGHT = {
-    "M_dot": """
+RIGHT = Answers(
+    {
+        "M_dot": """
 def M_dot(q, qd, arm):
     eps = 1e-6
     return (M(q + eps * qd, arm) - M(q - eps * qd, arm)) / (2 * eps)
 """,
-    "C": """
+        "C": """
 def C(q, qd, arm):
     eps = 1e-6
     d = [(M(q + eps * e, arm) - M(q - eps * e, arm)) / (2 * eps) for e in np.eye(2)]
@@ -19,11 +20,11 @@ def C(q, qd, arm):
                 C[i, j] += (d[k][i, j] + d[j][i, k] - d[i][j, k]) / 2 * qd[k]
     return C
 """,
-    "C_other": """
+        "C_other": """
 def C_other(q, qd, arm):
     return C(q, qd, arm) + [[0, 0], [qd[1], -qd[0]]]
 """,
-    "christoffel": """
+        "christoffel": """
 def christoffel(M, q, qd):
     rows = []
     for i in range(len(q)):
@@ -37,13 +38,11 @@ def christoffel(M, q, qd):
         rows.append(row)
     return rows
 """,
-}
+    }
+)
 POINTS = {"p2-M_dot": 2.0, "p2-C": 5.0, "p2-C_other": 2.0, "p2-christoffel": 3.0}
 
-
-def right_but(release, **answers):
-    """All answers right but these."""
-    return answered(release, **(RIGHT | answers))
+right_but = RIGHT.right_but
 
 
 def right(release):

@@ -2,32 +2,36 @@
 
 import copy
 
-RIGHT = {
-    "lagrangian": """
+from tests.submissions.answers import Answers, answered, cell_of
+
+RIGHT = Answers(
+    {
+        "lagrangian": """
 def lagrangian(q, qd, m, lc, I, g):
     return I * qd**2 / 2 + m * g * lc * sp.cos(q)
 """,
-    "M": """
+        "M": """
 def M(q, pend):
     return [[pend.I]]
 """,
-    "C": """
+        "C": """
 def C(q, qd, pend):
     return 0
 """,
-    "g_vec": """
+        "g_vec": """
 def g_vec(q, pend):
     return np.array([pend.m * pend.g * pend.lc * np.sin(q[0])])
 """,
-    "inertia_about_pivot": """
+        "inertia_about_pivot": """
 def inertia_about_pivot(I_com, m, lc):
     return I_com + m * lc * lc
 """,
-    "small_angle_frequency": """
+        "small_angle_frequency": """
 def small_angle_frequency(pend):
     return (pend.m * pend.g * pend.lc / pend.I) ** 0.5
 """,
-}
+    }
+)
 POINTS = {
     "p3-lagrangian": 3.0,
     "p3-M": 1.0,
@@ -37,37 +41,7 @@ POINTS = {
     "p3-small_angle_frequency": 2.0,
 }
 
-
-def function(name: str, result: str) -> str:
-    """The student's function of that name, with one line that returns `result`."""
-    head = RIGHT[name].strip().splitlines()[0]
-    return f"{head}\n    return {result}\n"
-
-
-def answered(release, **answers):
-    """The released notebook with answers filled in, by the name of the function."""
-    notebook = copy.deepcopy(release)
-    for name, source in answers.items():
-        cell_of(notebook, f"answer-{name}").source = source.strip("\n")
-    return notebook
-
-
-def right_but(release, **answers):
-    """All answers right but these."""
-    return answered(release, **(RIGHT | answers))
-
-
-def cell_of(notebook, grade_id: str):
-    """The cell with this grade_id."""
-    return next(
-        cell
-        for cell in notebook.cells
-        if cell.metadata.get("nbgrader", {}).get("grade_id") == grade_id
-    )
-
-
-def blank(release):
-    return copy.deepcopy(release)
+function, right_but = RIGHT.function, RIGHT.right_but
 
 
 def right(release):

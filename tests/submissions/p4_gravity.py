@@ -1,17 +1,16 @@
 """Submissions to p4-gravity, made from the released notebook by editing it as a student would."""
 
-import copy
+from tests.submissions.answers import Answers, answered, cell_of
 
-from tests.submissions.p3_pendulum import answered, cell_of
-
-RIGHT = {
-    "potential_energy": """
+RIGHT = Answers(
+    {
+        "potential_energy": """
 def potential_energy(q, arm):
     y1 = arm.lc1 * np.sin(q[0])
     y2 = arm.l1 * np.sin(q[0]) + arm.lc2 * np.sin(q[0] + q[1])
     return arm.m1 * arm.g * y1 + arm.m2 * arm.g * y2
 """,
-    "g_vec": """
+        "g_vec": """
 def g_vec(q, arm):
     step = 1e-6
     return [
@@ -19,18 +18,19 @@ def g_vec(q, arm):
         for d in ([step, 0], [0, step])
     ]
 """,
-    "gravity_from_jacobians": """
+        "gravity_from_jacobians": """
 def gravity_from_jacobians(jacobians_v, masses, g0):
     total = np.zeros(jacobians_v.shape[2])
     for i in range(len(masses)):
         total -= masses[i] * g0 @ jacobians_v[i]
     return total
 """,
-    "equilibria": """
+        "equilibria": """
 def equilibria(arm):
     return [(a, b) for a in (np.pi / 2, 3 * np.pi / 2) for b in (0, -np.pi)]
 """,
-}
+    }
+)
 POINTS = {
     "p4-potential_energy": 2.0,
     "p4-g_vec": 3.0,
@@ -38,20 +38,7 @@ POINTS = {
     "p4-equilibria": 2.0,
 }
 
-
-def function(name: str, result: str) -> str:
-    """The student's function of that name, with one line that returns `result`."""
-    head = RIGHT[name].strip().splitlines()[0]
-    return f"{head}\n    return {result}\n"
-
-
-def right_but(release, **answers):
-    """All answers right but these."""
-    return answered(release, **(RIGHT | answers))
-
-
-def blank(release):
-    return copy.deepcopy(release)
+function, right_but = RIGHT.function, RIGHT.right_but
 
 
 def right(release):

@@ -1,11 +1,10 @@
 """Submissions to p5-state-space, made from the released notebook by editing it as a student would."""
 
-from tests.submissions.p3_pendulum import answered, blank, cell_of
+from tests.submissions.answers import Answers, cell_of
 
-__all__ = ["POINTS", "RIGHT", "blank", "partly_right", "right", "right_but", "wrong"]
-
-RIGHT = {
-    "f": """
+RIGHT = Answers(
+    {
+        "f": """
 def f(x, u, arm):
     qd = x[2:]
     rest = u - C(x[:2], qd, arm).dot(qd) - g_vec(x[:2], arm)
@@ -15,7 +14,7 @@ def f(x, u, arm):
             rest[i] -= arm.coulomb[i] * qd[i] / abs(qd[i])
     return [*qd, *(np.linalg.inv(M(x[:2], arm)) @ rest)]
 """,
-    "rk4_step": """
+        "rk4_step": """
 def rk4_step(f, x, u, dt):
     a = dt * f(x, u)
     b = dt * f(x + a / 2, u)
@@ -23,7 +22,7 @@ def rk4_step(f, x, u, dt):
     d = dt * f(x + c, u)
     return x + (a + 2 * b + 2 * c + d) / 6
 """,
-    "simulate": """
+        "simulate": """
 def simulate(f, x0, u, t):
     states = [x0]
     for start, end in zip(t[:-1], t[1:]):
@@ -31,7 +30,7 @@ def simulate(f, x0, u, t):
         states.append(rk4_step(f, states[-1], held, end - start))
     return states
 """,
-    "energy_drift": """
+        "energy_drift": """
 def energy_drift(x, arm):
     E = []
     for q1, q2, qd1, qd2 in x:
@@ -42,13 +41,11 @@ def energy_drift(x, arm):
         E.append(K + arm.g * (arm.m1 * y1 + arm.m2 * y2 + 7.0))
     return [e - E[0] for e in E]
 """,
-}
+    }
+)
 POINTS = {"p5-f": 4.0, "p5-rk4_step": 3.0, "p5-simulate": 5.0, "p5-energy_drift": 3.0}
 
-
-def right_but(release, **answers):
-    """All answers right but these."""
-    return answered(release, **(RIGHT | answers))
+right_but = RIGHT.right_but
 
 
 def right(release):

@@ -4,12 +4,10 @@ It is no assignment of the course: the warm-up of lesson 00 in nbgrader's source
 benchmarks that need many submissions and little of each.
 """
 
-import copy
-
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
-from tests.submissions.p3_pendulum import cell_of
+from tests.submissions.answers import answered
 
 ASSIGNMENT = "start-here"
 ANSWER = '''
@@ -54,9 +52,7 @@ def _cell(grade_id: str, text: str, **claims) -> NotebookNode:
 
 
 def _answered(release, statement):
-    notebook = copy.deepcopy(release)
-    cell_of(notebook, "answer-kinetic_energy").source = ANSWER.format(statement).strip()
-    return notebook
+    return answered(release, kinetic_energy=ANSWER.format(statement))
 
 
 def right(release):
@@ -70,7 +66,3 @@ def wrong(release):
 def partly_right(release):
     """Right, where it answers at all."""
     return _answered(release, "return 0.5 * I * qd**2 if qd > 0 else None")
-
-
-def blank(release):
-    return copy.deepcopy(release)
