@@ -1,24 +1,53 @@
 """Judging a student's function by itself, for the tests of mistakes and of right variants."""
 
 import numpy as np
+import scipy.linalg
+import scipy.optimize  # so that no call with a time limit pays for it
 import sympy as sp
 
 from autograder.diagnosis import Mistake
-from autograder.judge import HIDDEN_CASES
+from autograder.judge import HIDDEN_CASES, VISIBLE_CASES, Check
 from autograder.problems import CHECKS
 from autograder.verdict import State, Verdict
 from autograder.wall import answer_all
+from tests.submissions.answers import indented
+
+
+def function_of(check_id: str, body: str) -> str:
+    """A student's function: `body` is the expression it returns, or its whole body."""
+    return f"def {CHECKS[check_id].signature}:\n{indented(body)}\n"
+
+
+def namespace_of(check_id: str, body: str) -> dict:
+    """What a student's cells define that import the usual libraries and write this function."""
+    namespace = {"__name__": "__main__", "np": np, "sp": sp, "scipy": scipy}
+    exec(function_of(check_id, body), namespace)
+    return namespace
+
+
+def judged_in(namespace: dict, check_id: str, seed: int = 0, count: int = HIDDEN_CASES) -> Verdict:
+    """The verdict on the function in this namespace."""
+    return CHECKS[check_id].run(
+        lambda calls: answer_all(calls, namespace), np.random.default_rng(seed), count
+    )
 
 
 def judged(check_id: str, body: str, seed: int = 0, count: int = HIDDEN_CASES) -> Verdict:
     """The verdict on a student's function: `body` is the expression it returns, or its whole body."""
-    check = CHECKS[check_id]
-    if "return" not in body:
-        body = f"return {body}"
-    lines = "\n".join(f"    {line}" for line in body.strip("\n").splitlines())
-    namespace = {"__name__": "__main__", "np": np, "sp": sp}
-    exec(f"def {check.signature}:\n{lines}", namespace)
-    return check.run(lambda calls: answer_all(calls, namespace), np.random.default_rng(seed), count)
+    return judged_in(namespace_of(check_id, body), check_id, seed, count)
+
+
+def assert_told_apart(check: Check, seed: int) -> None:
+    """Mistakes with different sentences give different answers, even to a visible check."""
+    calls = check.calls(np.random.default_rng(seed), VISIBLE_CASES)
+    answers = {}
+    for mistake in check.mistakes:
+        numbers = check._quantities_of(mistake.wrong, calls)
+        flat = np.concatenate([np.ravel(part) for case in numbers for part in case])
+        for other, theirs in answers.items():
+            same = np.allclose(flat, theirs, rtol=1e-4, atol=1e-9)
+            assert not same or mistake.sentence == other.sentence, mistake.name
+        answers[mistake] = flat
 
 
 def assert_named(check_id: str, body: str, credit: float, *sentences: str) -> None:

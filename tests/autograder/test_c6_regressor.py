@@ -1,14 +1,8 @@
 """c6-regressor: right answers in many styles pass at any seed, whole notebooks get what they earn, and
 the references agree with armdyn."""
 
-from pathlib import Path
-
-import nbformat
 import numpy as np
 import pytest
-import scipy.linalg
-import scipy.optimize
-import sympy as sp
 
 from armdyn import Planar2R
 from armdyn.base_parameters import base_parameters, on_link_axes
@@ -16,21 +10,18 @@ from armdyn.identify import identify
 from armdyn.regressor import parameters, regressor
 from autograder import planar_2r, sampling
 from autograder.grade import grade
-from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
+from autograder.judge import VISIBLE_CASES
 from autograder.mistakes import c6_regressor as mistakes
-from autograder.nbgrader_glue import write_problem
 from autograder.problems import CHECKS
 from autograder.problems.c6_regressor import CHECKS as C6
 from autograder.problems.c6_regressor import LEAST_SHOWN, MOTIONS
 from autograder.repair import grade_id
 from autograder.verdict import State
-from autograder.wall import answer_all
-from tests.submissions import c6_regressor as submissions
-from tests.submissions.answers import answered, cell_of
+from tests.autograder.judging import function_of, judged, judged_in, namespace_of
+from tests.autograder.problems import problem, states
+from tests.submissions.answers import answered
 
-ROOT = Path(__file__).parents[2]
-NAME = "c6-regressor"
-SOURCE = nbformat.read(ROOT / "solutions" / NAME / f"{NAME}.ipynb", as_version=4)
+PROBLEM = problem("c6-regressor")
 
 # The equation of motion, as the notebook gives it, and arms made of π: links of these m, m ℓc, J.
 TORQUES = """
@@ -169,24 +160,11 @@ RIGHT = {
 CASES = [(check_id, k) for check_id, variants in RIGHT.items() for k in range(len(variants))]
 
 
-def namespace_of(check_id, body):
-    namespace = {"np": np, "sp": sp, "scipy": scipy}
-    lines = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
-    exec(f"def {CHECKS[check_id].signature}:\n{lines}", namespace)
-    return namespace
-
-
-def judged(check_id, namespace, seed, count=HIDDEN_CASES):
-    return CHECKS[check_id].run(
-        lambda calls: answer_all(calls, namespace), np.random.default_rng(seed), count
-    )
-
-
 @pytest.mark.parametrize(("check_id", "k"), CASES)
 def test_right_in_any_style(check_id, k):
     body = RIGHT[check_id][k]
     for seed in range(3):
-        verdict = judged(check_id, namespace_of(check_id, body), seed, VISIBLE_CASES)
+        verdict = judged(check_id, body, seed, VISIBLE_CASES)
         assert verdict.state is State.CORRECT, str(verdict)
         assert verdict.credit == 1
         assert verdict.diagnosis == ()
@@ -213,7 +191,7 @@ def test_no_false_alarm_over_a_thousand_seeds(check):
     double, single = check.reference, in_single_precision(check.reference)
     for seed in range(1000):
         for model in (single, double) if seed % 5 == 0 else (single,):
-            verdict = judged(check.id, {check.name: model}, seed, VISIBLE_CASES)
+            verdict = judged_in({check.name: model}, check.id, seed, VISIBLE_CASES)
             assert verdict.state is State.CORRECT, f"seed {seed}: {verdict}"
 
 
@@ -223,7 +201,7 @@ def test_no_false_alarm_over_a_thousand_seeds(check):
 def test_no_false_alarm_on_a_students_own_lines(check_id, k):
     namespace = namespace_of(check_id, RIGHT[check_id][k])
     for seed in range(100):
-        assert judged(check_id, namespace, seed, VISIBLE_CASES).state is State.CORRECT
+        assert judged_in(namespace, check_id, seed, VISIBLE_CASES).state is State.CORRECT
 
 
 @pytest.mark.parametrize(
@@ -238,7 +216,7 @@ def test_wrong_by_1e_4_fails_at_any_seed(check_id, column):
         return right(*args) * factor
 
     for seed in range(20):
-        verdict = judged(check_id, {CHECKS[check_id].name: wrong}, seed, VISIBLE_CASES)
+        verdict = judged_in({CHECKS[check_id].name: wrong}, check_id, seed, VISIBLE_CASES)
         assert verdict.state is not State.CORRECT
 
 
@@ -248,14 +226,14 @@ def test_one_parameter_wrong_by_1e_4_fails_at_any_seed(k):
         return mistakes.fit(*args) * (1 + 1e-4 * (np.arange(4) == k))
 
     for seed in range(20):
-        verdict = judged("c6-identify", {"identify": wrong}, seed, VISIBLE_CASES)
+        verdict = judged_in({"identify": wrong}, "c6-identify", seed, VISIBLE_CASES)
         assert verdict.credit == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize("constant", range(7))
 def test_no_constant_is_a_rank(constant):
     namespace = {"rank_of_excitation": lambda *motion: constant}
-    assert judged("c6-rank_of_excitation", namespace, 0, VISIBLE_CASES).credit == 0
+    assert judged_in(namespace, "c6-rank_of_excitation", 0, VISIBLE_CASES).credit == 0
 
 
 @pytest.mark.parametrize("check", C6, ids=lambda check: check.id)
@@ -263,7 +241,7 @@ def test_a_hundredth_too_much_earns_nothing(check):
     def wrong(*args):
         return 1.013 * np.asarray(check.reference(*args)) + 0.01
 
-    assert judged(check.id, {check.name: wrong}, 1, VISIBLE_CASES).credit == 0
+    assert judged_in({check.name: wrong}, check.id, 1, VISIBLE_CASES).credit == 0
 
 
 @pytest.mark.parametrize("seed", range(10))
@@ -318,17 +296,8 @@ def test_noise_makes_the_truth_wrong():
         assert set(vars(arm)) == {"l1", "l2", "g"}
 
 
-def notebook_namespace() -> dict:
-    """What the solution's cells define, the checks apart."""
-    namespace = {"__name__": "__main__"}
-    for cell in SOURCE.cells:
-        if cell.cell_type == "code" and not cell.source.startswith("# Checks"):
-            exec(cell.source, namespace)
-    return namespace
-
-
 def test_the_notebooks_own_cells_say_what_the_text_says(capsys):
-    found = notebook_namespace()
+    found = PROBLEM.namespace()
     printed = capsys.readouterr().out
     assert "Write" not in printed
     assert "twice m1    : the torques change by [0. 0.] N·m" in printed
@@ -353,63 +322,24 @@ def test_six_for_centres_off_the_axes_and_four_of_them_in_orbit():
         assert (base_parameters(model).rank, on_axes) == ranks
 
 
-def test_three_hints_a_check_that_do_not_give_the_formula():
+def test_no_hint_gives_the_formula():
     for check in C6:
-        assert len(check.hints) == 3
         assert not any(
             sign in hint for hint in check.hints for sign in ("cos(", "sin(", "*", "q̈1 +")
         )
 
 
-@pytest.fixture(scope="module")
-def release(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("release")
-    write_problem(ROOT, NAME, folder)
-    return nbformat.read(folder / f"{NAME}.ipynb", as_version=4)
-
-
-def states(graded):
-    return {verdict.state for verdict in graded.verdicts.values()}
-
-
-def test_the_solution_is_right():
-    graded = grade(SOURCE, SOURCE, "seed")
-    assert graded.verdicts.keys() == submissions.POINTS.keys()
-    assert states(graded) == {State.CORRECT}
-    assert graded.notes == ()
-
-
-def test_points_are_those_of_the_grade_cells():
-    for name, points in submissions.POINTS.items():
-        assert cell_of(SOURCE, name).metadata["nbgrader"]["points"] == points
-    assert sum(submissions.POINTS.values()) == 10
-    assert cell_of(SOURCE, "c6-discussion").metadata["nbgrader"]["points"] == 5
-
-
-def test_the_release_is_not_attempted_and_holds_no_answer(release):
-    assert states(grade(submissions.blank(release), SOURCE, "seed")) == {State.NOT_ATTEMPTED}
-    text = nbformat.writes(release)
-    assert "SOLUTION" not in text
-    assert "HIDDEN" not in text
-    assert "moved into" not in text
-
-
-def test_a_right_submission_is_right(release):
-    assert states(grade(submissions.right(release), SOURCE, "seed")) == {State.CORRECT}
-
-
-def test_wrong_answers_are_named(release):
-    graded = grade(submissions.wrong(release), SOURCE, "seed")
+def test_wrong_answers_are_named():
+    graded = PROBLEM.graded("wrong")
     said = {name: " ".join(verdict.diagnosis) for name, verdict in graded.verdicts.items()}
     assert "Gravity has the wrong sign" in said["c6-regressor"]
     assert "Which joints does link 1 load" in said["c6-regressor"]
     assert "link 2 turns with q̈2 only" in said["c6-regressor"]
     assert "You count the parameters" in said["c6-rank_of_excitation"]
-    assert all(verdict.credit == 0 for verdict in graded.verdicts.values())
 
 
-def test_partly_right_answers_get_part_of_the_credit(release):
-    graded = grade(submissions.partly_right(release), SOURCE, "seed")
+def test_partly_right_answers_get_part_of_the_credit():
+    graded = PROBLEM.graded("partly_right")
     credits = {name: verdict.credit for name, verdict in graded.verdicts.items()}
     assert credits == pytest.approx(
         {"c6-regressor": 0.75, "c6-rank_of_excitation": 0.35, "c6-identify": 0.0}
@@ -417,19 +347,18 @@ def test_partly_right_answers_get_part_of_the_credit(release):
     assert "the regressor that it uses is wrong" in graded.verdicts["c6-identify"].diagnosis[0]
 
 
-def test_variants_pass_in_a_graded_notebook(release):
+def test_variants_pass_in_a_graded_notebook():
     """One of each check's other styles, through the room and its wall."""
     answers = {}
     for check_id, k in (("c6-regressor", 7), ("c6-rank_of_excitation", 6), ("c6-identify", 3)):
-        body = "\n".join(f"    {line}" for line in RIGHT[check_id][k].strip("\n").splitlines())
-        check = CHECKS[check_id]
-        answers[check.name] = f"import scipy.linalg\ndef {check.signature}:\n{body}"
-    notebook = answered(release, **answers)
-    assert states(grade(notebook, SOURCE, "seed")) == {State.CORRECT}
+        function = function_of(check_id, RIGHT[check_id][k])
+        answers[CHECKS[check_id].name] = f"import scipy.linalg\n{function}"
+    graded = grade(answered(PROBLEM.release, **answers), PROBLEM.source, "seed")
+    assert set(states(graded).values()) == {State.CORRECT}
 
 
 def test_grade_ids_stay():
-    assert [grade_id(cell) for cell in SOURCE.cells if grade_id(cell)] == [
+    assert [grade_id(cell) for cell in PROBLEM.source.cells if grade_id(cell)] == [
         "c6-setup",
         "answer-regressor",
         "c6-regressor",

@@ -1,27 +1,19 @@
 """p1-inertia: right answers in many styles pass at any seed; references and notebook hold."""
 
-from pathlib import Path
-
-import nbformat
 import numpy as np
 import pytest
 
 from armdyn import Planar2R, SerialChain
 from armdyn.models.link import Link
 from autograder.definiteness import MATRICES
-from autograder.grade import grade
 from autograder.judge import VISIBLE_CASES
-from autograder.nbgrader_glue import write_problem
 from autograder.problems import CHECKS
 from autograder.problems.p1_inertia import CHECKS as P1
 from autograder.verdict import State
-from autograder.wall import answer_all
-from tests.autograder.judging import judged
-from tests.submissions import p1_inertia as submissions
-from tests.submissions.answers import cell_of
+from tests.autograder.judging import judged, judged_in, namespace_of
+from tests.autograder.problems import problem
 
-ROOT = Path(__file__).parents[2]
-NAME = "p1-inertia"
+PROBLEM = problem("p1-inertia")
 
 CLOSED = """
 k = arm.m2 * arm.l1 * arm.lc2 * np.cos(q[1])
@@ -161,20 +153,9 @@ def test_ten_variants_each():
     [("p1-inertia_from_links", (1, 5)), ("p1-M", (0, 3)), ("p1-is_spd", (0, 4))],
 )
 def test_no_false_alarm_over_a_thousand_seeds(check_id, variants):
-    check = CHECKS[check_id]
-    namespaces = []
-    for body in (RIGHT[check_id][k] for k in variants):
-        lines = "\n".join(f"    {line}" for line in body.strip().splitlines())
-        lines = lines if "return" in lines else f"    return {lines.strip()}"
-        namespaces.append({"np": np})
-        exec(f"def {check.signature}:\n{lines}", namespaces[-1])
+    namespaces = [namespace_of(check_id, RIGHT[check_id][k]) for k in variants]
     for seed in range(1000):
-        namespace = namespaces[seed % 2]
-        verdict = check.run(
-            lambda calls, namespace=namespace: answer_all(calls, namespace),
-            np.random.default_rng(seed),
-            VISIBLE_CASES,
-        )
+        verdict = judged_in(namespaces[seed % 2], check_id, seed, VISIBLE_CASES)
         assert verdict.state is State.CORRECT, (seed, str(verdict))
 
 
@@ -257,57 +238,16 @@ def test_the_criteria_of_is_spd_see_both_kinds():
         assert set(np.concatenate([np.ravel(parts[k]) for parts in right])) == {0.0, 1.0}
 
 
-@pytest.fixture(scope="module")
-def source():
-    return nbformat.read(ROOT / "solutions" / NAME / f"{NAME}.ipynb", as_version=4)
-
-
-@pytest.fixture(scope="module")
-def release(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("release")
-    write_problem(ROOT, NAME, folder)
-    assert (folder / "arm.svg").exists()
-    return nbformat.read(folder / f"{NAME}.ipynb", as_version=4)
-
-
-def verdicts(notebook, source):
-    graded = grade(notebook, source, "seed")
-    assert graded.notes == ()
-    assert graded.verdicts.keys() == submissions.POINTS.keys()
-    return graded.verdicts
-
-
-def test_points_of_the_notebook(source):
-    for name, points in submissions.POINTS.items():
-        assert cell_of(source, name).metadata.nbgrader.points == points
-    assert cell_of(source, "p1-proof").metadata.nbgrader.points == 4
-
-
-def test_solution_is_right_everywhere(source):
-    assert {v.state for v in verdicts(source, source).values()} == {State.CORRECT}
-
-
-def test_released_notebook_is_not_attempted(release, source):
-    assert "BEGIN" not in nbformat.writes(release)
-    blank = submissions.blank(release)
-    assert {v.state for v in verdicts(blank, source).values()} == {State.NOT_ATTEMPTED}
-
-
-def test_right_submission(release, source):
-    assert {v.credit for v in verdicts(submissions.right(release), source).values()} == {1}
-
-
-def test_wrong_submission_is_told_why(release, source):
-    said = verdicts(submissions.wrong(release), source)
-    assert {verdict.state for verdict in said.values()} == {State.INCORRECT}
+def test_wrong_submission_is_told_why():
+    said = PROBLEM.graded("wrong").verdicts
     assert "spatial inertias are not used" in said["p1-inertia_from_links"].diagnosis[0]
     assert "m2 sits at the hand" in said["p1-M"].diagnosis[0]
     assert said["p1-is_spd"].diagnosis == ("Your function accepts every matrix.",)
     assert "What of link 1 must vanish" in said["p1-singular_arm"].diagnosis[0]
 
 
-def test_partly_right_submission(release, source):
-    said = verdicts(submissions.partly_right(release), source)
+def test_partly_right_submission():
+    said = PROBLEM.graded("partly_right").verdicts
     credits = {name: round(verdict.credit, 12) for name, verdict in said.items()}
     assert credits == {
         "p1-inertia_from_links": 0.5,

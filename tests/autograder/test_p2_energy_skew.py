@@ -1,28 +1,21 @@
 """p2-energy-skew: right answers in many styles pass at any seed, whole notebooks get what they earn,
 and the references agree with armdyn."""
 
-from pathlib import Path
-
-import nbformat
 import numpy as np
 import pytest
 import sympy as sp
 
 from armdyn import Planar2R
-from autograder.grade import Sitting, grade, is_judged, stream
+from autograder.grade import Sitting, is_judged, stream
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
-from autograder.nbgrader_glue import write_problem
 from autograder.problems import CHECKS
 from autograder.problems.p2_energy_skew import CHECKS as P2
 from autograder.verdict import State
 from autograder.wall import real
-from tests.autograder.judging import judged
-from tests.submissions import p2_energy_skew as submissions
-from tests.submissions.answers import blank, cell_of
+from tests.autograder.judging import assert_told_apart, function_of, judged
+from tests.autograder.problems import problem
 
-ROOT = Path(__file__).parents[2]
-NAME = "p2-energy-skew"
-SOURCE = nbformat.read(ROOT / "solutions" / NAME / f"{NAME}.ipynb", as_version=4)
+PROBLEM = problem("p2-energy-skew")
 
 H = "a, b = qd\nh = -arm.m2 * arm.l1 * arm.lc2 * np.sin(q[1])\n"
 INERTIA = """
@@ -225,66 +218,14 @@ def test_symbolic_reference_agrees_with_the_definition():
         np.testing.assert_allclose(check.reference(M, q, qd)(point), expected, rtol=1e-12)
 
 
-def test_no_wrong_model_looks_like_another():
-    """Mistakes with different sentences give different answers."""
+@pytest.mark.parametrize("check", P2, ids=lambda check: check.id)
+def test_no_wrong_model_looks_like_another(check):
     for seed in range(3):
-        for check in P2:
-            calls = check.calls(np.random.default_rng(seed), VISIBLE_CASES)
-            answers = {}
-            for mistake in check.mistakes:
-                numbers = check._quantities_of(mistake.wrong, calls)
-                flat = np.concatenate([np.ravel(part) for case in numbers for part in case])
-                for other, theirs in answers.items():
-                    same = np.allclose(flat, theirs, rtol=1e-4, atol=1e-9)
-                    assert not same or mistake.sentence == other.sentence, mistake.name
-                answers[mistake] = flat
+        assert_told_apart(check, seed)
 
 
-def test_three_hints_a_check():
-    assert all(len(check.hints) == 3 for check in P2)
-
-
-@pytest.fixture(scope="module")
-def release(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("release")
-    write_problem(ROOT, NAME, folder)
-    assert (folder / "two-links.svg").exists()
-    return nbformat.read(folder / f"{NAME}.ipynb", as_version=4)
-
-
-def states(graded):
-    return {name: verdict.state for name, verdict in graded.verdicts.items()}
-
-
-def test_the_solution_is_right():
-    graded = grade(SOURCE, SOURCE, "seed")
-    assert states(graded) == dict.fromkeys(submissions.POINTS, State.CORRECT)
-    assert graded.notes == ()
-    assert not [o for c in graded.notebook.cells for o in c.get("outputs", [])
-                if o.output_type == "error"]  # fmt: skip
-
-
-def test_points_are_those_of_the_grade_cells():
-    for name, points in submissions.POINTS.items():
-        assert cell_of(SOURCE, name).metadata["nbgrader"]["points"] == points
-    assert cell_of(SOURCE, "p2-proof").metadata["nbgrader"]["points"] == 5
-
-
-def test_the_release_is_not_attempted_and_holds_no_answer(release):
-    assert set(states(grade(blank(release), SOURCE, "seed")).values()) == {State.NOT_ATTEMPTED}
-    text = nbformat.writes(release)
-    for secret in ("SOLUTION", "HIDDEN", "np.sin(q[1])", "Exchanging"):
-        assert secret not in text
-
-
-def test_a_right_submission_is_right(release):
-    graded = grade(submissions.right(release), SOURCE, "seed")
-    assert set(states(graded).values()) == {State.CORRECT}
-
-
-def test_wrong_answers_are_named(release):
-    graded = grade(submissions.wrong(release), SOURCE, "seed")
-    assert set(states(graded).values()) == {State.INCORRECT}
+def test_wrong_answers_are_named():
+    graded = PROBLEM.graded("wrong")
     said = {name: " ".join(verdict.diagnosis) for name, verdict in graded.verdicts.items()}
     assert "You multiply ∂M/∂q2 by q̇1." in said["p2-M_dot"]
     assert "C times a vector of ones" in said["p2-C"]
@@ -292,8 +233,8 @@ def test_wrong_answers_are_named(release):
     assert said["p2-christoffel"].startswith("This is Ṁ.")
 
 
-def test_partly_right_answers_get_part_of_the_credit(release):
-    verdicts = grade(submissions.partly_right(release), SOURCE, "seed").verdicts
+def test_partly_right_answers_get_part_of_the_credit():
+    verdicts = PROBLEM.graded("partly_right").verdicts
     assert {name: verdict.credit for name, verdict in verdicts.items()} == {
         "p2-M_dot": 0.55,
         "p2-C": 0.7,
@@ -303,17 +244,12 @@ def test_partly_right_answers_get_part_of_the_credit(release):
     assert "not skew-symmetric" in verdicts["p2-C"].diagnosis[0]
 
 
-def as_function(check_id, body):
-    lines = "\n".join(f"    {line}" for line in body.strip("\n").splitlines())
-    return f"def {CHECKS[check_id].signature}:\n{lines}"
-
-
-def test_all_variants_pass_through_the_room_and_its_wall(release):
+def test_all_variants_pass_through_the_room_and_its_wall():
     with Sitting() as sitting:
-        for cell in blank(release).cells:
+        for cell in PROBLEM.release.cells:
             if cell.cell_type == "code" and not is_judged(cell):
                 sitting.run(cell.source)
         for check_id, body in CASES:
-            sitting.run(as_function(check_id, body))
+            sitting.run(function_of(check_id, body))
             verdict = CHECKS[check_id].run(sitting.ask, stream("seed", check_id), HIDDEN_CASES)
             assert verdict.state is State.CORRECT, f"{body}\n{verdict}"

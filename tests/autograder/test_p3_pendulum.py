@@ -5,11 +5,11 @@ import pytest
 import sympy as sp
 
 from armdyn import Pendulum
-from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
+from autograder.judge import VISIBLE_CASES
 from autograder.problems import CHECKS
 from autograder.problems.p3_pendulum import CHECKS as P3
 from autograder.verdict import State
-from autograder.wall import answer_all
+from tests.autograder.judging import judged, judged_in, namespace_of
 
 MGL = "pend.m * pend.g * pend.lc"
 RIGHT = {
@@ -90,21 +90,9 @@ RIGHT = {
 CASES = [(check_id, returned) for check_id, variants in RIGHT.items() for returned in variants]
 
 
-def namespace_of(check_id, returned):
-    namespace = {"np": np, "sp": sp}
-    exec(f"def {CHECKS[check_id].signature}:\n    return {returned}", namespace)
-    return namespace
-
-
-def judged(check_id, namespace, seed, count=HIDDEN_CASES):
-    return CHECKS[check_id].run(
-        lambda calls: answer_all(calls, namespace), np.random.default_rng(seed), count
-    )
-
-
 @pytest.mark.parametrize(("check_id", "returned"), CASES)
 def test_right_in_any_style(check_id, returned):
-    verdict = judged(check_id, namespace_of(check_id, returned), seed=1)
+    verdict = judged(check_id, returned, seed=1)
     assert verdict.state is State.CORRECT, str(verdict)
     assert verdict.credit == 1
     assert verdict.diagnosis == ()
@@ -117,7 +105,7 @@ def test_no_false_alarm_over_a_thousand_seeds(check_id):
     namespaces = [namespace_of(check_id, r) for r in (RIGHT[check_id][0], single)]
     for seed in range(1000):
         for namespace in namespaces:
-            assert judged(check_id, namespace, seed, VISIBLE_CASES).state is State.CORRECT
+            assert judged_in(namespace, check_id, seed, VISIBLE_CASES).state is State.CORRECT
 
 
 def test_no_false_alarm_on_the_lagrangian():
@@ -125,15 +113,14 @@ def test_no_false_alarm_on_the_lagrangian():
     L = eval(f"lambda q, qd, m, lc, I, g: {RIGHT['p3-lagrangian'][1]}", {"sp": sp})
     written = L(*(sp.Symbol(name, real=True) for name in ("q", "qd", "m", "lc", "I", "g")))
     for seed in range(1000):
-        verdict = judged(
-            "p3-lagrangian", {"lagrangian": lambda *symbols: written}, seed, VISIBLE_CASES
+        verdict = judged_in(
+            {"lagrangian": lambda *symbols: written}, "p3-lagrangian", seed, VISIBLE_CASES
         )
         assert verdict.state is State.CORRECT, f"seed {seed}: {verdict}"
 
 
-def test_ten_variants_and_three_hints_a_check():
+def test_ten_variants_at_least():
     assert all(len(variants) >= 10 for variants in RIGHT.values())
-    assert all(len(check.hints) == 3 for check in P3)
 
 
 @pytest.mark.parametrize("check_id", RIGHT)
@@ -142,7 +129,7 @@ def test_wrong_by_1e_4_fails_at_any_seed(check_id):
     returned = "1e-4 * qd" if exact else f"({RIGHT[check_id][0]}) * 1.0001"
     namespace = namespace_of(check_id, returned)
     for seed in range(20):
-        assert judged(check_id, namespace, seed).state is not State.CORRECT
+        assert judged_in(namespace, check_id, seed).state is not State.CORRECT
 
 
 def test_references_agree_with_the_library():

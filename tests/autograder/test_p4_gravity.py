@@ -1,14 +1,10 @@
 """p4-gravity: right answers in many styles pass at any seed, whole notebooks get what they earn, and
 the references agree with armdyn."""
 
-from pathlib import Path
 from types import SimpleNamespace
 
-import nbformat
 import numpy as np
 import pytest
-import scipy.optimize
-import sympy as sp
 
 import armdyn.equilibria
 from armdyn import Planar2R
@@ -16,18 +12,15 @@ from autograder import sampling
 from autograder.grade import grade, stream
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
 from autograder.mistakes import p4_gravity as mistakes
-from autograder.nbgrader_glue import write_problem
 from autograder.problems import CHECKS
 from autograder.problems.p4_gravity import CHECKS as P4
 from autograder.repair import grade_id
 from autograder.verdict import State
-from autograder.wall import answer_all
-from tests.submissions import p4_gravity
-from tests.submissions.answers import answered, cell_of
+from tests.autograder.judging import assert_told_apart, function_of, judged, judged_in, namespace_of
+from tests.autograder.problems import problem, states
+from tests.submissions.answers import answered
 
-ROOT = Path(__file__).parents[2]
-NAME = "p4-gravity"
-SOURCE = nbformat.read(ROOT / "solutions" / NAME / f"{NAME}.ipynb", as_version=4)
+PROBLEM = problem("p4-gravity")
 
 HEIGHTS = (
     "s1, s12 = np.sin(q[0]), np.sin(q[0] + q[1])\n"
@@ -132,19 +125,6 @@ RIGHT = {
 CASES = [(check_id, body) for check_id, variants in RIGHT.items() for body in variants]
 
 
-def namespace_of(check_id, body):
-    namespace = {"np": np, "sp": sp, "scipy": scipy}
-    lines = "".join(f"    {line}\n" for line in body.strip("\n").splitlines())
-    exec(f"def {CHECKS[check_id].signature}:\n{lines}", namespace)
-    return namespace
-
-
-def judged(check_id, namespace, seed, count=HIDDEN_CASES):
-    return CHECKS[check_id].run(
-        lambda calls: answer_all(calls, namespace), np.random.default_rng(seed), count
-    )
-
-
 def in_single_precision(body):
     *lines, last = body.splitlines()
     return "\n".join([*lines, f"return np.float32({last.removeprefix('return ')})"])
@@ -153,7 +133,7 @@ def in_single_precision(body):
 @pytest.mark.parametrize(("check_id", "body"), CASES)
 def test_right_in_any_style(check_id, body):
     for seed in range(3):
-        verdict = judged(check_id, namespace_of(check_id, body), seed)
+        verdict = judged(check_id, body, seed)
         assert verdict.state is State.CORRECT, str(verdict)
         assert verdict.credit == 1
         assert verdict.diagnosis == ()
@@ -171,7 +151,7 @@ def test_no_false_alarm_over_a_thousand_seeds(check_id):
     single = namespace_of(check_id, in_single_precision(RIGHT[check_id][0]))
     for seed in range(1000):
         for namespace in (single, double) if seed % 5 == 0 else (single,):
-            verdict = judged(check_id, namespace, seed, VISIBLE_CASES)
+            verdict = judged_in(namespace, check_id, seed, VISIBLE_CASES)
             assert verdict.state is State.CORRECT, f"seed {seed}: {verdict}"
 
 
@@ -180,15 +160,15 @@ def test_wrong_by_1e_4_fails_at_any_seed(check_id):
     *lines, last = RIGHT[check_id][0].splitlines()
     body = "\n".join([*lines, f"return ({last.removeprefix('return ')}) * 1.0001"])
     for seed in range(20):
-        assert judged(check_id, namespace_of(check_id, body), seed).credit == 0
+        assert judged(check_id, body, seed).credit == 0
 
 
 def test_a_constant_of_each_arm_is_free_but_not_one_that_moves_with_q():
     free = f"{HEIGHTS}return arm.g * (arm.m1 * y1 + arm.m2 * y2) + np.exp(arm.l1 * arm.m2)"
-    assert judged("p4-potential_energy", namespace_of("p4-potential_energy", free), 0).credit == 1
+    assert judged("p4-potential_energy", free).credit == 1
     for moves in ("np.sin(q[0]) ** 2", "np.cos(2 * q[1])", "(q[0] + q[1]) ** 3"):
         body = f"{HEIGHTS}return arm.g * (arm.m1 * y1 + arm.m2 * y2) + {moves}"
-        verdict = judged("p4-potential_energy", namespace_of("p4-potential_energy", body), 0)
+        verdict = judged("p4-potential_energy", body)
         assert verdict.credit < 1
 
 
@@ -219,7 +199,7 @@ def test_references_agree_with_the_library(seed):
 def test_jacobian_form_gives_the_arms_own_gravity():
     """Σ over both links of the 2R, against its closed form."""
     rng = np.random.default_rng(5)
-    solution = notebook_namespace()
+    solution = PROBLEM.namespace()
     for _ in range(20):
         arm, q = sampling.planar_2r(rng), sampling.angles(rng)
         jacobians = solution["com_jacobians"](q, arm)
@@ -228,81 +208,24 @@ def test_jacobian_form_gives_the_arms_own_gravity():
         np.testing.assert_allclose(g, Planar2R(**vars(arm)).g_vec(q), rtol=1e-12)
 
 
-def notebook_namespace() -> dict:
-    """What the solution's cells define, the checks apart."""
-    namespace = {"__name__": "__main__"}
-    for cell in SOURCE.cells:
-        if cell.cell_type == "code" and not cell.source.startswith("# Checks"):
-            exec(cell.source, namespace)
-    return namespace
-
-
 def test_the_example_arm_is_the_one_that_the_mistakes_know(capsys):
-    assert vars(notebook_namespace()["robot"]) == vars(mistakes.EXAMPLE)
+    assert vars(PROBLEM.namespace()["robot"]) == vars(mistakes.EXAMPLE)
     assert "Write" not in capsys.readouterr().out  # the cells between the checks run
 
 
-def test_no_wrong_model_looks_like_another():
-    """Mistakes with different sentences give different answers."""
+@pytest.mark.parametrize("check", P4, ids=lambda check: check.id)
+def test_no_wrong_model_looks_like_another(check):
     for seed in range(3):
-        for check in P4:
-            calls = check.calls(np.random.default_rng(seed), VISIBLE_CASES)
-            answers = {}
-            for mistake in check.mistakes:
-                numbers = check._quantities_of(mistake.wrong, calls)
-                flat = np.concatenate([np.ravel(part) for case in numbers for part in case])
-                for other, theirs in answers.items():
-                    same = np.allclose(flat, theirs, rtol=1e-4, atol=1e-9)
-                    assert not same or mistake.sentence == other.sentence, mistake.name
-                answers[mistake] = flat
+        assert_told_apart(check, seed)
 
 
-def test_three_hints_a_check_that_do_not_give_the_formula():
+def test_no_hint_gives_the_formula():
     for check in P4:
-        assert len(check.hints) == 3
         assert not any(sign in hint for hint in check.hints for sign in ("cos(", "sin(", "*", "pi"))
 
 
-@pytest.fixture(scope="module")
-def release(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("release")
-    write_problem(ROOT, NAME, folder)
-    return nbformat.read(folder / f"{NAME}.ipynb", as_version=4)
-
-
-def states(graded):
-    return {verdict.state for verdict in graded.verdicts.values()}
-
-
-def test_the_solution_is_right():
-    graded = grade(SOURCE, SOURCE, "seed")
-    assert graded.verdicts.keys() == p4_gravity.POINTS.keys()
-    assert states(graded) == {State.CORRECT}
-    assert graded.notes == ()
-
-
-def test_points_are_those_of_the_grade_cells():
-    for name, points in p4_gravity.POINTS.items():
-        assert cell_of(SOURCE, name).metadata["nbgrader"]["points"] == points
-    assert sum(p4_gravity.POINTS.values()) == 10
-    assert cell_of(SOURCE, "p4-check").metadata["nbgrader"]["points"] == 5
-
-
-def test_the_release_is_not_attempted_and_holds_no_answer(release):
-    assert states(grade(p4_gravity.blank(release), SOURCE, "seed")) == {State.NOT_ATTEMPTED}
-    text = nbformat.writes(release)
-    assert "SOLUTION" not in text
-    assert "HIDDEN" not in text
-    assert "one up, one down" not in text.lower()
-
-
-def test_a_right_submission_is_right(release):
-    assert states(grade(p4_gravity.right(release), SOURCE, "seed")) == {State.CORRECT}
-
-
-def test_wrong_answers_are_named(release):
-    graded = grade(p4_gravity.wrong(release), SOURCE, "seed")
-    assert states(graded) == {State.INCORRECT}
+def test_wrong_answers_are_named():
+    graded = PROBLEM.graded("wrong")
     said = {name: verdict.diagnosis for name, verdict in graded.verdicts.items()}
     assert "it falls as the arm rises" in said["p4-potential_energy"][0]
     assert "q2 for the direction of link 2" in said["p4-g_vec"][0]
@@ -311,8 +234,8 @@ def test_wrong_answers_are_named(release):
     assert all(len(sentences) == 1 for sentences in said.values())
 
 
-def test_partly_right_answers_get_part_of_the_credit(release):
-    verdicts = grade(p4_gravity.partly_right(release), SOURCE, "seed").verdicts
+def test_partly_right_answers_get_part_of_the_credit():
+    verdicts = PROBLEM.graded("partly_right").verdicts
     assert {name: verdict.credit for name, verdict in verdicts.items()} == {
         "p4-potential_energy": 0.5,
         "p4-g_vec": 0.5,
@@ -321,13 +244,13 @@ def test_partly_right_answers_get_part_of_the_credit(release):
     }
 
 
-def test_a_crash_costs_its_own_cells_alone(release):
-    verdicts = grade(p4_gravity.crashing(release), SOURCE, "seed").verdicts
+def test_a_crash_costs_its_own_cells_alone():
+    verdicts = PROBLEM.graded("crashing").verdicts
     right = {name for name, verdict in verdicts.items() if verdict.state is State.CORRECT}
     assert right == {"p4-potential_energy", "p4-gravity_from_jacobians"}
 
 
-def test_variants_pass_in_a_graded_notebook(release):
+def test_variants_pass_in_a_graded_notebook():
     """One of each check's other styles, through the room and its wall."""
     bodies = {
         "potential_energy": ("p4-potential_energy", 8),
@@ -337,11 +260,9 @@ def test_variants_pass_in_a_graded_notebook(release):
     }
     answers = {}
     for name, (check_id, k) in bodies.items():
-        lines = RIGHT[check_id][k].strip("\n").splitlines()
-        body = "\n".join(f"    {line}" for line in lines)
-        answers[name] = f"import sympy as sp, scipy\ndef {CHECKS[check_id].signature}:\n{body}"
-    notebook = answered(release, **answers)
-    assert states(grade(notebook, SOURCE, "seed")) == {State.CORRECT}
+        answers[name] = "import sympy as sp, scipy\n" + function_of(check_id, RIGHT[check_id][k])
+    graded = grade(answered(PROBLEM.release, **answers), PROBLEM.source, "seed")
+    assert set(states(graded).values()) == {State.CORRECT}
 
 
 def test_the_visible_arms_do_not_decide():
@@ -354,7 +275,7 @@ def test_the_visible_arms_do_not_decide():
 
 
 def test_grade_ids_stay():
-    assert [grade_id(cell) for cell in SOURCE.cells if grade_id(cell)] == [
+    assert [grade_id(cell) for cell in PROBLEM.source.cells if grade_id(cell)] == [
         "p4-setup",
         "answer-potential_energy",
         "p4-potential_energy",

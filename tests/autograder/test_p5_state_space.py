@@ -1,29 +1,22 @@
 """p5-state-space: right answers in many styles pass at any seed; whole notebooks; the references."""
 
-from pathlib import Path
-
-import nbformat
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from armdyn import Planar2R
-from autograder.grade import grade
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
 from autograder.mistakes.p5_state_space import EXAMPLE, METHODS, explicit
-from autograder.nbgrader_glue import write_problem
 from autograder.problems import CHECKS
-from autograder.problems.p5_state_space import CHECKS as P5
 from autograder.problems.p5_state_space import LEAST_ORDER
 from autograder.systems import METHOD, FreeRun, exact_run, fitted, free_runs, rk4, run, smooth
 from autograder.verdict import State
-from autograder.wall import answer_all, real
-from tests.submissions import p5_state_space as submissions
+from autograder.wall import real
+from tests.autograder.judging import judged_in
+from tests.autograder.problems import problem
 
-ROOT = Path(__file__).parents[2]
-NAME = "p5-state-space"
-SOURCE = nbformat.read(ROOT / "solutions" / NAME / f"{NAME}.ipynb", as_version=4)
-SETUP = next(cell.source for cell in SOURCE.cells if cell.id == "p5-setup")
+PROBLEM = problem("p5-state-space")
+SETUP = next(cell.source for cell in PROBLEM.source.cells if cell.id == "p5-setup")
 
 RATES = {
     "solve": "return np.concatenate([qd, np.linalg.solve(M(q, arm), rest)])",
@@ -180,9 +173,7 @@ CASES = [(name, style) for name, variants in VARIANTS.items() for style in varia
 
 
 def judged(name, function, seed, count=HIDDEN_CASES):
-    return CHECKS[f"p5-{name}"].run(
-        lambda calls: answer_all(calls, {name: function}), np.random.default_rng(seed), count
-    )
+    return judged_in({name: function}, f"p5-{name}", seed, count)
 
 
 @pytest.mark.parametrize(("name", "style"), CASES)
@@ -288,54 +279,14 @@ def test_example_arm_is_that_of_the_notebook():
     assert all(np.array_equal(shown[key], value) for key, value in vars(EXAMPLE).items())
 
 
-def test_hints_and_shares():
-    for check in P5:
-        assert len(check.hints) == 3
-        assert sum(c.share for c in check.criteria) == pytest.approx(1)
-
-
-@pytest.fixture(scope="module")
-def release(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("release")
-    write_problem(ROOT, NAME, folder)
-    return nbformat.read(folder / f"{NAME}.ipynb", as_version=4)
-
-
-def states(graded):
-    return {name: verdict.state for name, verdict in graded.verdicts.items()}
-
-
-def test_solution_is_right_everywhere():
-    graded = grade(SOURCE, SOURCE, "seed")
-    assert graded.verdicts.keys() == submissions.POINTS.keys()
-    assert set(states(graded).values()) == {State.CORRECT}
-    assert graded.notes == ()
-
-
-def test_points_are_those_of_the_notebook():
-    points = {
-        cell.metadata.nbgrader.grade_id: cell.metadata.nbgrader.points
-        for cell in SOURCE.cells
-        if cell.metadata.get("nbgrader", {}).get("grade")
-    }
-    assert points == submissions.POINTS | {"p5-discussion": 5}
-    assert sum(points.values()) == 20
-
-
-def test_released_notebook_is_not_attempted(release):
-    graded = grade(submissions.blank(release), SOURCE, "seed")
-    assert set(states(graded).values()) == {State.NOT_ATTEMPTED}
+def test_released_notebook_says_what_comes_first():
+    graded = PROBLEM.graded("blank")
     printed = [o.text for c in graded.notebook.cells for o in c.get("outputs", []) if "text" in o]
     assert any("first, then run this cell again" in text for text in printed)
 
 
-def test_right_submission(release):
-    graded = grade(submissions.right(release), SOURCE, "seed")
-    assert set(states(graded).values()) == {State.CORRECT}, graded.verdicts
-
-
-def test_partly_right_submission(release):
-    verdicts = grade(submissions.partly_right(release), SOURCE, "seed").verdicts
+def test_partly_right_submission():
+    verdicts = PROBLEM.graded("partly_right").verdicts
     credits = {name: round(verdict.credit, 3) for name, verdict in verdicts.items()}
     assert credits == {
         "p5-f": 0.25, "p5-rk4_step": 0.25, "p5-simulate": 0.4, "p5-energy_drift": 0.35,
@@ -346,9 +297,8 @@ def test_partly_right_submission(release):
     assert "potential energy is missing" in str(verdicts["p5-energy_drift"])
 
 
-def test_wrong_submission_says_why(release):
-    verdicts = grade(submissions.wrong(release), SOURCE, "seed").verdicts
-    assert {verdict.state for verdict in verdicts.values()} == {State.INCORRECT}
+def test_wrong_submission_says_why():
+    verdicts = PROBLEM.graded("wrong").verdicts
     said = {name: verdict.diagnosis for name, verdict in verdicts.items()}
     assert said["p5-f"][0].startswith("The two halves of your ẋ are swapped.")
     assert said["p5-simulate"][0].startswith("All rows are x0: nothing moves.")

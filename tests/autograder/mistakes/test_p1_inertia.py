@@ -9,7 +9,6 @@ import pytest
 from autograder.definiteness import MATRICES, Kind, is_symmetric, least_eigenvalue
 from autograder.diagnosis import TOLERANCE
 from autograder.mistakes import p1_inertia
-from autograder.problems import CHECKS
 from autograder.verdict import State
 from tests.autograder.judging import assert_named, judged, sentences_of
 
@@ -764,10 +763,3 @@ def test_the_matrices_are_what_they_are_said_to_be(seed):
     assert [np.linalg.eigvalsh(A)[0] > 0 for A in skewed] == [True, False, False, True]
     assert [np.all(np.linalg.eigvals(A).real > 0) for A in skewed] == [False, True, True, True]
     assert [least_eigenvalue(A) > 0 for A in skewed] == [False, False, True, True]
-
-
-def test_criteria_add_up():
-    for check_id in ("p1-inertia_from_links", "p1-M", "p1-is_spd", "p1-singular_arm"):
-        check = CHECKS[check_id]
-        assert sum(criterion.share for criterion in check.criteria) == pytest.approx(1)
-        assert len(check.hints) == 3
