@@ -1,7 +1,6 @@
 """grade: a pure function of a submission, its source and a seed; its scores as nbgrader reads them."""
 
 import copy
-from pathlib import Path
 from types import SimpleNamespace
 from typing import ClassVar
 
@@ -17,44 +16,30 @@ from autograder import outputs
 from autograder.check import VISIBLE_SEED
 from autograder.grade import Sitting, grade, is_judged, stream
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
-from autograder.nbgrader_glue import outputs_for, write_problem
+from autograder.nbgrader_glue import outputs_for
 from autograder.problems import CHECKS
-from autograder.repair import grade_id
 from autograder.sandbox import RoomLostError
 from autograder.verdict import State, Verdict, Witness
 from autograder.wall import Call, Fault, FaultKind, Reply
+from tests.autograder.problems import problem, states, without_plots
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import cell_of
 from tests.submissions.p3_pendulum import POINTS, function
 
-ROOT = Path(__file__).parents[2]
 P3 = "p3-pendulum"
 
 
-def without_plots(notebook):
-    """A notebook that runs fast: what it shows off is not what is graded."""
-    shown = ("p3-euler-lagrange", "p3-swing-plot")
-    notebook.cells = [cell for cell in notebook.cells if grade_id(cell) not in shown]
-    return notebook
-
-
-SOURCE = without_plots(nbformat.read(ROOT / "solutions" / P3 / f"{P3}.ipynb", as_version=4))
+SOURCE = without_plots(problem(P3).source)
 
 
 @pytest.fixture(scope="module")
-def release(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("release")
-    write_problem(ROOT, P3, folder)
-    return without_plots(nbformat.read(folder / f"{P3}.ipynb", as_version=4))
+def release():
+    return without_plots(problem(P3).release)
 
 
 @pytest.fixture(scope="module")
 def wrong(release):
     return grade(p3_pendulum.wrong(release), SOURCE, "seed")
-
-
-def states(graded) -> dict[str, State]:
-    return {name: verdict.state for name, verdict in graded.verdicts.items()}
 
 
 def test_each_grade_cell_has_a_verdict_and_no_other(wrong):

@@ -4,35 +4,21 @@ import nbformat
 import pytest
 
 from autograder.grade import grade
-from autograder.nbgrader_glue import write_problem
-from autograder.repair import grade_id, repair
+from autograder.repair import repair
 from autograder.verdict import State
+from tests.autograder.problems import problem, states, without_plots
 from tests.submissions.answers import cell_of
-from tests.submissions.attack import ROOT
 from tests.submissions.honest import VARIANTS
 from tests.submissions.honest_styles import FILES
 from tests.submissions.p3_pendulum import POINTS
 
 P3 = "p3-pendulum"
-SOURCE = nbformat.read(ROOT / "solutions" / P3 / f"{P3}.ipynb", as_version=4)
-# What takes its time to draw; one variant keeps it.
-SHOWN_OFF = ("p3-euler-lagrange", "p3-swing-plot")
-
-
-def without_plots(notebook):
-    notebook.cells = [cell for cell in notebook.cells if grade_id(cell) not in SHOWN_OFF]
-    return notebook
+SOURCE = problem(P3).source
 
 
 @pytest.fixture(scope="module")
-def release(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("release")
-    write_problem(ROOT, P3, folder)
-    return nbformat.read(folder / f"{P3}.ipynb", as_version=4)
-
-
-def states(graded):
-    return {name: verdict.state for name, verdict in graded.verdicts.items()}
+def release():
+    return problem(P3).release
 
 
 ALL = dict.fromkeys(POINTS, State.CORRECT)
@@ -41,7 +27,7 @@ ALL = dict.fromkeys(POINTS, State.CORRECT)
 @pytest.mark.parametrize("edit", VARIANTS.values(), ids=VARIANTS)
 def test_honest_variants_lose_nothing(edit, release):
     submission = without_plots(edit(release))
-    graded = grade(submission, without_plots(nbformat.from_dict(SOURCE)), "seed")
+    graded = grade(submission, without_plots(SOURCE), "seed")
     assert states(graded) == ALL, "\n".join(map(str, graded.verdicts.values()))
     nbformat.validate(graded.notebook)
 
@@ -62,8 +48,8 @@ def test_a_student_sees_prints_plots_and_errors(release):
 
 @pytest.mark.parametrize("make", FILES.values(), ids=FILES)
 def test_honest_files_lose_nothing(make, release):
-    submission = nbformat.reads(make(without_plots(nbformat.from_dict(release))).decode(), 4)
-    graded = grade(submission, without_plots(nbformat.from_dict(SOURCE)), "seed")
+    submission = nbformat.reads(make(without_plots(release)).decode(), 4)
+    graded = grade(submission, without_plots(SOURCE), "seed")
     assert states(graded) == ALL
     assert graded.notes == ()
 

@@ -15,10 +15,11 @@ import pytest
 from autograder import grade as grading
 from autograder import sandbox
 from autograder.grade import grade
-from autograder.nbgrader_glue import outputs_for, write_problem
+from autograder.nbgrader_glue import outputs_for
 from autograder.repair import grade_id, is_locked
 from autograder.sandbox import Room, Way
 from autograder.verdict import State
+from tests.autograder.problems import problem, without_plots
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import cell_of
 from tests.submissions.attack import GOT, LISTENING, OUTSIDE, ROOT
@@ -31,7 +32,6 @@ from tests.submissions.hostile import (
 from tests.submissions.p3_pendulum import POINTS
 
 P3 = "p3-pendulum"
-SHOWN_OFF = ("p3-euler-lagrange", "p3-swing-plot")
 PR_SET_CHILD_SUBREAPER = 36
 WORDS_OF_THE_GUIDE = {
     "reads_the_solution": "the solutions",
@@ -50,19 +50,12 @@ WORDS_OF_THE_GUIDE = {
 }
 
 
-def without_plots(notebook):
-    notebook.cells = [cell for cell in notebook.cells if grade_id(cell) not in SHOWN_OFF]
-    return notebook
-
-
-SOURCE = without_plots(nbformat.read(ROOT / "solutions" / P3 / f"{P3}.ipynb", as_version=4))
+SOURCE = without_plots(problem(P3).source)
 
 
 @pytest.fixture(scope="module")
-def release(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("release")
-    write_problem(ROOT, P3, folder)
-    return without_plots(nbformat.read(folder / f"{P3}.ipynb", as_version=4))
+def release():
+    return without_plots(problem(P3).release)
 
 
 # The next submission is a right one, without what takes the longest to judge.

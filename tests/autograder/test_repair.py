@@ -3,7 +3,6 @@
 import copy
 import sys
 from collections import Counter
-from pathlib import Path
 
 import nbformat
 import pytest
@@ -11,14 +10,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from nbformat.v4 import new_code_cell, new_notebook
 
-from autograder.nbgrader_glue import write_problem
 from autograder.repair import MOST_NOTES, NEW_CELL, grade_id, is_locked, repair
+from tests.autograder.problems import problem
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import blank, cell_of
 
-ROOT = Path(__file__).parents[2]
 P3 = "p3-pendulum"
-SOURCE = nbformat.read(ROOT / "solutions" / P3 / f"{P3}.ipynb", as_version=4)
+SOURCE = problem(P3).source
 KNOWN = {grade_id(cell): cell for cell in SOURCE.cells if grade_id(cell)}
 INDEX = st.integers(0, 99)
 EDITS = st.one_of(
@@ -37,10 +35,8 @@ EDITS = st.one_of(
 
 
 @pytest.fixture(scope="module")
-def release(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("release")
-    write_problem(ROOT, P3, folder)
-    return nbformat.read(folder / f"{P3}.ipynb", as_version=4)
+def release():
+    return problem(P3).release
 
 
 def edit(notebook, edits):
