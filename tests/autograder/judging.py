@@ -50,6 +50,11 @@ def assert_told_apart(check: Check, seed: int) -> None:
         answers[mistake] = flat
 
 
+def assert_right(verdict: Verdict) -> None:
+    assert verdict.state is State.CORRECT, str(verdict)
+    assert (verdict.credit, verdict.diagnosis, verdict.witness) == (1, (), None)
+
+
 def assert_named(check_id: str, body: str, credit: float, *sentences: str) -> None:
     """This wrong answer gets exactly these sentences, this credit, and a witness with a unit."""
     verdict = judged(check_id, body)

@@ -17,7 +17,7 @@ from autograder.problems.c6_regressor import CHECKS as C6
 from autograder.problems.c6_regressor import LEAST_SHOWN, MOTIONS
 from autograder.repair import grade_id
 from autograder.verdict import State
-from tests.autograder.judging import function_of, judged, judged_in, namespace_of
+from tests.autograder.judging import assert_right, function_of, judged, judged_in, namespace_of
 from tests.autograder.problems import problem, states
 from tests.submissions.answers import answered
 
@@ -164,11 +164,7 @@ CASES = [(check_id, k) for check_id, variants in RIGHT.items() for k in range(le
 def test_right_in_any_style(check_id, k):
     body = RIGHT[check_id][k]
     for seed in range(3):
-        verdict = judged(check_id, body, seed, VISIBLE_CASES)
-        assert verdict.state is State.CORRECT, str(verdict)
-        assert verdict.credit == 1
-        assert verdict.diagnosis == ()
-        assert verdict.witness is None
+        assert_right(judged(check_id, body, seed, VISIBLE_CASES))
 
 
 def test_ten_variants_at_least():

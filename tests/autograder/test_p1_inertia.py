@@ -10,7 +10,7 @@ from autograder.judge import VISIBLE_CASES
 from autograder.problems import CHECKS
 from autograder.problems.p1_inertia import CHECKS as P1
 from autograder.verdict import State
-from tests.autograder.judging import judged, judged_in, namespace_of
+from tests.autograder.judging import assert_right, judged, judged_in, namespace_of
 from tests.autograder.problems import problem
 
 PROBLEM = problem("p1-inertia")
@@ -136,11 +136,7 @@ CASES = [(check_id, body) for check_id, variants in RIGHT.items() for body in va
 
 @pytest.mark.parametrize(("check_id", "body"), CASES)
 def test_right_in_any_style(check_id, body):
-    verdict = judged(check_id, body, seed=1)
-    assert verdict.state is State.CORRECT, str(verdict)
-    assert verdict.credit == 1
-    assert verdict.diagnosis == ()
-    assert verdict.witness is None
+    assert_right(judged(check_id, body, seed=1))
 
 
 def test_ten_variants_each():

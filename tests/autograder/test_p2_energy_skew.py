@@ -12,7 +12,7 @@ from autograder.problems import CHECKS
 from autograder.problems.p2_energy_skew import CHECKS as P2
 from autograder.verdict import State
 from autograder.wall import real
-from tests.autograder.judging import assert_told_apart, function_of, judged
+from tests.autograder.judging import assert_right, assert_told_apart, function_of, judged
 from tests.autograder.problems import problem
 
 PROBLEM = problem("p2-energy-skew")
@@ -140,9 +140,7 @@ CASES = [(check_id, body) for check_id, variants in RIGHT.items() for body in va
 
 @pytest.mark.parametrize(("check_id", "body"), CASES)
 def test_right_in_any_style(check_id, body):
-    verdict = judged(check_id, body, seed=1)
-    assert verdict.state is State.CORRECT, str(verdict)
-    assert (verdict.credit, verdict.diagnosis, verdict.witness) == (1, (), None)
+    assert_right(judged(check_id, body, seed=1))
 
 
 def test_ten_variants_at_least():

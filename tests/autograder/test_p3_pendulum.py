@@ -9,7 +9,7 @@ from autograder.judge import VISIBLE_CASES
 from autograder.problems import CHECKS
 from autograder.problems.p3_pendulum import CHECKS as P3
 from autograder.verdict import State
-from tests.autograder.judging import judged, judged_in, namespace_of
+from tests.autograder.judging import assert_right, judged, judged_in, namespace_of
 
 MGL = "pend.m * pend.g * pend.lc"
 RIGHT = {
@@ -92,11 +92,7 @@ CASES = [(check_id, returned) for check_id, variants in RIGHT.items() for return
 
 @pytest.mark.parametrize(("check_id", "returned"), CASES)
 def test_right_in_any_style(check_id, returned):
-    verdict = judged(check_id, returned, seed=1)
-    assert verdict.state is State.CORRECT, str(verdict)
-    assert verdict.credit == 1
-    assert verdict.diagnosis == ()
-    assert verdict.witness is None
+    assert_right(judged(check_id, returned, seed=1))
 
 
 @pytest.mark.parametrize("check_id", [c.id for c in P3 if c.id != "p3-lagrangian"])

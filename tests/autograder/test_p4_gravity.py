@@ -16,7 +16,14 @@ from autograder.problems import CHECKS
 from autograder.problems.p4_gravity import CHECKS as P4
 from autograder.repair import grade_id
 from autograder.verdict import State
-from tests.autograder.judging import assert_told_apart, function_of, judged, judged_in, namespace_of
+from tests.autograder.judging import (
+    assert_right,
+    assert_told_apart,
+    function_of,
+    judged,
+    judged_in,
+    namespace_of,
+)
 from tests.autograder.problems import problem, states
 from tests.submissions.answers import answered
 
@@ -133,11 +140,7 @@ def in_single_precision(body):
 @pytest.mark.parametrize(("check_id", "body"), CASES)
 def test_right_in_any_style(check_id, body):
     for seed in range(3):
-        verdict = judged(check_id, body, seed)
-        assert verdict.state is State.CORRECT, str(verdict)
-        assert verdict.credit == 1
-        assert verdict.diagnosis == ()
-        assert verdict.witness is None
+        assert_right(judged(check_id, body, seed))
 
 
 def test_ten_variants_at_least():

@@ -12,7 +12,7 @@ from autograder.problems.p5_state_space import LEAST_ORDER
 from autograder.systems import METHOD, FreeRun, exact_run, fitted, free_runs, rk4, run, smooth
 from autograder.verdict import State
 from autograder.wall import real
-from tests.autograder.judging import judged_in
+from tests.autograder.judging import assert_right, judged_in
 from tests.autograder.problems import problem
 
 PROBLEM = problem("p5-state-space")
@@ -179,9 +179,7 @@ def judged(name, function, seed, count=HIDDEN_CASES):
 @pytest.mark.parametrize(("name", "style"), CASES)
 def test_right_in_any_style(name, style):
     for seed in (1, 2):
-        verdict = judged(name, VARIANTS[name][style], seed)
-        assert verdict.state is State.CORRECT, str(verdict)
-        assert verdict.diagnosis == ()
+        assert_right(judged(name, VARIANTS[name][style], seed))
 
 
 @pytest.mark.parametrize(
