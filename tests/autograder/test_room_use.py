@@ -23,7 +23,8 @@ FILL = (
 @WALLED_WAYS
 def test_processes_that_share_out_a_memory_bomb_end_with_their_room(way):
     bomb = (
-        FILL + "for _ in range(5):\n    if os.fork() == 0: fill(); time.sleep(99)\ntime.sleep(60)"
+        FILL
+        + "for _ in range(5):\n    if os.fork() == 0: kept = fill(); time.sleep(99)\ntime.sleep(60)"
     )
     with Room(way) as room, pytest.raises(RoomLostError, match="more than 4 GiB of memory"):
         room.run(bomb, seconds=60)
