@@ -154,7 +154,10 @@ def _warm_up():
     axes.set(title="$q$", xlabel="t")
     axes.figure.savefig(io.BytesIO())
     matplotlib.pyplot.switch_backend(os.environ["MPLBACKEND"])
-    sympy.lambdify(sympy.Symbol("q"), sympy.sin(sympy.Symbol("q")))
+    q = sympy.Symbol("q", real=True)
+    matrix = sympy.simplify(sympy.Matrix([[1 - sympy.cos(q)]]).diff(q))  # these import on first use
+    for modules in (None, "numpy"):  # a student's own, and the wall's
+        sympy.lambdify(q, matrix, modules)
     sympy.core.cache.clear_cache()
     # Drawn anew by each process, and dummy symbols sort by it.
     sympy.Dummy._base_dummy_index = 10_000_000
