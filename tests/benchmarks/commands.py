@@ -24,7 +24,10 @@ FULL_MARKS = """
 
 @dataclass(frozen=True)
 class Spent:
-    """One run of a command, s: wall: until it ended; cpu: of it and of every process it started."""
+    """One run of a command, s: wall: until it ended; cpu: of it and of every process it started.
+
+    Sandboxed processes end unseen, and are not in `cpu`: it holds for runs that start none.
+    """
 
     wall: float
     cpu: float
@@ -74,11 +77,6 @@ class Line:
             walls = {size: round(spent.wall, 1) for size, spent in self.runs.items()}
             raise BusyMachineError(f"wall-clock times, s, by size: {walls}")
         return slope
-
-    @property
-    def each_cpu(self) -> float:
-        small, large = min(self.runs), max(self.runs)
-        return (self.runs[large].cpu - self.runs[small].cpu) / (large - small)
 
     @property
     def start(self) -> float:

@@ -183,8 +183,7 @@ def measured(subject: Subject, sizes: Sizes, is_first: bool) -> tuple[list[Row],
             f"{shown}: start-up {ours.start:.1f} s, nbgrader's {stock.start:.1f} s. The students' own "
             f"cells take {1000 * own:.0f} ms a submission in a warm kernel, which no grader can save: "
             f"{100 * own / int(JOBS) / ours.each:.0f} % of ours ({JOBS} jobs), "
-            f"{100 * own / stock.each:.0f} % of nbgrader's. Processor time, start-up apart: "
-            f"{1000 * ours.each_cpu:.0f} ms, nbgrader's {1000 * stock.each_cpu:.0f} ms."
+            f"{100 * own / stock.each:.0f} % of nbgrader's."
         ]
         if is_first:
             costs = " and ".join(f"{cost:.2f} s" for cost in stock.steps())
