@@ -87,7 +87,7 @@ def course(tmp_path_factory):
     course.nbgrader("collect", P3)
 
     for name in WHOLE:
-        course.submit(name, getattr(p3_pendulum, name)(release))
+        course.submit(name, p3_pendulum.CLASS[name](release))
     for name, (answer, _) in BAD_ANSWERS.items():
         course.submit(name, p3_pendulum.right_but(release, g_vec=answer))
     course.log = course.nbgrader("autograde", P3)

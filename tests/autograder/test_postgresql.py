@@ -54,7 +54,7 @@ def test_rows_are_those_of_sqlite(server, tmp_path, monkeypatch, capsys):
     url = f"postgresql+psycopg2://grader@/gradebook?host={server}"
     there = courses.new_course(tmp_path / "there")
     for name in ("right", "partly_right", "blank", "mangled"):
-        submit(there, name, getattr(p3_pendulum, name)(courses.release(there)))
+        submit(there, name, p3_pendulum.CLASS[name](courses.release(there)))
     submit(there, "invalid", '{"cells": [')
     here = tmp_path / "here"
     shutil.copytree(there, here)

@@ -31,7 +31,7 @@ def pair(tmp_path_factory):
         gradebook.grant_extension(P3, "excused", days=3)
     release = courses.release(theirs)
     for name in WHOLE:
-        submit(theirs, name, getattr(p3_pendulum, name)(release), ON_TIME)
+        submit(theirs, name, p3_pendulum.CLASS[name](release), ON_TIME)
     submit(theirs, "late", p3_pendulum.partly_right(release), LATE)
     submit(theirs, "excused", p3_pendulum.partly_right(release), LATE)
     folder = submit(theirs, "with_files", p3_pendulum.right(release)).parent

@@ -40,7 +40,7 @@ cells. {machine}.
 
 "Start-up apart" is the slope between two sizes of class, {ours} for ours and {stock} for nbgrader;
 the rest of the time is start-up. "Start-up included" is the time of the whole command by the size of
-the class; for nbgrader, its start-up and {size} times its slope. The first assignments are measured
+the class; for nbgrader, its start-up and {size} times its slope. The small notebook is measured
 {rounds} times, and the least counts; the others once, nbgrader's slope between {fewer} submissions.
 """
 
@@ -204,7 +204,7 @@ def main(arguments: list[str]) -> None:
     sizes = QUICK if quick else FULL
     rows, said = [], []
     for subject in subjects():
-        is_shown_in_full = subject.name in (start_here.ASSIGNMENT, "p3-pendulum")
+        is_shown_in_full = subject.name == start_here.ASSIGNMENT
         fewer = sizes if quick or is_shown_in_full else FEWER
         more = measured(subject, fewer, is_shown_in_full)
         rows += more[0]

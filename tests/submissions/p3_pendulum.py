@@ -2,7 +2,7 @@
 
 import copy
 
-from tests.submissions.answers import Answers, answered, cell_of
+from tests.submissions.answers import Answers, answered, blank, cell_of
 
 RIGHT = Answers(
     {
@@ -133,3 +133,7 @@ BAD_ANSWERS = {
         "g_vec(q, pend) raised TypeError: g_vec() takes 1 positional argument but 2 were given",
     ),
 }
+
+
+# A whole class, by what each has handed in.
+CLASS = {made.__name__: made for made in (right, wrong, partly_right, blank, crashing, mangled)}
