@@ -11,7 +11,7 @@ help:
 	@echo 'make lab       open JupyterLab on the first lesson; ARGS="--port=8899" goes to JupyterLab'
 	@echo 'make test      ruff, pytest, and every lesson and solution run again by nbval'
 	@echo 'make bench     time library, grading and feedback; writes docs/benchmarks.md'
-	@echo 'make lessons   run the lessons and store their outputs'
+	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
 
 lab: .venv/lab.done
@@ -26,6 +26,7 @@ test: .venv/$(TESTED).done
 
 lessons: .venv/$(TESTED).done
 	.venv/bin/python tests/notebooks/store_outputs.py lessons/*.ipynb
+	.venv/bin/python -m tests.notebooks.course_map docs/course-map.md
 
 bench: .venv/bench.done
 	.venv/bin/python -m tests.benchmarks.library docs/benchmarks.md
