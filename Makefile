@@ -1,4 +1,4 @@
-.PHONY: help lab test lessons bench
+.PHONY: help lab test lessons bench installed
 .SUFFIXES:
 
 ARGS =
@@ -23,6 +23,8 @@ test: .venv/$(TESTED).done
 	.venv/bin/ruff format --check
 	.venv/bin/python -m pytest
 	.venv/bin/python -m pytest --nbval lessons solutions
+
+installed: .venv/$(TESTED).done
 
 lessons: .venv/$(TESTED).done
 	.venv/bin/python tests/notebooks/store_outputs.py lessons/*.ipynb
