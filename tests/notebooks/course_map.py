@@ -132,15 +132,27 @@ def _found(name: str):
 
 
 def files_testing(name: str) -> list[str]:
-    """The test files of the module that a name comes from, and of each package around it."""
+    """The test files named after the module that a name comes from, or after a package around it.
+
+    Where there are none: those that import the name.
+    """
     found = _found(name)
     module = found.__name__ if inspect.ismodule(found) else getattr(found, "__module__", "")
-    return sorted(
-        str(path.relative_to(ROOT))
+    folders = [ROOT / "tests" / folder for folder in ("armdyn", "ports")]
+    files = [
+        path
         for part in module.split(".")[1:]
-        for folder in ("armdyn", "ports")
-        for path in (ROOT / "tests" / folder).glob(f"test_{part}*.py")
-    )
+        for folder in folders
+        for path in folder.glob(f"test_{part}*.py")
+    ]
+    imported = re.compile(rf"^from armdyn.* import .*\b{name.split('.')[0]}\b", re.MULTILINE)
+    files = files or [
+        path
+        for folder in folders
+        for path in folder.glob("test_*.py")
+        if imported.search(path.read_text(encoding="utf-8"))
+    ]
+    return sorted(path.relative_to(ROOT).as_posix() for path in files)
 
 
 def lessons() -> list[Path]:
