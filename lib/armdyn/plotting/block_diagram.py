@@ -1,7 +1,6 @@
 """A block diagram, drawn from its own blocks and wires."""
 
 from collections import defaultdict
-from itertools import pairwise
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -9,7 +8,7 @@ from matplotlib.patches import Rectangle
 
 from armdyn.plotting.style import LINES, OKABE_ITO
 
-WIDTH, GAP, PITCH, LANE = 1.3, 1.25, 0.5, 0.32
+WIDTH, GAP, PITCH, LANE, BRANCH = 1.3, 1.25, 0.5, 0.32, 0.55
 SYMBOLS = {"integrator": r"$\int$", "function": r"$f\,(\cdot)$", "time": r"$t$"}
 COLOURS = [OKABE_ITO[name] for name in LINES]
 MATHTEXT = {"qd": r"\dot q", "qdd": r"\ddot q"}
@@ -101,7 +100,10 @@ def _draw_block(ax, block, x, y) -> None:
         ax.plot(x + 0.5 * s - 0.1, y + 0.25 * np.sin(9 * s) * (1 - s), "k-", linewidth=1, zorder=4)
         ax.plot([x - 0.1, x - 0.1, x + 0.45], [y + 0.3, y - 0.3, y - 0.3], "k-", lw=0.8, zorder=4)
     else:
-        ax.text(x + 0.12 * named, y, _symbol(block), ha="center", va="center", zorder=4)
+        size = 16 if block.type == "integrator" else None
+        ax.text(
+            x + 0.12 * named, y, _symbol(block), ha="center", va="center", fontsize=size, zorder=4
+        )
     if named:
         for port in range(block.nin):
             name = _name(block.inport_name(port))
@@ -124,7 +126,7 @@ def _draw_wires(ax, diagram, columns, places) -> None:
     bottom = min(y - _height(block) / 2 for block, (_, y) in places.items()) - 2 * LANE
     lanes = {1: 0, -1: 0}
     outputs = list(dict.fromkeys((wire.start.block, wire.start.port) for wire in diagram.wirelist))
-    trunks = defaultdict(list)  # the heights that leave each output's branching point
+    trunks = defaultdict(list)  # the heights at which wires leave each output's vertical
     # The nearest first, so that a wire with a longer way runs outside of a shorter one.
     for wire in sorted(diagram.wirelist, key=lambda wire: abs(_span(wire, columns))):
         start, end, span = wire.start, wire.end, _span(wire, columns)
@@ -134,10 +136,10 @@ def _draw_wires(ax, diagram, columns, places) -> None:
         x1, y1 = places[end.block]
         x0, y0 = x0 + WIDTH / 2, y0 + _offset(start.port, start.block.nout)
         x1, y1 = x1 - WIDTH / 2, y1 + _offset(end.port, end.block.nin)
-        branch = x0 + 0.55
+        branch = x0 + BRANCH
         if span == 1:
             points = [(x0, y0), (branch, y0), (branch, y1), (x1, y1)]
-            trunks[x0, y0].append(np.sign(y1 - y0))
+            trunks[start.block, start.port].append(y1)
         else:
             side = 1 if span > 1 else -1
             lane = top + lanes[1] * LANE if side > 0 else bottom - lanes[-1] * LANE
@@ -146,7 +148,7 @@ def _draw_wires(ax, diagram, columns, places) -> None:
             passed = end.port if side > 0 else end.block.nin - 1 - end.port
             down = x1 - 0.25 - 0.15 * passed
             points = [(x0, y0), (branch, y0), (branch, lane), (down, lane), (down, y1), (x1, y1)]
-            trunks[x0, y0].append(2 * side)
+            trunks[start.block, start.port].append(lane)
         ax.plot(*zip(*points, strict=True), "-", color=colour, linewidth=1.4)
         ax.annotate(
             "",
@@ -159,10 +161,16 @@ def _draw_wires(ax, diagram, columns, places) -> None:
         x, y = places[block]
         x, y = x + WIDTH / 2, y + _offset(port, block.nout)
         ax.text(x + 0.08, y + 0.08, _name(block.outport_name(port)), color=colour, va="bottom")
-        if len(trunks[x, y]) > 1:
-            ax.plot(x + 0.55, y, "o", color=colour, markersize=5)
+        for level in _branches(y, trunks[block, port]):
+            ax.plot(x + BRANCH, level, "o", color=colour, markersize=5)
+
+
+def _branches(y, levels):
+    """The heights at which a vertical from y that wires leave at these levels branches."""
+    ends = {y, *levels}
+    inner = ends - {min(ends), max(ends)}
+    return inner | ({y} if levels.count(y) and len(ends) > 1 else set())
 
 
 def _span(wire, columns) -> int:
     return columns[wire.end.block] - columns[wire.start.block]
-
