@@ -78,7 +78,7 @@ def java() -> Toolchain:
     jars = sorted({str(jar.resolve()) for jar in folder.glob("ejml-*.jar")})
     compiled = os.pathsep.join([".", *jars])
     # -path: jars name others that are not there.
-    flags = ("-encoding", "UTF-8", "-Xlint:all,-path", "-cp", compiled)
+    flags = ("-encoding", "UTF-8", "-proc:none", "-Xlint:all,-path", "-cp", compiled)
     path = os.pathsep.join(["{folder}", *jars])
     return Toolchain(
         (str(compiler), *flags, "Driver.java"),
