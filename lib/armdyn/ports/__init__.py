@@ -25,7 +25,7 @@ p = 13; generated: derivation.parameters) and n joints, all vectors in order, a 
 Generated models have no friction: f is zero.
 """
 
-from armdyn.ports.calls import LANGUAGES, missing, run, simulate, start
+from armdyn.ports.calls import LANGUAGES, built, missing, run, simulate, start
 from armdyn.ports.program import Program, Terms
 from armdyn.ports.toolchain import BuildError, MissingToolError, ProgramError
 
@@ -36,6 +36,7 @@ __all__ = [
     "Program",
     "ProgramError",
     "Terms",
+    "built",
     "missing",
     "run",
     "simulate",

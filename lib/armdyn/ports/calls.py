@@ -2,6 +2,8 @@
 
 import dataclasses
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 
@@ -23,6 +25,15 @@ def missing(language: str) -> str | None:
     return missing_tool(_module(language).toolchain)
 
 
+def built(language: str, derivation: Derivation | None = None) -> Path:
+    """The folder with the sources of the program that `start` starts, and what was made of them.
+
+    Built now or kept from before; what the compiler said is in compiler.txt. Raises as `start`.
+    """
+    toolchain = _module(language).toolchain()
+    return build(_files(language, derivation), toolchain.compile, cache_folder() / "ports")
+
+
 def start(language: str, derivation: Derivation | None = None, *, seconds: float = 60) -> Program:
     """The program of the arm written by hand, or of what codegen writes for a derivation, started.
 
@@ -31,10 +42,8 @@ def start(language: str, derivation: Derivation | None = None, *, seconds: float
     Raises ValueError for an unknown language, MissingToolError, and BuildError with the compiler's
     own message.
     """
-    module = _module(language)
-    toolchain = module.toolchain()
-    files = module.hand_written() if derivation is None else module.generated(derivation)
-    folder = build(files, toolchain.compile, cache_folder() / "ports")
+    folder = built(language, derivation)
+    toolchain = _module(language).toolchain()
     n, count = (2, 13) if derivation is None else (derivation.n, len(derivation.parameters))
     return Program(Conversation(toolchain.started_in(folder), seconds=seconds), n, count)
 
@@ -88,6 +97,12 @@ def _module(language):
     if language not in _MODULES:
         raise ValueError(f"language = {language!r}: needs one of {', '.join(_MODULES)}")
     return _MODULES[language]
+
+
+@lru_cache(maxsize=32)  # to write a long chain takes seconds
+def _files(language, derivation):
+    module = _MODULES[language]
+    return module.hand_written() if derivation is None else module.generated(derivation)
 
 
 def _model(model, values, generated):

@@ -63,8 +63,11 @@ struct Planar2R {
   // The accelerations for the inputs u, rad/s^2. M is symmetric and positive definite, so that it
   // factors as L D L^T, without square roots. Throws std::domain_error where M(q) is singular.
   Vector dynamics(const Vector& q, const Vector& qd, const Vector& u) const {
-    const Eigen::LDLT<Matrix> factors = M(q).ldlt();
-    if (factors.vectorD().minCoeff() <= 0) throw std::domain_error("M(q) is singular");
+    const Matrix inertia = M(q);
+    const Eigen::LDLT<Matrix> factors = inertia.ldlt();
+    // A pivot as small as rounding is one of a singular matrix.
+    if (!(factors.vectorD().minCoeff() > 1e-15 * inertia.trace()))
+      throw std::domain_error("M(q) is singular");
     return factors.solve(u - C(q, qd) * qd - g_vec(q) - f_vec(qd));
   }
 };

@@ -1,5 +1,6 @@
 import org.ejml.data.DMatrixRMaj;
 import org.ejml.dense.row.factory.LinearSolverFactory_DDRM;
+import org.ejml.interfaces.decomposition.CholeskyDecomposition_F64;
 import org.ejml.interfaces.linsol.LinearSolverDense;
 import org.ejml.simple.SimpleMatrix;
 
@@ -15,6 +16,9 @@ public interface LinearSolver {
       LinearSolverDense<DMatrixRMaj> solver = LinearSolverFactory_DDRM.chol(A.numRows());
       // The factors take the place of the matrix that is given.
       if (!solver.setA(A.copy().getDDRM())) throw notPositiveDefinite();
+      CholeskyDecomposition_F64<DMatrixRMaj> factors = solver.getDecomposition();
+      DMatrixRMaj L = factors.getT(null);
+      for (int i = 0; i < L.numRows; ++i) checkPivot(L.get(i, i) * L.get(i, i), A);
       SimpleMatrix x = new SimpleMatrix(b.numRows(), b.numCols());
       solver.solve(b.getDDRM(), x.getDDRM());
       return x;
@@ -27,12 +31,18 @@ public interface LinearSolver {
       if (A.numRows() != 2) throw new IllegalArgumentException("needs two joints");
       double a11 = A.get(0, 0), a12 = A.get(0, 1), a22 = A.get(1, 1);
       double determinant = a11 * a22 - a12 * a12;
-      if (!(a11 > 0 && determinant > 0)) throw notPositiveDefinite();
+      checkPivot(a11, A);
+      checkPivot(determinant / a11, A);
       double b1 = b.get(0), b2 = b.get(1);
       double x1 = (a22 * b1 - a12 * b2) / determinant;
       double x2 = (a11 * b2 - a12 * b1) / determinant;
       return new SimpleMatrix(2, 1, true, new double[] {x1, x2});
     };
+  }
+
+  /** A pivot as small as rounding is one of a singular matrix. */
+  private static void checkPivot(double pivot, SimpleMatrix A) {
+    if (!(pivot > 1e-15 * A.trace())) throw notPositiveDefinite();
   }
 
   private static ArithmeticException notPositiveDefinite() {

@@ -65,7 +65,7 @@ class Conversation:
                 self._process.stdin.write(numbers.tobytes())
                 self._process.stdin.flush()
             answer = self._answer(at_most)
-        except ProgramError:
+        except BaseException:  # an interrupt too: half an answer would be read as the next
             self.close()
             raise
         finally:
