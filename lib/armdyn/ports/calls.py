@@ -11,12 +11,12 @@ from armdyn.codegen.build import cache_folder
 from armdyn.derive import Derivation, planar_chain
 from armdyn.models import Planar2R
 from armdyn.parameters import finite, state_vector
-from armdyn.ports import cpp, java, matlab
+from armdyn.ports import cpp, java, matlab, wolfram
 from armdyn.ports.program import Program, Terms
 from armdyn.ports.toolchain import Conversation, build
 from armdyn.ports.toolchain import missing as missing_tool
 
-_MODULES = {"cpp": cpp, "java": java, "matlab": matlab}
+_MODULES = {"cpp": cpp, "java": java, "matlab": matlab, "wolfram": wolfram}
 LANGUAGES = tuple(_MODULES)
 
 
