@@ -161,7 +161,13 @@ def test_an_interrupted_question_ends_the_program(monkeypatch):
             program.ask([2.0], at_most=1)
 
 
-COUNTING = [sys.executable, "-c", "open('made', 'x').write(open('a/in').read() * 2); print('hm')"]
+COMPILER = """
+made = open("a/in").read() * 2
+open("made", "x").write(made)
+open("../../../runs", "a").write(".")
+print("hm")
+"""
+COUNTING = [sys.executable, "-c", COMPILER]
 
 
 def test_built_once(tmp_path):
@@ -171,6 +177,7 @@ def test_built_once(tmp_path):
     (folder / "made").write_text("kept", encoding="utf-8")
     assert build({"a/in": "é"}, COUNTING, folder.parent) == folder
     assert (folder / "made").read_text(encoding="utf-8") == "kept"
+    assert (tmp_path / "new" / "runs").read_text(encoding="utf-8") == "."
     other = [
         build({"a/in": "e"}, COUNTING, folder.parent),
         build({"a/in": "é", "b": ""}, COUNTING, folder.parent),
@@ -187,7 +194,7 @@ def test_built_by_two_at_once(tmp_path):
 
     def one():
         together.wait()
-        folders.append(build({"a/in": "x"}, COUNTING, tmp_path))
+        folders.append(build({"a/in": "x"}, COUNTING, tmp_path / "cache"))
 
     threads = [threading.Thread(target=one) for _ in range(4)]
     for thread in threads:
@@ -195,7 +202,7 @@ def test_built_by_two_at_once(tmp_path):
     for thread in threads:
         thread.join()
     assert len(folders) == 4
-    assert list(tmp_path.iterdir()) == [folders[0]]
+    assert list((tmp_path / "cache").iterdir()) == [folders[0]]
 
 
 @pytest.mark.parametrize(
