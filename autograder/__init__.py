@@ -2,5 +2,6 @@
 
 from autograder.check import check
 from autograder.hints import hint
+from autograder.wall.languages import from_file
 
-__all__ = ["check", "hint"]
+__all__ = ["check", "from_file", "hint"]

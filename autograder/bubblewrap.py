@@ -6,6 +6,7 @@ import subprocess
 import sys
 import sysconfig
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 
 from autograder.room.namespaces import NOBODY, TMPFS_BYTES
@@ -13,6 +14,8 @@ from autograder.room.namespaces import NOBODY, TMPFS_BYTES
 log = logging.getLogger(__name__)
 
 HERE = Path(__file__).parent
+# Importing armdyn would load SciPy.
+TOOLCHAIN = Path(find_spec("armdyn").origin).parent / "ports" / "toolchain"
 INSIDE = {
     HERE / "room" / "runner.py": "runner.py",
     HERE / "room" / "forks.py": "forks.py",
@@ -22,6 +25,8 @@ INSIDE = {
     HERE / "room" / "stubs" / "autograder.py": "autograder.py",
     HERE / "room" / "stubs" / "armdyn.py": "armdyn.py",
     **{path: f"wall/{path.name}" for path in (HERE / "wall").glob("*.py")},
+    **{path: f"wall/languages/{path.name}" for path in (HERE / "wall" / "languages").glob("*.*")},
+    **{path: f"toolchain/{path.name}" for path in TOOLCHAIN.glob("*.py")},
 }
 ENVIRONMENT = {
     "HOME": "/tmp",
@@ -50,6 +55,10 @@ def bubblewrapped(script: str) -> tuple[list[str], dict[str, str]]:
             command += ["--ro-bind", folder, folder]
     for folder in python_folders():
         command += [*_parents(folder), "--ro-bind", folder, folder]
+    for link, target in alternatives().items():
+        command += [*_parents(link), "--symlink", target, link]
+    for path in java_settings():
+        command += [*_parents(path), "--ro-bind", path, path]
     for folder in _installed_packages():
         command += ["--tmpfs", folder]
     for path, name in INSIDE.items():
@@ -128,6 +137,27 @@ def python_folders() -> list[str]:
         if not any(Path(folder).is_relative_to(outer) for outer in ["/usr", *kept]):
             kept.append(folder)
     return kept
+
+
+# What Debian's compilers and Octave go through /etc for: two programs, and two libraries.
+CHOSEN = ("java", "javac", "libblas.so.3", "liblapack.so.3")
+# What a Java machine does not start without, where Debian keeps it in /etc.
+JAVA_READS = ("conf/security/java.security", "lib/jvm.cfg")
+
+
+def alternatives() -> dict[str, str]:
+    """Links of /etc/alternatives that a room needs, and where they point; all of it is in /usr."""
+    links = sorted(Path("/etc/alternatives").glob("*"))
+    chosen = [link for link in links if link.name.partition("-")[0] in CHOSEN]  # …-x86_64-linux-gnu
+    targets = {str(link): os.readlink(link) for link in chosen if link.is_symlink()}
+    return {link: target for link, target in targets.items() if target.startswith("/usr/")}
+
+
+def java_settings() -> list[str]:
+    """Files in /etc that are part of the Java of /usr/bin: readable by all, and the same anywhere."""
+    home = Path("/usr/bin/javac").resolve().parents[1]
+    files = {(home / name).resolve() for name in JAVA_READS}
+    return sorted(str(file) for file in files if file.is_file() and file.is_relative_to("/etc"))
 
 
 def _installed_packages() -> list[str]:

@@ -13,6 +13,7 @@ from importlib import metadata
 from importlib.util import find_spec
 from pathlib import Path
 
+SOURCES = {".py", ".cpp", ".hpp", ".java", ".m"}  # some are built around students' answers
 PACKAGES = ("ipython", "matplotlib", "nbformat", "numpy", "scipy", "sympy")
 
 
@@ -64,5 +65,5 @@ def code_version() -> str:
 
 
 def _sources(package: Path) -> Iterator[tuple[str, str]]:
-    for path in sorted(package.rglob("*.py")):
+    for path in sorted(path for path in package.rglob("*.*") if path.suffix in SOURCES):
         yield path.relative_to(package).as_posix(), path.read_text(encoding="utf-8")

@@ -1,6 +1,7 @@
 """grade(submission, source, seed): one notebook judged. No database, no nbgrader, no state."""
 
 import hashlib
+import json
 import logging
 import re
 import time
@@ -10,17 +11,22 @@ import numpy as np
 from nbformat import NotebookNode
 
 from autograder import outputs
-from autograder.judge import HIDDEN_CASES
+from autograder.judge import HIDDEN_CASES, CannotRunError
 from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
 from autograder.sandbox import Room, RoomLostError
 from autograder.verdict import State, Verdict
-from autograder.wall import Call, Fault, FaultKind, Reply
+from autograder.wall import Call, Fault, FaultKind, Reply, shortened
 
 log = logging.getLogger(__name__)
 
 # A notebook in which everything takes as long as it may must not hold up a batch.
 NOTEBOOK_SECONDS = 60.0
+MISSING = """
+import json
+from wall.languages import missing
+print(json.dumps(missing()))
+"""
 
 
 @dataclass(frozen=True)
@@ -139,7 +145,16 @@ class Sitting:
         except RoomLostError:
             self._room = None
             return [Reply(fault=limit if self._is_over() else Fault(FaultKind.DIED))]
+        last = replies[-1].fault
+        if last and last.kind is FaultKind.NO_TOOLS and last.message in self._missing():
+            raise CannotRunError(last.message)
         return [self._explained(calls[0].name, reply) for reply in replies]
+
+    def _missing(self) -> list[str]:
+        """What no answer in this language can be run without, by a room that has met no student."""
+        with self._new_room() as room:
+            (printed,) = room.run(MISSING)
+        return [shortened(line) for line in json.loads(printed["text"])]
 
     def _current(self):
         if self._room is None:
@@ -157,6 +172,6 @@ class Sitting:
         if reply.fault is None or reply.fault.kind is not FaultKind.MISSING:
             return reply
         for source, error in reversed(self._failed):
-            if re.search(rf"\bdef\s+{re.escape(name)}\b", source):
+            if re.search(rf"\bdef\s+{name}\b|^{name}\s*=", source, re.MULTILINE):
                 return Reply(fault=replace(reply.fault, kind=FaultKind.CELL_FAILED, message=error))
         return reply

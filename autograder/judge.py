@@ -31,6 +31,10 @@ HIDDEN_CASES = 24
 Ask = Callable[[list[Call]], list[Reply]]
 
 
+class CannotRunError(Exception):
+    """An answer cannot be run on the machine that judges, which is not its fault."""
+
+
 @dataclass(frozen=True)
 class Criterion:
     """One thing that is asked of an answer: in words, its unit, its share of the credit.
@@ -102,7 +106,10 @@ class Check:
                 raise ArithmeticError("the reference does not pass its own check")
         except Exception as error:
             return self._failed(error)
-        replies = ask(calls)
+        try:
+            replies = ask(calls)
+        except CannotRunError as error:
+            return self._failed(error)
         fault = next((reply.fault for reply in replies if reply.fault), None)
         if fault:
             return self._faulty(fault)

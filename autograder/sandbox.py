@@ -31,6 +31,8 @@ log = logging.getLogger(__name__)
 
 START_SECONDS = 60.0
 CELL_SECONDS = 10.0
+# Of a cell that has a program compiled: Eigen's headers alone take seconds of a busy machine.
+BUILD_SECONDS = 30.0
 # Over the limit inside by this much, the process is taken to be out of its own control.
 GRACE_SECONDS = 3.0
 # What a cell may show, and what one call may answer: more than the runner ever sends.
@@ -79,6 +81,8 @@ class Room:
         self.close()
 
     def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
+        if "from_file(" in source:
+            seconds = max(seconds, BUILD_SECONDS)
         self._send({"run": source, "seconds": seconds})
         message = self._receive(seconds + GRACE_SECONDS, MOST_BYTES, MOST_VALUES)
         outputs = message.get("outputs")
@@ -220,7 +224,7 @@ class ColdProcess:
 
 def _unwalled(folder: Path):
     for path, name in INSIDE.items():
-        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).parent.mkdir(exist_ok=True, parents=True)
         shutil.copy(path, folder / name)
     environment = ENVIRONMENT | {
         name: str(folder) for name in ("HOME", "IPYTHONDIR", "MPLCONFIGDIR", "TMPDIR")

@@ -10,13 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy.parsing.mathematica import parse_mathematica
 
+from armdyn import ports
 from armdyn.codegen.cpp import cpp
 from armdyn.codegen.java import java
 from armdyn.codegen.matlab import matlab
 from armdyn.codegen.wolfram import wolfram
 from armdyn.derive import Derivation, from_energies, planar_chain
+from armdyn.ports.toolchain import TOOLCHAINS, build
 from tests.armdyn.arms import a_few, between, inertias, lengths, masses, offsets, vectors
-from tests.armdyn.source_drivers import Conversation, cpp_program, java_program, octave_program
 
 UNDERFLOW = 1e-300
 PARAMETERS = {"l": lengths, "lc": offsets, "ly": offsets, "m": masses, "M": masses}
@@ -52,7 +53,11 @@ MODELS = {
     "Functions": functions(),
 }
 WRITERS = {"cpp": cpp, "java": java, "matlab": matlab, "wolfram": wolfram}
-PROGRAMS = {"cpp": cpp_program, "java": java_program, "octave": octave_program}
+PACKAGES = {
+    "cpp": ("g++", "libeigen3-dev"),
+    "java": ("default-jdk-headless", "libejml-java"),
+    "matlab": ("octave",),
+}
 
 
 def symbols_of(derivation):
@@ -85,21 +90,38 @@ def arms_states_inputs(draw, derivation):
     return values, *(draw(vectors(derivation.n)) for _ in range(3))
 
 
-@pytest.fixture(scope="module", params=PROGRAMS)
-def program(request, needs, tmp_path_factory):
-    folder = tmp_path_factory.mktemp(request.param)
-    with Conversation(PROGRAMS[request.param](MODELS, folder, needs)) as conversation:
-        yield conversation
+@pytest.fixture(scope="module", params=PACKAGES)
+def language(request, needs):
+    for package in PACKAGES[request.param]:
+        needs(package)
+    return request.param
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.fixture(scope="module", params=MODELS)
+def model(request, language):
+    """(name, its program): what is generated, built without a warning."""
+    derivation = MODELS[request.param]
+    said = ports.built(language, derivation) / "compiler.txt"
+    assert said.read_text(encoding="utf-8") == ""
+    with ports.start(language, derivation) as program:
+        yield request.param, program
+
+
 @a_few
 @given(data=st.data())
-def test_source_computes_the_derivation(program, name, data):
+def test_source_computes_the_derivation(model, data):
+    name, program = model
     n = MODELS[name].n
     values, q, qd, u = data.draw(arms_states_inputs(MODELS[name]))
-    answer = program([list(MODELS).index(name), *values, *q, *qd, *u])
-    found = np.split(np.array(answer), np.cumsum([n * n, n * n, n, 1]))
+    answer = program.terms(values, [*q, *qd], u)
+    assert not answer.f_vec.any()
+    found = [
+        answer.M.ravel(),
+        answer.C.ravel(),
+        answer.g_vec,
+        [answer.potential_energy],
+        answer.qdd,
+    ]
     with mpmath.workdps(340):
         exact = [part(*map(mpmath.mpf, (*values, *q, *qd))) for part in EXACT[name]]
         size = [np.array(part(*values, *q, *qd), float).ravel() for part in SIZES[name]]
@@ -116,6 +138,17 @@ def test_source_computes_the_derivation(program, name, data):
     assert np.all(
         np.abs(np.array([float(r) for r in residual])) <= 1e-12 * np.max(terms) + UNDERFLOW
     )
+
+
+def test_the_header_is_cpp_11(needs, tmp_path):
+    for package in PACKAGES["cpp"]:
+        needs(package)
+    files = {f"{name}.hpp": cpp(derivation, name) for name, derivation in MODELS.items()}
+    driver = "".join(f'#include "{name}"\n' for name in files)
+    command = ["-std=c++11" if p == "-std=c++17" else p for p in TOOLCHAINS["cpp"]().compile]
+    assert "-std=c++11" in command
+    folder = build(files | {"driver.cpp": driver}, [*command, "-fsyntax-only"], tmp_path)
+    assert (folder / "compiler.txt").read_text(encoding="utf-8") == ""
 
 
 def wolfram_values(source):

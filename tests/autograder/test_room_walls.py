@@ -7,7 +7,13 @@ from pathlib import Path
 import pytest
 
 from autograder import bubblewrap, warm
-from autograder.bubblewrap import HERE, INSIDE, python_folders
+from autograder.bubblewrap import (
+    HERE,
+    INSIDE,
+    alternatives,
+    java_settings,
+    python_folders,
+)
 from autograder.sandbox import Room
 from tests.autograder.rooms import WALLED_WAYS, appears, failed, gone, printed, sleeper
 
@@ -97,7 +103,9 @@ class TestWalls:
             "    found += [os.path.join(at, name) for name in files]\n"
             "print(*sorted(found))",
         )
-        assert found.split() == sorted(f"/room/{name}" for name in INSIDE.values())
+        assert found.split() == sorted(
+            [*(f"/room/{name}" for name in INSIDE.values()), *alternatives(), *java_settings()]
+        )
 
     def test_the_projects_packages_are_not_importable(self, room):
         found = printed(

@@ -5,5 +5,12 @@ def check(id, fresh=False):
     """Do nothing: grade cells are judged outside, on numbers."""
 
 
+def from_file(name):
+    """The function in a file of another language."""
+    from wall.languages import from_file
+
+    return from_file(name)
+
+
 def hint(id):
     """Do nothing: hints are for the one who writes."""

@@ -12,6 +12,7 @@ and points by shape, so that nothing rests on colour alone.
 
 from armdyn.plotting.animation import Animation
 from armdyn.plotting.arm import draw_arm, draw_trace, tip
+from armdyn.plotting.block_diagram import draw_block_diagram
 from armdyn.plotting.ellipse import draw_inertia_ellipse, inertia_ellipses
 from armdyn.plotting.landscape import energy_landscape
 from armdyn.plotting.phase import draw_phase, phase_portrait
@@ -30,6 +31,7 @@ __all__ = [
     "Animation",
     "Picture",
     "draw_arm",
+    "draw_block_diagram",
     "draw_inertia_ellipse",
     "draw_phase",
     "draw_trace",

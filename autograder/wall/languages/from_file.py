@@ -1,0 +1,149 @@
+"""from_file("M.cpp"): the student's function in another language, as a function of Python."""
+
+import difflib
+import os
+import sys
+import tempfile
+import weakref
+from contextlib import ExitStack
+from pathlib import Path
+
+import numpy as np
+
+from ..calls import CALL_SECONDS
+from ..readings import MOST_NUMBERS, FaultKind, NotNumbersError
+
+PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "g")
+BUILD_SECONDS = 25.0
+START_SECONDS = 15.0
+
+
+class MissingToolError(NotNumbersError):
+    """What is needed to run an answer in this language is not installed."""
+
+    def __init__(self, line: str):
+        super().__init__(FaultKind.NO_TOOLS, line)
+
+
+def from_file(name: str):
+    """The function that the file `name` defines, M(q, arm) or C(q, qd, arm), to be called from Python.
+
+    name: M.cpp, M.java or M.m, or the same with C. The file is built and started at once. Where that
+    fails, the cell shows why, and so does each call. FileNotFoundError where there is no such file,
+    ValueError for a name that no answer has.
+    """
+    from .language import ARGUMENTS, LANGUAGES  # no other notebook pays for it
+
+    path = Path(name)
+    if path.suffix not in LANGUAGES or path.stem not in ARGUMENTS:
+        known = [stem + suffix for stem in ARGUMENTS for suffix in LANGUAGES]
+        raise ValueError(f"{name!r} is no answer's file; these can be: {', '.join(known)}")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise FileNotFoundError(_no_file(path)) from None
+    return Function(path.stem, LANGUAGES[path.suffix], text)
+
+
+def missing() -> list[str]:
+    """What is not installed here, a line for each language whose answers cannot be run without it."""
+    from .language import LANGUAGES, toolchain
+
+    lines = [toolchain.missing(language.toolchain) for language in LANGUAGES.values()]
+    return [line for line in lines if line]
+
+
+def _no_file(path: Path) -> str:
+    there = [entry.name for entry in path.absolute().parent.glob("*") if entry.is_file()]
+    close = difflib.get_close_matches(path.name, there, n=1, cutoff=0.5)
+    meant = f"; there is a {close[0]}: is that it?" if close else ""
+    return (
+        f"there is no file {path}{meant} Was the cell with %%writefile {path} run before this one?"
+    )
+
+
+class Function:
+    """A student's function in another language. The program ends with it."""
+
+    def __init__(self, name: str, language, text: str):
+        from .language import ARGUMENTS, toolchain
+
+        self.__name__ = name
+        self._arguments = ARGUMENTS[name].split(", ")
+        self._language, self._toolchain = language, toolchain
+        self._files = language.files(name, text)
+        self._command = self._program = self._failed = None
+        try:
+            self._build()
+            self._start()
+        except toolchain.MissingToolError as error:
+            self._fail(MissingToolError(str(error)), str(error))
+        except toolchain.BuildError as error:
+            said = language.first_error(name, str(error))
+            self._fail(toolchain.BuildError(said), str(error))
+        except toolchain.ProgramError as error:
+            self._fail(error, str(error))
+
+    def __call__(self, *given):
+        if self._failed:
+            raise type(self._failed)(str(self._failed))
+        if len(given) != len(self._arguments):
+            wanted = ", ".join(self._arguments)
+            raise TypeError(f"{self.__name__}({wanted}) takes {len(self._arguments)} arguments")
+        *vectors, arm = given
+        vectors = [self._pair(*pair) for pair in zip(self._arguments, vectors, strict=False)]
+        numbers = [float(getattr(arm, name)) for name in PARAMETERS]
+        request = np.concatenate([*vectors, np.zeros(4 - 2 * len(vectors)), numbers])
+        if self._program is None:
+            self._start()
+        return self._ask(request)
+
+    def _pair(self, name, value):
+        value = np.asarray(value, dtype=float)
+        if value.size != 2:
+            raise ValueError(f"{name} has shape {value.shape}; two numbers are needed")
+        return value.ravel()
+
+    def _build(self):
+        found = self._language.toolchain()
+        self._folder = self._toolchain.build(self._files, found.compile, _cache(), BUILD_SECONDS)
+        self._command = found.started_in(self._folder)
+
+    def _start(self):
+        program = ExitStack()
+        self._program = program.enter_context(
+            self._toolchain.Conversation(self._command, self._folder, START_SECONDS)
+        )
+        self._end = weakref.finalize(self, program.close)
+        self._ask([])
+        # The wall's own limit comes first, where the system has one.
+        self._program.seconds = CALL_SECONDS + 1
+
+    def _ask(self, request):
+        whole = False
+        try:
+            answer = self._program.ask(request, at_most=MOST_NUMBERS)
+            whole = True
+        except self._toolchain.ProgramError as error:
+            how, _, said = str(error).replace(f"{self._folder}{os.sep}", "").partition(": ")
+            why = self._language.last_words(self.__name__, said)
+            raise self._toolchain.ProgramError(why or how) from None
+        finally:
+            if not whole:  # or whatever ended this call in the middle of an answer
+                self._end()
+                self._program = None
+        rows, columns = map(int, answer[:2])
+        return answer[2:].reshape(rows, columns)
+
+    def _fail(self, error, said):
+        self._failed = error
+        print(f"{next(iter(self._files))}: {said}", file=sys.stderr)
+
+
+def _cache() -> Path:
+    """Where built programs are kept: with those of armdyn, or in the room."""
+    try:
+        from armdyn.codegen.build import cache_folder
+    except ImportError:
+        return Path(tempfile.gettempdir()) / "built"
+    return cache_folder() / "answers"

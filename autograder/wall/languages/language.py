@@ -1,0 +1,124 @@
+"""What an answer looks like in each language, how it is built, and what its failures say."""
+
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+try:
+    from armdyn.ports import toolchain
+except ImportError:  # in the room, which armdyn is kept out of, it lies beside the wall
+    import toolchain
+
+HERE = Path(__file__).parent
+# The arguments of the functions that may be answered so.
+ARGUMENTS = {"M": "q, arm", "C": "q, qd, arm"}
+# In a room, memory and threads are few: a Java machine takes what it finds.
+JVM = (
+    "-XX:+UseSerialGC",
+    "-XX:TieredStopAtLevel=1",
+    "-XX:ActiveProcessorCount=1",
+    "-XX:-UsePerfData",
+    "-XX:ReservedCodeCacheSize=32m",
+    "-XX:CompressedClassSpaceSize=64m",
+    "-Xmx256m",
+)
+
+
+@dataclass(frozen=True)
+class Language:
+    """One of the languages.
+
+    key: its name among armdyn's ports. drivers: the files beside the student's, of which $NAME and
+    $ARGUMENTS are filled in. signature: of the student's function, of its name. failures: matches
+    what in a program's last words says why it ended; {file} and {name} are the student's.
+    """
+
+    key: str
+    suffix: str
+    drivers: tuple[str, ...]
+    signature: dict[str, str]
+    failures: str
+
+    def toolchain(self):
+        """How its programs are built and started here; MissingToolError says what to install."""
+        found = toolchain.TOOLCHAINS[self.key]()
+        if self.key == "cpp":  # a warning would stand before the error that matters
+            return replace(found, compile=(*found.compile, "-w"))
+        if self.key == "java":
+            compiler, *flags = found.compile
+            java, *options = found.start
+            return replace(
+                found,
+                compile=(compiler, *(f"-J{option}" for option in JVM), *flags),
+                start=(java, *JVM, *options),
+            )
+        return found
+
+    def files(self, name: str, text: str) -> dict[str, str]:
+        """The student's file with this text, and what stands around it."""
+        files = {name + self.suffix: text}
+        for driver in self.drivers:
+            source = (HERE / driver).read_text(encoding="utf-8")
+            source = source.replace("$NAME", name).replace("$ARGUMENTS", ARGUMENTS[name])
+            files[driver] = source
+        return files
+
+    def first_error(self, name: str, said: str) -> str:
+        """The first error of a compiler, with the place in the student's file."""
+        file = name + self.suffix
+        lines = said.splitlines()
+        at = next((k for k, line in enumerate(lines) if "error:" in line), None)
+        if at is None:
+            return said
+        error = lines[at].partition("error:")[2].strip()
+        # What javac could not find it names in the lines below.
+        below = [line.split() for line in lines[at + 1 : at + 5]]
+        error += "".join(f" ({' '.join(words)})" for words in below if words[:1] == ["symbol:"])
+        if lines[at].startswith(self.drivers[0]):
+            return f"{file} must define {self.signature[name]}: {error}"
+        # Of an error in a library's template, the lines around it lead to the student's.
+        around = [lines[at], *reversed(lines[:at]), *lines[at + 1 :]]
+        places = (re.search(rf"{re.escape(file)}:\d+(:\d+)?", line) for line in around)
+        place = next(filter(None, places), None)
+        return f"{place.group() if place else file}: {error}"
+
+    def last_words(self, name: str, said: str) -> str:
+        """Of what a program wrote before it ended, what says why."""
+        telling = self.failures.format(file=re.escape(name + self.suffix), name=name)
+        found = [match.group().strip() for match in re.finditer(telling, said, re.MULTILINE)]
+        return "; ".join(dict.fromkeys(found[:3]))
+
+
+LANGUAGES = {
+    language.suffix: language
+    for language in (
+        Language(
+            "cpp",
+            ".cpp",
+            ("driver.cpp", "arm.hpp"),
+            {
+                "M": "Eigen::Matrix2d M(const Eigen::Vector2d& q, const Arm& arm)",
+                "C": "Eigen::Matrix2d C(const Eigen::Vector2d& q, const Eigen::Vector2d& qd, "
+                "const Arm& arm)",
+            },
+            r"(?<=terminate called after throwing an instance of ).*|what\(\):.*|Assertion.*",
+        ),
+        Language(
+            "java",
+            ".java",
+            ("Driver.java", "Arm.java"),
+            {
+                "M": "class M with static SimpleMatrix M(SimpleMatrix q, Arm arm)",
+                "C": "class C with static SimpleMatrix C(SimpleMatrix q, SimpleMatrix qd, Arm arm)",
+            },
+            r"(?<=^Exception in thread \"main\" ).*|\({file}:\d+\)",
+        ),
+        Language(
+            "matlab",
+            ".m",
+            ("driver.m",),
+            {"M": "function value = M(q, arm)", "C": "function value = C(q, qd, arm)"},
+            r"(?<=^error: )(?!called from|ignoring).*|^ *{name} at line.*|^ *syntax error|^>>>.*",
+        ),
+    )
+}

@@ -1,0 +1,133 @@
+"""A running program that answers numbers with numbers.
+
+A message is a count and so many numbers, all as little-endian doubles, so that each arrives as it
+was. An answer opens with the eight bytes `numbers:`; whatever the program printed before them is
+text, kept apart: a forgotten print does no harm. The program reads the whole of a request before
+it answers, and ends when its input does.
+"""
+
+import contextlib
+import signal
+import subprocess
+import tempfile
+import threading
+
+import numpy as np
+
+from . import processes
+
+MARK = b"numbers:"
+DOUBLE = np.dtype("<f8")
+# More text than this before an answer is a program that will not answer.
+MOST_TEXT = 1 << 20
+SHOWN = 2000
+
+
+class ProgramError(RuntimeError):
+    """A program ended, hung or wrote what is no answer; the message has what it said."""
+
+
+class Conversation:
+    """A program, started once, that is asked and answers; a context manager that ends it.
+
+    command: its words. folder: where it runs; by default here. seconds: for each answer, and for
+    the start with the first. environment: by default this process's own.
+    """
+
+    def __init__(self, command, folder=None, seconds: float = 60, environment=None):
+        self.seconds = seconds
+        self._late = False
+        self._printed = bytearray()
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the conversation
+        pipe = subprocess.PIPE
+        try:
+            self._process = processes.start(
+                command, cwd=folder, env=environment, stdin=pipe, stdout=pipe, stderr=self._errors
+            )
+        except OSError as error:
+            self._errors.close()
+            raise ProgramError(f"the program does not start: {error}") from error
+
+    def ask(self, numbers, at_most: int) -> np.ndarray:
+        """The program's answer to these numbers, an array of at most so many.
+
+        Raises ProgramError where the program ends, takes more than `seconds`, or writes what is no
+        answer; the conversation is over then.
+        """
+        if self._process.returncode is not None:
+            raise ProgramError("the program has ended")
+        numbers = np.asarray(numbers, DOUBLE).ravel()
+        watch = threading.Timer(self.seconds, self._give_up)
+        watch.start()
+        try:
+            with contextlib.suppress(OSError):  # its end is seen where it is read
+                self._process.stdin.write(np.array([numbers.size], DOUBLE).tobytes())
+                self._process.stdin.write(numbers.tobytes())
+                self._process.stdin.flush()
+            answer = self._answer(at_most)
+        except BaseException:  # an interrupt too: half an answer would be read as the next
+            self.close()
+            raise
+        finally:
+            watch.cancel()
+        return answer
+
+    def said(self) -> str:
+        """The text that the program has written so far, to its output and then its errors."""
+        self._errors.seek(0)
+        text = bytes(self._printed) + self._errors.read()
+        return text.decode(errors="replace").strip()
+
+    def close(self) -> None:
+        """End the program and all that it started."""
+        if self._process.returncode is None:
+            processes.end(self._process)
+        for stream in (self._process.stdin, self._process.stdout):
+            with contextlib.suppress(OSError):
+                stream.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+        self._errors.close()
+
+    def _give_up(self):
+        self._late = True
+        processes.end(self._process)
+
+    def _answer(self, at_most):
+        mark = bytearray(self._read(len(MARK)))
+        while mark != MARK:
+            self._printed.append(mark.pop(0))
+            if len(self._printed) > MOST_TEXT:
+                raise ProgramError(f"the program writes text and no answer: {self._shown()}")
+            mark += self._read(1)
+        (count,) = np.frombuffer(self._read(DOUBLE.itemsize), DOUBLE)
+        if not 0 <= count <= at_most or count != int(count):
+            raise ProgramError(f"the program gave {count:g} numbers; at most {at_most} are due")
+        return np.frombuffer(self._read(int(count) * DOUBLE.itemsize), DOUBLE)
+
+    def _read(self, size):
+        found = self._process.stdout.read(size)
+        if len(found) == size:
+            return found
+        self._printed += found
+        processes.end(self._process, grace=1)
+        if self._late:
+            raise ProgramError(f"no answer within {self.seconds:g} s{self._quoted()}")
+        raise ProgramError(f"the program ended with {self._status()}{self._quoted()}")
+
+    def _status(self):
+        status = self._process.returncode
+        with contextlib.suppress(ValueError):
+            return signal.Signals(-status).name if status < 0 else f"exit status {status}"
+        return f"signal {-status}"
+
+    def _quoted(self):
+        return f": {shown}" if (shown := self._shown()) else ""
+
+    def _shown(self):
+        said = self.said()
+        return said if len(said) <= SHOWN else f"…{said[-SHOWN:]}"

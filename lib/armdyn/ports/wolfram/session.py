@@ -1,0 +1,77 @@
+"""A session of Mathics3 with an arm in it: asked in the Wolfram Language, read by SymPy."""
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.parsing.mathematica import parse_mathematica
+
+from armdyn.derive import Derivation, planar_chain
+from armdyn.ports import wolfram
+from armdyn.ports.calls import built
+from armdyn.ports.program import Program
+from armdyn.ports.toolchain import Conversation, ProgramError
+
+EVALUATE = 2
+MOST_LETTERS = 1_000_000
+
+
+class Session:
+    """Mathics3, started with planar_2r.wl, or with what codegen writes for a derivation.
+
+    A context manager, at whose end Mathics3 is ended. `program`: the Program that the same session
+    answers as, in numbers. seconds: the time limit of each answer; the start takes five to ten.
+    Raises ValueError for a derivation that cannot be written, and MissingToolError.
+    """
+
+    def __init__(self, derivation: Derivation | None = None, *, seconds: float = 60):
+        model = planar_chain(2) if derivation is None else derivation
+        self._model = model
+        # By hand, the four coefficients of friction besides.
+        count = len(model.parameters) + (4 if derivation is None else 0)
+        folder = built("wolfram", derivation)
+        command = wolfram.toolchain().started_in(folder)
+        self._conversation = Conversation(command, seconds=seconds)
+        self.program = Program(self._conversation, model.n, count)
+
+    def evaluate(self, text: str) -> str:
+        """The InputForm of what an expression in the Wolfram Language comes to.
+
+        Raises ProgramError with the messages of Mathics3, if there are any; it has ended then.
+        """
+        answer = self._conversation.ask([EVALUATE, *map(ord, text)], at_most=MOST_LETTERS)
+        return "".join(chr(int(letter)) for letter in answer)
+
+    def read(self, text: str):
+        """The value of an expression as SymPy reads it; lists become tuples.
+
+        Symbols are those of the derivation; by hand those of planar_chain(2), and of friction.
+        Raises ProgramError as `evaluate`, and where the value holds what is unknown to SymPy.
+        """
+        said = self.evaluate(text)
+        value = sp.sympify(parse_mathematica(said))
+        if unknown := value.atoms(AppliedUndef):
+            raise ProgramError(f"{text} came to {said}: SymPy does not know {unknown}")
+        return value.xreplace(self._symbols())
+
+    def derivation(self) -> Derivation:
+        """What Mathics3 has derived: M, C, g and P in symbols, without friction."""
+        M, C, g_vec, _, P = self.read("model`terms")
+        model = self._model
+        return Derivation(
+            model.q,
+            model.qd,
+            model.parameters,
+            sp.ImmutableMatrix(M),
+            sp.ImmutableMatrix(C),
+            sp.ImmutableMatrix(g_vec),
+            P,
+        )
+
+    def __enter__(self):
+        self.program.__enter__()
+        return self
+
+    def __exit__(self, *error):
+        self.program.__exit__(*error)
+
+    def _symbols(self):
+        return {sp.Symbol(name.name): symbol for symbol, name in wolfram.named(self._model).items()}
