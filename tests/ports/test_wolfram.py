@@ -176,10 +176,11 @@ def test_text_is_evaluated(session):
 def test_messages_of_mathics_end_the_program():
     if line := ports.missing("wolfram"):
         pytest.skip(line)
-    arm = Planar2R(1.0, 0.8, 0.5, 0.4, 2.0, 1.5, 0.2, 0.1)
-    points = replace(arm, lc1=0.0, I1=0.0, I2=0.0)
+    arm = Planar2R(1.0, 1.0, 0.5, 0.5, 2.0, 2.0, 0.2, 0.1)
+    points = replace(arm, lc1=0.0, I1=0.0, I2=0.0)  # M is exactly singular where q2 = 0
+    u = np.array([1.0, 0.0])
     with pytest.raises(ports.ProgramError, match="exit status 1: LinearSolve::nosol: "):
-        ports.run("wolfram", [arm, points], np.zeros((2, 4)), seconds=SECONDS)
+        ports.run("wolfram", [arm, points], np.zeros((2, 4)), u, seconds=SECONDS)
 
 
 def test_a_missing_mathics_is_one_line(monkeypatch):
