@@ -204,9 +204,13 @@ class TestFile:
 
     def test_a_changed_file_counts_when_it_is_read_again(self, notebook_folder, suffix):
         file = notebook_folder / "M.m"
-        file.write_text(answers.right("M", ".m"))
+        file.write_text(
+            answers.source("M", ".m", "if arm.g == 1, q(9); end\n" + answers.body("M", ".m"))
+        )
         M = from_file("M.m")
         file.write_text(answers.source("M", ".m", "value = [1 2; 3 4];"))
+        with pytest.raises(RuntimeError, match="out of bound"):
+            M([0, 0], SimpleNamespace(**vars(ARM) | {"g": 1}))  # its program is started again
         assert judged_in({"M": M}, "p1-M").state is State.CORRECT
         assert from_file("M.m")([0, 0], ARM).tolist() == [[1, 2], [3, 4]]
 
@@ -260,8 +264,8 @@ class TestMissing:
 
 
 def test_a_cell_that_builds_has_its_own_limit(warm):
-    assert warm.run("import time\n# from_file(\ntime.sleep(0.3)", 0.1) == []
-    assert failed(warm, "time.sleep(0.3)", 0.1).startswith("TimeoutError")
+    assert warm.run("import time\n# from_file(\ntime.sleep(1.5)", 0.5) == []
+    assert failed(warm, "time.sleep(1.5)", 0.5).startswith("TimeoutError")
 
 
 def test_no_answer_is_in_the_room(warm):
