@@ -10,7 +10,7 @@ LOG := .venv/install.log
 help:
 	@echo 'make lab       open JupyterLab on the first lesson; ARGS="--port=8899" goes to JupyterLab'
 	@echo 'make test      ruff, pytest, and every lesson and solution run again by nbval'
-	@echo 'make bench     time library, grading and feedback; writes docs/benchmarks.md'
+	@echo 'make bench     time library, ports, grading and feedback; writes docs/benchmarks.md'
 	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
 
@@ -32,6 +32,7 @@ lessons: .venv/$(TESTED).done
 
 bench: .venv/bench.done
 	.venv/bin/python -m tests.benchmarks.library docs/benchmarks.md
+	.venv/bin/python -m tests.benchmarks.ports docs/benchmarks.md
 	.venv/bin/python -m tests.benchmarks.grading docs/benchmarks.md
 	.venv/bin/python -m tests.benchmarks.checks docs/benchmarks.md
 
