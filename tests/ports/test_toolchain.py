@@ -67,6 +67,17 @@ while True:
         assert program.said() == "q is (3.0,)\nnumbersq is (3.0,)\nnumbers"
 
 
+def test_a_little_text_before_each_answer_is_never_too_much():
+    script = """
+while True:
+    print("a word" * 50_000, flush=True)
+    answer(request())
+"""
+    with conversation(script) as program:
+        for _ in range(5):
+            assert program.ask([1.0], at_most=1) == [1.0]
+
+
 @pytest.mark.parametrize(
     ("script", "message"),
     [

@@ -57,6 +57,7 @@ class Conversation:
         if self._process.returncode is not None:
             raise ProgramError("the program has ended")
         numbers = np.asarray(numbers, DOUBLE).ravel()
+        del self._printed[:-SHOWN]  # what is said before this answer is all that may be too much
         watch = threading.Timer(self.seconds, self._give_up)
         watch.start()
         try:
