@@ -1,4 +1,4 @@
-.PHONY: help lab test lessons bench installed
+.PHONY: help lab test lint tests notebooks lessons bench installed
 .SUFFIXES:
 
 ARGS =
@@ -18,10 +18,16 @@ lab: .venv/lab.done
 	@.venv/bin/autograder problems
 	@.venv/bin/autograder lab $(ARGS)
 
-test: .venv/$(TESTED).done
+test: lint tests notebooks
+
+lint: .venv/$(TESTED).done
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
+
+tests: .venv/$(TESTED).done
 	.venv/bin/python -m pytest
+
+notebooks: .venv/$(TESTED).done
 	.venv/bin/python -m pytest --nbval lessons solutions
 
 installed: .venv/$(TESTED).done

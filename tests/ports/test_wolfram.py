@@ -106,7 +106,7 @@ def test_the_kinetic_energy_is_that_of_the_inertia_matrix(session):
 
 
 def test_arms_by_hand(session):
-    assert_arms_agree(session.program, rows=150, seed=1)
+    assert_arms_agree(session.program, rows=1000, seed=1)
 
 
 def test_generated_arms(generated):
