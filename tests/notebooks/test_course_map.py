@@ -57,3 +57,12 @@ def turned(q): return arm.C(q, q)
 
     (_, used), *_ = names_used([Section("a", (Cell,))])
     assert used == ["Planar2R.C", "Planar2R.M", "properties.symmetry"]
+
+
+def test_lesson_00_tells_the_minutes_that_each_lesson_tells():
+    start, *others = lessons()
+    (table,) = (part.text for part in sections(start) if "The map of the course" in part.title)
+    for lesson in others:
+        (row,) = re.findall(rf"^.*\({lesson.name}\).*$", table, re.MULTILINE)
+        minutes = re.search(r"About (\d+) minutes", sections(lesson)[0].text)[1]
+        assert re.search(rf"\b{minutes}\b", row.rpartition(lesson.name)[2]), row
