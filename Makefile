@@ -1,4 +1,4 @@
-.PHONY: help lab test lint tests notebooks lessons bench installed
+.PHONY: help lab test lint tests-of-grading tests-of-the-rest notebooks lessons bench installed
 .SUFFIXES:
 
 ARGS =
@@ -18,14 +18,18 @@ lab: .venv/lab.done
 	@.venv/bin/autograder problems
 	@.venv/bin/autograder lab $(ARGS)
 
-test: lint tests notebooks
+test: lint tests-of-grading tests-of-the-rest notebooks
 
 lint: .venv/$(TESTED).done
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
 
-tests: .venv/$(TESTED).done
-	.venv/bin/python -m pytest
+# Most of its time it waits for rooms, browsers and servers: with --jobs=3, the rest runs beside it.
+tests-of-grading: .venv/$(TESTED).done
+	.venv/bin/python -m pytest tests/autograder tests/browser
+
+tests-of-the-rest: .venv/$(TESTED).done
+	.venv/bin/python -m pytest --ignore=tests/autograder --ignore=tests/browser
 
 notebooks: .venv/$(TESTED).done
 	.venv/bin/python -m pytest --nbval lessons solutions
