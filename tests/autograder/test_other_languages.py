@@ -66,6 +66,15 @@ def notebook_folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.fixture(scope="module")
+def rooms():
+    """Rooms of this file's own, as what is written and built stays in them."""
+    rooms = {}
+    yield rooms
+    for room in rooms.values():
+        room.close()
+
+
 @pytest.fixture
 def warm(rooms, needs):
     needs("bubblewrap")
