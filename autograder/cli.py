@@ -72,8 +72,9 @@ def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: 
 
 def report(root: Path, assignment: str) -> int:
     """Write the report on an assignment's class to course/report/, and a summary to the terminal."""
-    from autograder import lean, report  # noqa: F401  lean first
+    from autograder import lean  # noqa: F401  lean first
     from autograder.nbgrader_glue.class_list import read_class
+    from autograder.report import page, summary
 
     try:
         most, students = read_class(root, assignment)
@@ -83,8 +84,8 @@ def report(root: Path, assignment: str) -> int:
         return _complain(f"nobody has handed in {assignment}")
     to = root / "course" / "report" / f"{assignment}.html"
     to.parent.mkdir(exist_ok=True)
-    to.write_text(report.page(assignment, most, students), encoding="utf-8")
-    print(report.summary(most, students))
+    to.write_text(page(assignment, most, students), encoding="utf-8")
+    print(summary(most, students))
     print(f"The whole page: {to.relative_to(root)}")
     return 0
 
