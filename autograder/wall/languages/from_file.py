@@ -56,7 +56,7 @@ def missing() -> list[str]:
 def _no_file(path: Path) -> str:
     there = [entry.name for entry in path.absolute().parent.glob("*") if entry.is_file()]
     close = difflib.get_close_matches(path.name, there, n=1, cutoff=0.5)
-    meant = f"; there is a {close[0]}: is that it?" if close else ""
+    meant = f"; there is a {close[0]}: is that it?" if close else "."
     return (
         f"there is no file {path}{meant} Was the cell with %%writefile {path} run before this one?"
     )
