@@ -3,15 +3,13 @@
 import pytest
 
 from autograder.sandbox import Room, Way
+from tests.autograder import rooms as rooms_of_tests
 
 
 @pytest.fixture(scope="session")
 def rooms():
-    """One room of each kind, started when a test asks for it."""
-    rooms = {}
-    yield rooms
-    for room in rooms.values():
-        room.close()
+    with rooms_of_tests.kept() as rooms:
+        yield rooms
 
 
 @pytest.fixture
@@ -24,7 +22,4 @@ def way(request, needs) -> Way:
 
 @pytest.fixture
 def room(rooms, way) -> Room:
-    # A test that loses the room fails by itself, and takes no other along.
-    if way not in rooms or rooms[way].closed:
-        rooms[way] = Room(way)
-    return rooms[way]
+    return rooms_of_tests.room_of(rooms, way)

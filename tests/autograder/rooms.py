@@ -2,16 +2,33 @@
 
 import os
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
-from autograder.sandbox import Way
+from autograder.sandbox import Room, Way
 
 EVERY_WAY = pytest.mark.parametrize("way", list(Way), indirect=True, ids=lambda way: way.name)
 WALLED_WAYS = pytest.mark.parametrize(
     "way", [Way.WARM, Way.COLD], indirect=True, ids=lambda way: way.name
 )
+
+
+@contextmanager
+def kept():
+    """One room of each kind, started when a test asks for it, by `room_of`; closed at the end."""
+    rooms = {}
+    yield rooms
+    for room in rooms.values():
+        room.close()
+
+
+def room_of(rooms: dict, way: Way) -> Room:
+    # A test that loses the room fails by itself, and takes no other along.
+    if way not in rooms or rooms[way].closed:
+        rooms[way] = Room(way)
+    return rooms[way]
 
 
 def printed(room, source: str) -> str:

@@ -23,7 +23,7 @@ from autograder.wall import Call, FaultKind
 from tests.autograder.courses import run
 from tests.autograder.judging import judged, judged_in
 from tests.autograder.problems import problem
-from tests.autograder.rooms import failed, gone, printed
+from tests.autograder.rooms import failed, gone, kept, printed, room_of
 from tests.submissions import other_languages as answers
 from tests.submissions.other_languages import LANGUAGES
 
@@ -69,18 +69,14 @@ def notebook_folder(tmp_path, monkeypatch):
 @pytest.fixture(scope="module")
 def rooms():
     """Rooms of this file's own, as what is written and built stays in them."""
-    rooms = {}
-    yield rooms
-    for room in rooms.values():
-        room.close()
+    with kept() as rooms:
+        yield rooms
 
 
 @pytest.fixture
 def warm(rooms, needs):
     needs("bubblewrap")
-    if Way.WARM not in rooms or rooms[Way.WARM].closed:
-        rooms[Way.WARM] = Room(Way.WARM)
-    return rooms[Way.WARM]
+    return room_of(rooms, Way.WARM)
 
 
 def put(room, name, suffix, text) -> list[dict]:
@@ -181,7 +177,9 @@ class TestFile:
         (notebook_folder / "M.m").write_text(answers.right("M", ".m"))
         with pytest.raises(FileNotFoundError, match=r"no file C\.m; there is a M\.m: is that it\?"):
             from_file("C.m")
-        with pytest.raises(FileNotFoundError, match=r"the cell with %%writefile M\.cpp run"):
+        with pytest.raises(
+            FileNotFoundError, match=r"M\.cpp.* Was the cell with %%writefile M\.cpp run"
+        ):
             from_file("M.cpp")
         with pytest.raises(
             ValueError, match=r"'m\.m' is no answer's file; .*M\.cpp, M\.java, M\.m"
