@@ -1,4 +1,4 @@
-.PHONY: help lab test lint tests-of-grading tests-of-the-rest notebooks lessons bench installed
+.PHONY: help lab test lint lessons bench installed
 .SUFFIXES:
 
 ARGS =
@@ -9,7 +9,7 @@ LOG := .venv/install.log
 
 help:
 	@echo 'make lab       open JupyterLab on the first lesson; ARGS="--port=8899" goes to JupyterLab'
-	@echo 'make test      ruff, pytest, and every lesson and solution run again by nbval'
+	@echo 'make test      ruff, pytest, and every lesson and solution run again by nbval; ARGS="-k chain"'
 	@echo 'make bench     time library, ports, grading and feedback; writes docs/benchmarks.md'
 	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
@@ -18,21 +18,18 @@ lab: .venv/lab.done
 	@.venv/bin/autograder problems
 	@.venv/bin/autograder lab $(ARGS)
 
-test: lint tests-of-grading tests-of-the-rest notebooks
+# One run of pytest for all, on as many cores as there are: a part that fails keeps no other from running.
+test: .venv/$(TESTED).done
+	@failed=; \
+	$(lint) || failed=ruff; \
+	.venv/bin/python -m pytest --nbval --numprocesses=auto --dist=loadfile --no-loadscope-reorder \
+	  tests lessons solutions $(ARGS) || failed="$$failed pytest"; \
+	if [ -n "$$failed" ]; then echo "make test: failed:" $$failed >&2; exit 1; fi
 
 lint: .venv/$(TESTED).done
-	.venv/bin/ruff check
-	.venv/bin/ruff format --check
+	$(lint)
 
-# Most of its time it waits for rooms, browsers and servers: with --jobs=3, the rest runs beside it.
-tests-of-grading: .venv/$(TESTED).done
-	.venv/bin/python -m pytest tests/autograder tests/browser
-
-tests-of-the-rest: .venv/$(TESTED).done
-	.venv/bin/python -m pytest --ignore=tests/autograder --ignore=tests/browser
-
-notebooks: .venv/$(TESTED).done
-	.venv/bin/python -m pytest --nbval lessons solutions
+lint = .venv/bin/ruff check && .venv/bin/ruff format --check
 
 installed: .venv/$(TESTED).done
 

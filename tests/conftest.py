@@ -1,25 +1,45 @@
 """What every test runs under."""
 
 import os
+import re
 import shutil
+import sysconfig
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import settings
 
+# Debian keeps PostgreSQL's server off PATH; its client is on it.
+SERVERS = Path("/usr/lib/postgresql").glob("*/bin/initdb") if shutil.which("psql") else ()
 # Debian package → the names its program may have, or a file of a package without a program.
 PROGRAMS = {
     "bubblewrap": ("bwrap",),
     "chromium": ("chromium", "chromium-browser", "google-chrome"),
     "default-jdk-headless": ("javac",),
     "g++": ("g++",),
+    "gcc": ("gcc", "cc"),
     "libeigen3-dev": ("/usr/include/eigen3/Eigen/Dense",),
     "libejml-java": ("/usr/share/java/ejml-simple.jar",),
     "octave": ("octave-cli",),
     "make": ("make",),
-    "postgresql": ("initdb", *sorted(map(str, Path("/usr/lib/postgresql").glob("*/bin/initdb")))),
+    "postgresql": ("initdb", *sorted(map(str, SERVERS))),
+    "python3-dev": (str(Path(sysconfig.get_path("include"), "Python.h")),),
 }
+
+FIRST = (
+    "test_nbgrader.py",
+    "test_kills.py",
+    "test_wolfram.py",
+    "test_hostile_files.py",
+    "test_dask.py",
+    "test_student.py",
+    "test_record.py",
+    "test_hostile.py",
+    "test_honest.py",
+    "test_other_languages.py",
+    "test_agreement.py",
+)
 
 np.seterr(all="raise", under="ignore")  # underflow to zero is right for a decayed state
 
@@ -44,6 +64,15 @@ def needs():
     return path
 
 
+@pytest.fixture(scope="session")
+def compiler(needs):
+    """A C compiler that makes modules for this Python; on Windows setuptools looks for it."""
+    if os.name == "nt":
+        return
+    needs("gcc")
+    needs("python3-dev")
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
     return _without_skips((yield))
@@ -61,3 +90,27 @@ def _without_skips(report):
         report.outcome = "failed"
         report.longrepr = f"CI is set, where nothing may be skipped. {reason}"
     return report
+
+
+def pytest_collection_modifyitems(items):
+    """The files that take longest come first, so that no process has one left when the others end."""
+    items.sort(
+        key=lambda item: FIRST.index(item.path.name) if item.path.name in FIRST else len(FIRST)
+    )
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_terminal_summary(terminalreporter):
+    """Just above the last line: what to install for the tests that were skipped, each once."""
+    skipped = [report.longrepr[-1] for report in terminalreporter.stats.get("skipped", ())]
+    missing: dict[str, set[str]] = {}
+    for reason in map(str, skipped):
+        found = re.search(r"needs [^:]*: ((?:apt|pip) install .*?)(\S+)$", reason)
+        command, package = found.groups() if found else ("", reason.removeprefix("Skipped: "))
+        missing.setdefault(command, set()).add(package)
+    if missing:
+        terminalreporter.write_sep("-", f"{len(skipped)} skipped; to run them as well")
+    for reason in sorted(missing.pop("", ())):
+        terminalreporter.write_line(reason)
+    for command, packages in sorted(missing.items()):
+        terminalreporter.write_line(f"{command}{' '.join(sorted(packages))}")

@@ -136,6 +136,18 @@ def test_moved_checkout_gets_a_new_environment(machine):
     assert [line.split()[0] for line in machine.made()] == ["venv", "-m"] * 2
 
 
+def test_what_fails_keeps_nothing_else_from_running(machine):
+    machine.python()
+    assert machine.make(".venv/test.done").returncode == 0
+    with (machine.checkout / ".venv" / "bin" / "python").open("a") as python:
+        python.write('case "$*" in *pytest*) echo "$*" >>made; exit 1 ;; esac\n')
+    result = machine.make("test", "ARGS=-k chain")  # there is no ruff
+    assert result.returncode != 0
+    assert "-m pytest --nbval" in machine.made()[-1]
+    assert machine.made()[-1].endswith("tests lessons solutions -k chain")
+    assert "make test: failed: ruff pytest" in result.stderr
+
+
 def test_no_target_removes_anything():
     recipes = (ROOT / "Makefile").read_text()
     assert "clean:" not in recipes

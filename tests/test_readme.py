@@ -3,9 +3,13 @@
 import re
 from pathlib import Path
 
+import pytest
+
 README = Path(__file__).parents[1] / "README.md"
 
 
+# Its model is in C, or in NumPy with a word on what to install.
+@pytest.mark.filterwarnings("ignore:No working C compiler:RuntimeWarning")
 def test_example_runs(capsys, monkeypatch, tmp_path):
     monkeypatch.setenv("ARMDYN_CACHE", str(tmp_path))
     (example,) = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.S)

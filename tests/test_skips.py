@@ -1,4 +1,4 @@
-"""A test that lacks a program is skipped on a developer's machine and fails in CI."""
+"""A test that lacks a program is skipped, and the last lines say what to install; in CI it fails."""
 
 from pathlib import Path
 
@@ -9,8 +9,13 @@ pytest_plugins = ["pytester"]
 NEEDY = """
 import pytest
 
-def test_needy(needs):
-    needs("chromium")
+@pytest.mark.parametrize("program", ["chromium", "octave", "chromium"])
+def test_needy(needs, program):
+    needs(program)
+
+def test_in_need_of_a_library():
+    why = "needs no_such_module: pip install -c constraints.txt -e .[peers]"
+    pytest.importorskip("no_such_module", reason=why)
 
 def test_other():
     pass
@@ -29,19 +34,30 @@ def inner(pytester, monkeypatch):
     return pytester
 
 
-def test_skip_is_one_line_that_says_what_to_install(inner, monkeypatch):
+def test_the_last_lines_say_once_what_to_install(inner, monkeypatch):
     monkeypatch.delenv("CI", raising=False)
     inner.makepyfile(NEEDY)
-    result = inner.runpytest_inprocess("-rs")
-    result.assert_outcomes(passed=1, skipped=1, xfailed=1)
-    result.stdout.fnmatch_lines(["SKIPPED*needs chromium: apt install chromium"])
+    result = inner.runpytest_inprocess()
+    result.assert_outcomes(passed=1, skipped=4, xfailed=1)
+    *_, title, apt, pip, last = result.outlines
+    assert title.strip("- ") == "4 skipped; to run them as well"
+    assert apt == "apt install chromium octave"
+    assert pip == "pip install -c constraints.txt -e .[peers]"
+    assert "1 passed, 4 skipped" in last
 
 
-def test_skip_fails_in_ci(inner, monkeypatch):
+def test_another_reason_is_a_line_of_its_own(inner, monkeypatch):
+    monkeypatch.delenv("CI", raising=False)
+    inner.makepyfile("import pytest\n@pytest.mark.skip(reason='not on Tuesdays')\ndef test(): pass")
+    *_, _, why, _ = inner.runpytest_inprocess().outlines
+    assert why == "not on Tuesdays"
+
+
+def test_a_skip_fails_in_ci(inner, monkeypatch):
     monkeypatch.setenv("CI", "true")
     inner.makepyfile(NEEDY)
     result = inner.runpytest_inprocess()
-    result.assert_outcomes(passed=1, failed=1, xfailed=1)
+    result.assert_outcomes(passed=1, failed=4, xfailed=1)
     result.stdout.fnmatch_lines(["*nothing may be skipped*needs chromium: apt install chromium*"])
 
 

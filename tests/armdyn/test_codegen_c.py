@@ -35,10 +35,11 @@ def cache(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def arm():
+def arm(compiler):
     return c_model(planar_2r(), values(planar_2r()))
 
 
+@pytest.mark.usefixtures("compiler")
 @a_few
 @given(arms_and_states(planar_arms()))
 def test_agrees_with_the_closed_form(arm_and_states):
@@ -51,6 +52,7 @@ def test_agrees_with_the_closed_form(arm_and_states):
     assert_close(model.dynamics_many(q, qd, u), needed, spread, 1e-13)
 
 
+@pytest.mark.usefixtures("compiler")
 @pytest.mark.parametrize("name", ["spherical pendulum", "3 links, offsets"])
 def test_agrees_with_numpy(name):
     d = EXAMPLES[name]()
@@ -101,6 +103,7 @@ def test_out_must_fit(arm, out):
         arm.dynamics_many(*states(2, batch=(4,)), out=out)
 
 
+@pytest.mark.usefixtures("compiler")
 @pytest.mark.parametrize("size", [0.0, 1e-300, 1e-8, 1.0, 1e3, 0.99e6, 1.01e6, 1e15])
 def test_sine_and_cosine_at_any_angle(size):
     """A pendulum whose g is sin q and whose M needs cos q: C's own sine against NumPy's."""
@@ -251,6 +254,7 @@ def test_fastest_is_c_where_it_can_be(arm):
     assert isinstance(fastest_model(planar_2r(), arm.values), CompiledModel)
 
 
+@pytest.mark.usefixtures("compiler")
 def test_setuptools_builds_it_too(tmp_path):
     # The way taken on Windows, where only setuptools knows how to find the compiler.
     file = tmp_path / "armdyn_compiled.c"
@@ -277,6 +281,7 @@ def test_what_c_cannot_say_is_named():
         c_model(from_energies(qd**2, sp.besselj(0, q), [q], [qd]), {})
 
 
+@pytest.mark.usefixtures("compiler")
 @pytest.mark.parametrize("seed", range(6))
 def test_an_inertia_singular_by_cancellation_is_refused(seed):
     # Stretched out, with both masses at the ends of massless links: no entry of M is 0, its

@@ -13,6 +13,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 
+def library(module: str):
+    """The module of a library to compare with; skips where it is not installed."""
+    why = f"needs {module}: pip install -c constraints.txt -e .[peers]"
+    return pytest.importorskip(module, reason=why)
+
+
 @dataclass(frozen=True)
 class Peer:
     M: Callable
@@ -26,7 +32,7 @@ class Peer:
 
 
 def pinocchio(chain) -> Peer:
-    pin = pytest.importorskip("pinocchio")
+    pin = library("pinocchio")
     model = pin.Model()
     model.gravity.linear = np.array(chain.gravity)
     last = 0
@@ -44,7 +50,7 @@ def pinocchio(chain) -> Peer:
 
 def of_pinocchio(model, configuration=lambda q: q) -> Peer:
     """configuration(q): q as Pinocchio has it, which turns a continuous joint by its cos and sin."""
-    pin = pytest.importorskip("pinocchio")
+    pin = library("pinocchio")
     data = model.createData()
     at = configuration
 
@@ -75,7 +81,7 @@ def of_pinocchio(model, configuration=lambda q: q) -> Peer:
 
 def roboticstoolbox(chain) -> Peer:
     """Its joints turn about or move along z: each link's frame is turned so that its axis is z."""
-    rtb = pytest.importorskip("roboticstoolbox")
+    rtb = library("roboticstoolbox")
     links, turn = [], np.eye(3)
     for link in chain.links:
         placement = np.eye(4)
@@ -118,7 +124,7 @@ def roboticstoolbox(chain) -> Peer:
 
 def modern_robotics(chain) -> Peer:
     """Links by the frames at their centres of mass at q = 0, joints by their screws in the base."""
-    mr = pytest.importorskip("modern_robotics")
+    mr = library("modern_robotics")
     steps, inertias, screws = [], [], []
     before, joint = np.eye(4), np.eye(4)
     for link in chain.links:
@@ -146,7 +152,7 @@ def modern_robotics(chain) -> Peer:
 
 
 def mujoco(chain) -> Peer:
-    mj = pytest.importorskip("mujoco")
+    mj = library("mujoco")
     model = mj.MjModel.from_xml_string(mjcf(chain))
     data = mj.MjData(model)
 
@@ -211,9 +217,9 @@ def mjcf(chain) -> str:
 
 
 def drake(chain) -> Peer:
-    tree = pytest.importorskip("pydrake.multibody.tree")
-    MultibodyPlant = pytest.importorskip("pydrake.multibody.plant").MultibodyPlant
-    math = pytest.importorskip("pydrake.math")
+    tree = library("pydrake.multibody.tree")
+    MultibodyPlant = library("pydrake.multibody.plant").MultibodyPlant
+    math = library("pydrake.math")
     plant = MultibodyPlant(0.0)
     plant.mutable_gravity_field().set_gravity_vector(np.array(chain.gravity))
     last = plant.world_body()

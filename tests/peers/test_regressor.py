@@ -1,5 +1,4 @@
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -7,10 +6,11 @@ from armdyn.base_parameters import base_parameters
 from armdyn.regressor import parameters, regressor
 from tests.armdyn.arms import a_few, assert_close, vectors
 from tests.armdyn.chains import spatial_chains
+from tests.peers.built import library
 
 
 def in_pinocchio(chain):
-    pin = pytest.importorskip("pinocchio", reason="needs Pinocchio: pip install pin")
+    pin = library("pinocchio")
     joints = {
         "revolute": pin.JointModelRevoluteUnaligned,
         "prismatic": pin.JointModelPrismaticUnaligned,

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from armdyn.urdf import read_urdf
 from tests.armdyn.arms import assert_close, vectors
 from tests.armdyn.urdf_files import arms_of_parts, chain_file
-from tests.peers.built import of_pinocchio
+from tests.peers.built import library, of_pinocchio
 
 pytest.importorskip("yourdfpy")
-pin = pytest.importorskip("pinocchio")
+pin = library("pinocchio")
 
 # The file of each example is written over that of the one before.
 files = settings(
