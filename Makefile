@@ -1,4 +1,4 @@
-.PHONY: help lab test lint lessons bench installed
+.PHONY: help lab test test-all lint lessons bench installed
 .SUFFIXES:
 
 ARGS =
@@ -10,6 +10,7 @@ LOG := .venv/install.log
 help:
 	@echo 'make lab       open JupyterLab on the first lesson; ARGS="--port=8899" goes to JupyterLab'
 	@echo 'make test      ruff, pytest, and every lesson and solution run again by nbval; ARGS="-k chain"'
+	@echo 'make test-all  the same, and long tests that only repeat what short ones show'
 	@echo 'make bench     time library, ports, grading and feedback; writes docs/benchmarks.md'
 	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
@@ -25,6 +26,9 @@ test: .venv/$(TESTED).done
 	.venv/bin/python -m pytest --nbval --numprocesses=auto --dist=loadfile --no-loadscope-reorder \
 	  tests lessons solutions $(ARGS) || failed="$$failed pytest"; \
 	if [ -n "$$failed" ]; then echo "make test: failed:" $$failed >&2; exit 1; fi
+
+test-all:
+	@$(MAKE) test ARGS='-m "long or not long" $(ARGS)'
 
 lint: .venv/$(TESTED).done
 	$(lint)

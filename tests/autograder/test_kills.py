@@ -17,7 +17,6 @@ from tests.autograder.descendants import adopting
 from tests.submissions import start_here
 from tests.submissions.start_here import ASSIGNMENT
 
-STUDENTS, KILLS = 200, 20
 COMMAND = (Path(sys.executable).parent / "autograder", "grade", ASSIGNMENT, "--jobs", "2")
 SECONDS = 120.0  # for one run, on a busy machine
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="there is no SIGKILL on Windows")
@@ -26,6 +25,7 @@ pytestmark = pytest.mark.skipif(os.name == "nt", reason="there is no SIGKILL on 
 @dataclass(frozen=True)
 class Course:
     root: Path
+    students: int
 
     def start(self) -> subprocess.Popen:
         return subprocess.Popen(
@@ -71,7 +71,7 @@ class Durations:
         process = course.start()
         reach(course, process, 1)
         first = time.monotonic()
-        reach(course, process, STUDENTS)
+        reach(course, process, course.students)
         last = time.monotonic()
         assert process.wait(SECONDS) == 0
         return cls(first - begin, last - first, time.monotonic() - last)
@@ -84,25 +84,27 @@ def reach(course: Course, process: subprocess.Popen, count: int) -> None:
         time.sleep(0.001)
 
 
-def kill_points(rng: random.Random, took: Durations) -> list[tuple[int, float]]:
+def kill_points(
+    rng: random.Random, took: Durations, students: int, kills: int
+) -> list[tuple[int, float]]:
     """How many students are to be reached, and how long to wait then, s; one point in the tail.
 
     Uniform over the time that an undisturbed run takes. Those while it starts, which bring no run any
     further, lie anywhere between those while it works.
     """
     starting, working = [], []
-    for k in range(KILLS - 1):
-        at = (k + rng.random()) / (KILLS - 1) * (took.start + took.work)
+    for k in range(kills - 1):
+        at = (k + rng.random()) / (kills - 1) * (took.start + took.work)
         if at < took.start:
             starting.append((0, at))
         else:
-            done, part = divmod((at - took.start) / took.work * STUDENTS, 1)
-            working.append((int(done) + 1, part * took.work / STUDENTS))
+            done, part = divmod((at - took.start) / took.work * students, 1)
+            working.append((int(done) + 1, part * took.work / students))
     assert starting
     assert working
     for point in starting:
         working.insert(rng.randint(0, len(working)), point)
-    return [*working, (STUDENTS, rng.random() * took.tail)]
+    return [*working, (students, rng.random() * took.tail)]
 
 
 def kill(process: subprocess.Popen, with_group: bool) -> None:
@@ -126,11 +128,14 @@ def assert_part_of(course: Course, expected: dict[str, list[tuple]], texts: dict
     assert len(notebooks) <= len(course.judged())
 
 
-def test_killed_runs_go_on_to_the_same_gradebook(tmp_path):
+@pytest.mark.parametrize(
+    ("students", "kills"), [(60, 6), pytest.param(200, 20, marks=pytest.mark.long)]
+)
+def test_killed_runs_go_on_to_the_same_gradebook(tmp_path, students, kills):
     rng = random.Random(4)
     root = classes.new_course(tmp_path / "killed", ASSIGNMENT, start_here.source())
-    classes.hand_in(root, ASSIGNMENT, start_here, STUDENTS)
-    course, whole = Course(root), Course(tmp_path / "whole")
+    classes.hand_in(root, ASSIGNMENT, start_here, students)
+    course, whole = Course(root, students), Course(tmp_path / "whole", students)
     shutil.copytree(course.root, whole.root)
     judged, written, killed, rewritten = {}, {}, 0, 0
     with adopting() as processes:
@@ -138,9 +143,9 @@ def test_killed_runs_go_on_to_the_same_gradebook(tmp_path):
         processes.wait()
         expected = whole.rows()
         texts = {name: path.read_bytes() for name, path in whole.notebooks().items()}
-        for count, rest in kill_points(rng, took):
+        for count, rest in kill_points(rng, took, students, kills):
             process = course.start()
-            reach(course, process, min(max(count, course.begun() + 1), STUDENTS) if count else 0)
+            reach(course, process, min(max(count, course.begun() + 1), students) if count else 0)
             time.sleep(rest)
             kill(process, with_group=rng.random() < 0.5)
             killed += process.returncode == -signal.SIGKILL
@@ -153,10 +158,10 @@ def test_killed_runs_go_on_to_the_same_gradebook(tmp_path):
             written = now
         assert course.start().wait(SECONDS) == 0
         processes.wait()
-    assert killed >= KILLS - 1  # the one in the tail may come too late
+    assert killed >= kills - 1  # the one in the tail may come too late
     assert judged.items() <= course.judged().items()
-    assert rewritten <= KILLS  # by one writer, who was interrupted so often
+    assert rewritten <= kills  # by one writer, who was interrupted so often
     assert course.rows() == expected
-    assert len(expected["submitted_notebook"]) == STUDENTS
+    assert len(expected["submitted_notebook"]) == students
     assert course.files() == whole.files()
     assert not list((course.root / "course").rglob("*.part"))

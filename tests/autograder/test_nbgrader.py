@@ -8,17 +8,15 @@ import csv
 import getpass
 import html
 import json
-import os
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import nbformat
 import pytest
 from nbgrader.api import Gradebook
 
+from tests.autograder import courses
 from tests.submissions import p3_pendulum
 from tests.submissions.p3_pendulum import BAD_ANSWERS, POINTS
 
@@ -39,16 +37,7 @@ class Course:
 
     def nbgrader(self, *arguments: str, status: int = 0) -> str:
         """What the command printed; it must end with this status."""
-        result = subprocess.run(
-            [Path(sys.executable).parent / "nbgrader", *arguments],
-            cwd=self.root,
-            capture_output=True,
-            text=True,
-            env=os.environ | {"JUPYTER_DATA_DIR": str(self.root / "data")},
-        )
-        printed = result.stdout + result.stderr
-        assert result.returncode == status, printed
-        return printed
+        return courses.run(self.root, "nbgrader", *arguments, status=status)
 
     def notebook(self, path: str):
         return nbformat.read(self.root / path, as_version=4)

@@ -105,8 +105,9 @@ def test_the_kinetic_energy_is_that_of_the_inertia_matrix(session):
     assert_equal(session.read("kineticEnergy"), (qd.T * PLANAR_2R.M * qd)[0] / 2)
 
 
-def test_arms_by_hand(session):
-    assert_arms_agree(session.program, rows=1000, seed=1)
+@pytest.mark.parametrize("rows", [100, pytest.param(1000, marks=pytest.mark.long)])
+def test_arms_by_hand(session, rows):
+    assert_arms_agree(session.program, rows, seed=1)
 
 
 def test_generated_arms(generated):

@@ -1,0 +1,69 @@
+"""nbgrader's commands in forks of one process that has loaded nbgrader, which alone takes two seconds.
+
+A fork runs the main function of the installed `nbgrader` command in the folder, with the arguments and
+the environment that the command would be started with.
+"""
+
+import atexit
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from functools import cache
+from pathlib import Path
+
+
+def nbgrader(folder: Path, *arguments: str, **environment: str) -> tuple[int, str]:
+    """The exit status of an nbgrader command, and what it printed on stdout and stderr."""
+    server = _server()
+    with tempfile.NamedTemporaryFile("r", encoding="utf-8", errors="replace") as log:
+        request = {
+            "arguments": ["nbgrader", *arguments],
+            "folder": str(folder),
+            "environment": dict(os.environ) | environment,
+            "log": log.name,
+        }
+        server.stdin.write(json.dumps(request) + "\n")
+        server.stdin.flush()
+        status = int(server.stdout.readline())
+        return status, log.read()
+
+
+@cache
+def _server() -> subprocess.Popen:
+    server = subprocess.Popen(
+        [sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    atexit.register(server.stdin.close)
+    return server
+
+
+def serve() -> None:
+    from nbgrader.apps import nbgraderapp
+
+    import autograder.nbgrader_glue.preprocessors  # noqa: F401  what the course's settings name
+
+    for line in sys.stdin:
+        request = json.loads(line)
+        process = os.fork()
+        if process == 0:
+            _run(nbgraderapp.main, **request)
+        _, status = os.waitpid(process, 0)
+        print(os.waitstatus_to_exitcode(status), flush=True)
+
+
+def _run(main, arguments, folder, environment, log) -> None:
+    to = os.open(log, os.O_WRONLY | os.O_APPEND)
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    for stream in (1, 2):
+        os.dup2(to, stream)
+    os.chdir(folder)
+    os.environ.clear()
+    os.environ.update(environment)
+    sys.argv = arguments
+    sys.exit(main())
+
+
+if __name__ == "__main__":
+    serve()
