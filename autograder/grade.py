@@ -11,6 +11,7 @@ import numpy as np
 from nbformat import NotebookNode
 
 from autograder import outputs
+from autograder.cache import digest
 from autograder.judge import HIDDEN_CASES, CannotRunError
 from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
@@ -43,10 +44,12 @@ class Graded:
 def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
     """Run the submission's cells in a sandbox and judge its graded functions outside.
 
-    seed: decides the random cases; the same seed gives the same verdicts. Each check has its own
-    stream, so that adding a problem changes no other's cases. A grade cell that no check belongs
-    to gets no credit and says so. Where a sandbox is lost through no fault of the notebook's, that
-    is graded once more. OSError where that happens again, or no sandbox starts.
+    seed: decides the random cases, together with the code of the repaired notebook: the same
+    submission gets the same verdicts again, and what one hand-in was shown of its cases is of no use
+    to the next. Each check has its own stream, so that adding a problem changes no other's cases.
+    A grade cell that no check belongs to gets no credit and says so. Where a sandbox is lost through
+    no fault of the notebook's, that is graded once more. OSError where that happens again, or no
+    sandbox starts.
     """
     try:
         return _graded(submission, source, seed)
@@ -57,7 +60,7 @@ def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
 
 def _graded(submission, source, seed) -> Graded:
     notebook, notes = repair(submission, source)
-    verdicts = {}
+    verdicts, seed = {}, of_content(seed, notebook)
     with Sitting() as sitting:
         for cell in notebook.cells:
             if cell.cell_type != "code":
@@ -84,6 +87,11 @@ def is_judged(cell: NotebookNode) -> bool:
     """Whether the cell is graded by a check, not run, and not read by a person."""
     claims = cell.metadata.get("nbgrader") or {}
     return cell.cell_type == "code" and bool(claims.get("grade")) and not claims.get("solution")
+
+
+def of_content(seed: str, notebook: NotebookNode) -> str:
+    """The seed of this very code's cases: other code meets others, and no text around it counts."""
+    return digest(seed, *(cell.source for cell in notebook.cells if cell.cell_type == "code"))
 
 
 def stream(seed: str, name: str) -> np.random.Generator:
