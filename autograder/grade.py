@@ -16,6 +16,7 @@ from autograder.judge import HIDDEN_CASES, CannotRunError
 from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
 from autograder.sandbox import Room, RoomLostError
+from autograder.terminal import shown_name, shown_note
 from autograder.verdict import State, Verdict
 from autograder.wall import Call, Fault, FaultKind, Reply, shortened
 
@@ -77,7 +78,7 @@ def _graded(submission, source, seed) -> Graded:
                 problem = f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
             if verdict.state is State.CHECK_FAILED:
-                log.error("%s: %s", name, verdict.problem)
+                log.error("%s: %s", shown_name(name), shown_note(verdict.problem))
                 notes.append(f"{name} could not be judged: {verdict.problem}")
             verdicts[name] = verdict.without_inputs()
     return Graded(notebook, verdicts, tuple(notes))

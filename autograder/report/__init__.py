@@ -18,6 +18,7 @@ from autograder.card import LOOKS
 from autograder.outputs import read_verdict
 from autograder.problems import CHECKS
 from autograder.verdict import State
+from autograder.wall import one_line
 
 MOST_LINES = 10  # of mistakes in the terminal; the page has them all
 
@@ -51,15 +52,17 @@ def read_verdicts(notebook: Path) -> dict[str, dict]:
     """The verdicts in an autograded notebook, by check. ValueError where it cannot be read."""
     try:
         cells = nbformat.read(notebook, as_version=4).cells
-    except (OSError, UnicodeDecodeError, nbformat.reader.NotJSONError) as error:
-        raise ValueError(f"{notebook.name} cannot be read: {error}") from None
-    said = [
-        read_verdict(output)
-        for cell in cells
-        if cell.metadata.get("nbgrader", {}).get("grade")
-        for output in cell.get("outputs", [])
-    ]
-    return {one["check"]: one for one in said if one}
+        said = [
+            read_verdict(output)
+            for cell in cells
+            if cell.metadata.get("nbgrader", {}).get("grade")
+            for output in cell.get("outputs", [])
+        ]
+        return {one["check"]: one for one in said if one}
+    except (
+        Exception
+    ) as error:  # a file that is JSON may lack anything, or hold anything in its place
+        raise ValueError(f"{notebook.name} cannot be read: {one_line(str(error))}") from None
 
 
 def mistakes_made(students: Iterable[Student]) -> list[Made]:
