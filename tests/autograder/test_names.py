@@ -118,21 +118,6 @@ def test_no_name_is_a_formula_in_the_exported_table(course, tmp_path):
     assert {row["score"] for row in rows.values()} == {"10.0"}
 
 
-def test_a_failing_report_leaves_the_last_page(course, monkeypatch, capsys):
-    monkeypatch.chdir(course.root)
-    page = course.root / "course" / "report" / f"{P3}.html"
-    before = page.read_bytes()
-
-    def full(*arguments):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Path, "replace", full)
-    assert main(["report", P3]) == 2
-    assert capsys.readouterr().err == "autograder: [Errno 28] No space left on device\n"
-    assert page.read_bytes() == before
-    assert list(page.parent.iterdir()) == [page]
-
-
 NAMES = st.sets(
     (st.text(max_size=20).map(lambda text: text.encode(errors="ignore"))
      | st.binary(max_size=20) | st.text("a*?[]\n.\\", max_size=4).map(str.encode))
