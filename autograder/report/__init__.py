@@ -17,6 +17,7 @@ import nbformat
 from autograder.card import LOOKS
 from autograder.outputs import read_verdict
 from autograder.problems import CHECKS
+from autograder.terminal import shown_note
 from autograder.verdict import State
 from autograder.wall import one_line
 
@@ -119,5 +120,7 @@ def summary(most: float, students: list[Student]) -> str:
     if scores:
         lines[0] += f", mean {mean(scores):.3g}, median {median(scores):.3g} of {most:g} points"
     for one in mistakes_made(students)[:MOST_LINES]:
-        lines.append(f"{len(one.students):4d} × {one.check}: {one.name or one.sentence}")
+        lines.append(
+            f"{len(one.students):4d} × {shown_note(f'{one.check}: {one.name or one.sentence}')}"
+        )
     return "\n".join(lines)
