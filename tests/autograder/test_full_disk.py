@@ -6,11 +6,16 @@ import resource
 import shutil
 import subprocess
 from contextlib import contextmanager, suppress
+from pathlib import Path
 
 import pytest
+from nbgrader.converters import Autograde
+from nbgrader.converters.base import NbGraderException
+from nbgrader.coursedir import CourseDirectory
 
 from autograder.cli import main
 from autograder.files import put_in_place
+from autograder.nbgrader_glue.release import configuration
 from tests.autograder import courses
 from tests.autograder.courses import P3, files, rows, submit
 from tests.submissions import p3_pendulum
@@ -81,6 +86,14 @@ def test_a_file_that_does_not_fit_leaves_the_earlier_one(disk):
     assert list(disk.folder.iterdir()) == [path]
 
 
+def autograde_again(root: Path) -> None:
+    """`nbgrader autograde --force`, which removes the earlier notebooks first, in this process."""
+    config = configuration(root)
+    config.CourseDirectory.assignment_id = P3
+    config.Autograde.force = True
+    Autograde(coursedir=CourseDirectory(config=config), config=config).start()
+
+
 def test_what_was_graded_and_reported_stays(disk, monkeypatch, capsys):
     root = courses.new_course(disk.folder / "course")
     folder = submit(root, "ada", p3_pendulum.right(courses.release(root))).parent
@@ -95,6 +108,9 @@ def test_what_was_graded_and_reported_stays(disk, monkeypatch, capsys):
         return (*found, (root / "course" / "report" / f"{P3}.html").read_bytes())
 
     before, failures = state(), 0
+    with disk.left(0), pytest.raises(NbGraderException, match="nothing is changed"):
+        autograde_again(root)
+    assert state() == before
     for space in (0, 12 << 10, 30 << 10, 60 << 10, SIZE):
         capsys.readouterr()
         with disk.left(space):
