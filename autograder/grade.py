@@ -55,7 +55,7 @@ def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
     try:
         return _graded(submission, source, seed)
     except OSError as error:
-        log.warning("%s: the notebook is graded once more", error)
+        log.warning("%s: the notebook is graded once more", shown_note(str(error)))
         return _graded(submission, source, seed)
 
 

@@ -6,11 +6,12 @@ was judged is in the cache before it is recorded, so that a killed run goes on w
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tqdm import tqdm
 
+from autograder.alike import alike
 from autograder.cache import Cache, code_version, digest
 from autograder.executors import Cluster, Processes, outcomes
 from autograder.judging import judge, load
@@ -89,6 +90,10 @@ class _Run:
                 self._settle(student, outcome)
                 bar.update(len(self._lines) - bar.n)
             bar.update(len(self._lines) - bar.n)
+        for student, others in alike(self._lines).items():
+            note = f"reads like {', '.join(map(ascii, others))}: are these folders one student's?"
+            line = self._lines[student]
+            self._lines[student] = replace(line, notes=(*line.notes, note))
         return [self._lines[student] for student in self._submissions]
 
     def _tasks(self) -> Iterator[tuple[str, tuple[bytes, str, str]]]:

@@ -8,6 +8,7 @@ from autograder.nbgrader_glue.scores import outputs_for, with_verdicts
 from autograder.nbgrader_glue.steps import (
     FEEDBACK_EXPORTER,
     GRADES_EXPORTER,
+    LOG_FORMATTER,
     PAGE_FILTERS,
     SUBMISSION_EXPORTER,
     autograde_preprocessors,
@@ -18,6 +19,7 @@ from autograder.nbgrader_glue.steps import (
 __all__ = [
     "FEEDBACK_EXPORTER",
     "GRADES_EXPORTER",
+    "LOG_FORMATTER",
     "PAGE_FILTERS",
     "SUBMISSION_EXPORTER",
     "autograde_preprocessors",

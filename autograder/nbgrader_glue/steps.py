@@ -10,6 +10,8 @@ SUBMISSION_EXPORTER = "autograder.nbgrader_glue.submitted.SubmissionExporter"
 FEEDBACK_EXPORTER = "autograder.nbgrader_glue.feedback.FeedbackExporter"
 # For `export`.
 GRADES_EXPORTER = "autograder.nbgrader_glue.grades.GradesExporter"
+# For every command.
+LOG_FORMATTER = "autograder.nbgrader_glue.log.PlainFormatter"
 # For the formgrader and `generate_feedback`: what shows a student's text.
 PAGE_FILTERS = {"markdown2html": "autograder.nbgrader_glue.markdown.markdown2html"}
 

@@ -18,6 +18,7 @@ from nbgrader.api import Gradebook
 from nbgrader.converters import Autograde
 from nbgrader.coursedir import CourseDirectory
 
+from autograder.alike import alike
 from autograder.cli import main
 from autograder.nbgrader_glue import names
 from autograder.nbgrader_glue.grades import GradesExporter
@@ -32,6 +33,7 @@ UNFIT = {
     "red\x1b[31m": r"holds '\x1b', which no list can show",
     "\u202egpj": r"holds '\u202e', which no list can show",
     "b[1]": "holds [, which nbgrader takes for a pattern",
+    "B[1]": "holds [, which nbgrader takes for a pattern",
     "b?": "holds ?, which nbgrader takes for a pattern",
     "*": "holds *, which nbgrader takes for a pattern",
     ".hidden": "begins with a dot, and nbgrader overlooks it",
@@ -55,6 +57,7 @@ def course(tmp_path_factory):
     right = p3_pendulum.right(courses.release(root))
     for name in [*UNFIT, *FIT, "zoe"]:
         submit(root, name, right)
+    (root / "course" / "submitted" / "zoe" / P3 / "\x1b]0;data\x07.csv").touch()
     graded = ours(root, "grade", P3, "--jobs", "2", status=1)
     reported = ours(root, "report", P3)
     before = courses.rows(courses.database(root))
@@ -94,6 +97,17 @@ def test_an_unfit_name_has_a_line_of_its_own(course, name):
         assert f"{said} course/{step}" in printed
 
 
+def test_names_that_read_the_same_are_pointed_out(course):
+    for name in ("b[1]", "B[1]"):
+        assert f"reads like {name!a}: are these folders one student's?" in course.graded
+    assert course.graded.count("reads like") == 2
+
+
+@pytest.mark.parametrize("other", ["ADA é", "ada\u00a0e\u0301", " Ada É ", "\uff41da é"])
+def test_ids_read_the_same_but_for_case_spaces_and_forms(other):
+    assert alike(["ada é", "bob", other, "adae"]) == {"ada é": [other], other: ["ada é"]}
+
+
 def test_no_name_stops_the_others(course):
     for name in [*FIT, "zoe"]:
         page = course.root / "course" / "feedback" / name / P3 / f"{P3}.html"
@@ -104,7 +118,8 @@ def test_no_name_stops_the_others(course):
 
 
 def test_no_name_reaches_the_terminal_as_more_than_text(course):
-    for printed in (course.graded, course.reported):
+    assert r"\x1b]0;data\x07.csv ->" in course.autograded
+    for printed in (course.graded, course.reported, course.autograded, course.feedback):
         assert printed.replace("\n", "").isprintable()
 
 
@@ -127,7 +142,7 @@ NAMES = st.sets(
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a name is text")
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(NAMES)
 @example({b"*", b"ab", b"a\n", b"a[b]", b".x"})
 def test_nbgrader_is_left_with_exactly_the_fit_names(made):
