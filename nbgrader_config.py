@@ -39,8 +39,12 @@ c.GenerateAssignment.preprocessors = nbgrader_glue.generate_preprocessors()
 c.Autograde.sanitize_preprocessors = nbgrader_glue.sanitize_preprocessors()
 c.Autograde.autograde_preprocessors = nbgrader_glue.autograde_preprocessors()
 c.Autograde.exporter_class = nbgrader_glue.SUBMISSION_EXPORTER
+c.GenerateFeedback.exporter_class = nbgrader_glue.FEEDBACK_EXPORTER
 c.HTMLExporter.filters = nbgrader_glue.PAGE_FILTERS
+
+c.Application.logging_config = {"formatters": {"console": {"class": nbgrader_glue.LOG_FORMATTER}}}
 
 c.ClearSolutions.code_stub = {"python": "raise NotImplementedError  # your answer goes here"}
 c.ClearSolutions.text_stub = "*(your answer goes here)*"
-c.CsvExportPlugin.to = "course/grades.csv"
+c.ExportApp.plugin_class = nbgrader_glue.GRADES_EXPORTER
+c.ExportPlugin.to = "course/grades.csv"

@@ -13,6 +13,8 @@ from importlib import metadata
 from importlib.util import find_spec
 from pathlib import Path
 
+from autograder.files import PART, put_in_place
+
 SOURCES = {".py", ".cpp", ".hpp", ".java", ".m"}  # some are built around students' answers
 PACKAGES = ("ipython", "matplotlib", "nbformat", "numpy", "scipy", "sympy")
 
@@ -23,7 +25,7 @@ class Cache:
     def __init__(self, folder: Path):
         self._folder = folder
         folder.mkdir(parents=True, exist_ok=True)
-        for left in folder.rglob("*.part"):
+        for left in folder.rglob(f"*{PART}"):
             left.unlink()
 
     def load(self, name: str) -> dict | None:
@@ -37,9 +39,7 @@ class Cache:
     def store(self, name: str, entry: dict) -> None:
         path = self._path(name)
         path.parent.mkdir(parents=True, exist_ok=True)
-        part = path.with_suffix(".part")
-        part.write_text(json.dumps(entry), encoding="utf-8")
-        part.replace(path)
+        put_in_place(path, json.dumps(entry))
 
     def _path(self, name: str) -> Path:
         return self._folder / f"{name}.json"

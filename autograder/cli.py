@@ -5,6 +5,8 @@ import os
 import sys
 from pathlib import Path
 
+from autograder.terminal import say
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a subcommand; its exit status."""
@@ -66,27 +68,28 @@ def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: 
         return _complain("stopped; the same command goes on from here", 130)
     if not lines:
         return _complain(f"nobody has handed in {assignment}")
-    print(pipeline.table(lines))
+    say(pipeline.table(lines))
     return 0 if all(line.graded for line in lines) else 1
 
 
 def report(root: Path, assignment: str) -> int:
     """Write the report on an assignment's class to course/report/, and a summary to the terminal."""
     from autograder import lean  # noqa: F401  lean first
+    from autograder.files import put_in_place
     from autograder.nbgrader_glue.class_list import read_class
     from autograder.report import page, summary
 
     try:
         most, students = read_class(root, assignment)
-    except ValueError as error:
+        if not students:
+            return _complain(f"nobody has handed in {assignment}")
+        to = root / "course" / "report" / f"{assignment}.html"
+        to.parent.mkdir(exist_ok=True)
+        put_in_place(to, page(assignment, most, students))
+    except (OSError, ValueError) as error:
         return _complain(str(error))
-    if not students:
-        return _complain(f"nobody has handed in {assignment}")
-    to = root / "course" / "report" / f"{assignment}.html"
-    to.parent.mkdir(exist_ok=True)
-    to.write_text(page(assignment, most, students), encoding="utf-8")
-    print(summary(most, students))
-    print(f"The whole page: {to.relative_to(root)}")
+    say(summary(most, students))
+    say(f"The whole page: {to.relative_to(root)}")
     return 0
 
 
@@ -96,15 +99,15 @@ def problems(root: Path) -> int:
         folder = root / "problems" / source.parent.name
         shown = (folder / source.name).relative_to(root)
         if (folder / source.name).exists():
-            print(f"{shown}: kept as it is, it is yours; move it away for a new one")
+            say(f"{shown}: kept as it is, it is yours; move it away for a new one")
             continue
         from autograder.nbgrader_glue import write_problem  # imports nbgrader, which takes seconds
 
         write_problem(root, source.parent.name, folder)
-        print(f"{shown}: written")
+        say(f"{shown}: written")
     return 0
 
 
 def _complain(what: str, status: int = 2) -> int:
-    print(f"autograder: {what}", file=sys.stderr)
+    say(f"autograder: {what}", sys.stderr)
     return status

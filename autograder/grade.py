@@ -11,10 +11,12 @@ import numpy as np
 from nbformat import NotebookNode
 
 from autograder import outputs
+from autograder.cache import digest
 from autograder.judge import HIDDEN_CASES, CannotRunError
 from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
 from autograder.sandbox import Room, RoomLostError
+from autograder.terminal import shown_name, shown_note
 from autograder.verdict import State, Verdict
 from autograder.wall import Call, Fault, FaultKind, Reply, shortened
 
@@ -43,21 +45,23 @@ class Graded:
 def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
     """Run the submission's cells in a sandbox and judge its graded functions outside.
 
-    seed: decides the random cases; the same seed gives the same verdicts. Each check has its own
-    stream, so that adding a problem changes no other's cases. A grade cell that no check belongs
-    to gets no credit and says so. Where a sandbox is lost through no fault of the notebook's, that
-    is graded once more. OSError where that happens again, or no sandbox starts.
+    seed: decides the random cases, together with the code of the repaired notebook: the same
+    submission gets the same verdicts again, and what one hand-in was shown of its cases is of no use
+    to the next. Each check has its own stream, so that adding a problem changes no other's cases.
+    A grade cell that no check belongs to gets no credit and says so. Where a sandbox is lost through
+    no fault of the notebook's, that is graded once more. OSError where that happens again, or no
+    sandbox starts.
     """
     try:
         return _graded(submission, source, seed)
     except OSError as error:
-        log.warning("%s: the notebook is graded once more", error)
+        log.warning("%s: the notebook is graded once more", shown_note(str(error)))
         return _graded(submission, source, seed)
 
 
 def _graded(submission, source, seed) -> Graded:
     notebook, notes = repair(submission, source)
-    verdicts = {}
+    verdicts, seed = {}, of_content(seed, notebook)
     with Sitting() as sitting:
         for cell in notebook.cells:
             if cell.cell_type != "code":
@@ -74,7 +78,7 @@ def _graded(submission, source, seed) -> Graded:
                 problem = f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
             if verdict.state is State.CHECK_FAILED:
-                log.error("%s: %s", name, verdict.problem)
+                log.error("%s: %s", shown_name(name), shown_note(verdict.problem))
                 notes.append(f"{name} could not be judged: {verdict.problem}")
             verdicts[name] = verdict.without_inputs()
     return Graded(notebook, verdicts, tuple(notes))
@@ -84,6 +88,11 @@ def is_judged(cell: NotebookNode) -> bool:
     """Whether the cell is graded by a check, not run, and not read by a person."""
     claims = cell.metadata.get("nbgrader") or {}
     return cell.cell_type == "code" and bool(claims.get("grade")) and not claims.get("solution")
+
+
+def of_content(seed: str, notebook: NotebookNode) -> str:
+    """The seed of this very code's cases: other code meets others, and no text around it counts."""
+    return digest(seed, *(cell.source for cell in notebook.cells if cell.cell_type == "code"))
 
 
 def stream(seed: str, name: str) -> np.random.Generator:

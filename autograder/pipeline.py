@@ -6,16 +6,18 @@ was judged is in the cache before it is recorded, so that a killed run goes on w
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tqdm import tqdm
 
+from autograder.alike import alike
 from autograder.cache import Cache, code_version, digest
 from autograder.executors import Cluster, Processes, outcomes
 from autograder.judging import judge, load
 from autograder.lock import locked
 from autograder.sandbox import borrow, lend
+from autograder.terminal import shown_name, shown_note
 from autograder.wall import one_line
 
 CACHE = Path("course") / "cache-of-results"
@@ -61,7 +63,7 @@ def grade_all(
         locked(root / LOCK, f"another `autograder grade` is at work in {root}"),
         Cluster(scheduler) if scheduler else Processes(jobs, PRELOAD, lend, borrow) as pool,
     ):
-        if force or not (root / CACHE / _done(assignment, "")).parent.exists():
+        if force or not (root / CACHE / _done(assignment, "anybody")).parent.exists():
             pool.warm(load)  # while this process loads nbgrader
         from autograder.nbgrader_glue.recorder import Recorder  # takes seconds
 
@@ -88,6 +90,10 @@ class _Run:
                 self._settle(student, outcome)
                 bar.update(len(self._lines) - bar.n)
             bar.update(len(self._lines) - bar.n)
+        for student, others in alike(self._lines).items():
+            note = f"reads like {', '.join(map(ascii, others))}: are these folders one student's?"
+            line = self._lines[student]
+            self._lines[student] = replace(line, notes=(*line.notes, note))
         return [self._lines[student] for student in self._submissions]
 
     def _tasks(self) -> Iterator[tuple[str, tuple[bytes, str, str]]]:
@@ -102,7 +108,7 @@ class _Run:
             except FileNotFoundError:
                 self._refuse(student, f"there is no {path.name}")
             except Exception as error:
-                self._refuse(student, _unreadable(path, f"{type(error).__name__}: {error}"))
+                self._fail(student, error)
             else:
                 if task:
                     yield student, task
@@ -163,12 +169,20 @@ class _Run:
                 entry = self._state(student, standing) | {"states": states, "notes": notes}
                 self._cache.store(_done(recorder.assignment, student), entry)
         except Exception as error:
-            recorder.forget()
-            self._refuse(student, f"{type(error).__name__}: {one_line(str(error))}")
+            self._fail(student, error)
         else:
             self._note(student, states, notes, standing, graded=certain)
 
+    def _fail(self, student: str, error: Exception) -> None:
+        """An error that is no fault of the submission's: what was recorded before stays."""
+        self._recorder.forget()
+        why = f"{type(error).__name__}: {one_line(str(error))}"
+        if self._recorder.autograded(student).exists():
+            why = f"{why}; its earlier grading stays"
+        self._lines[student] = Line(student, notes=(why,), graded=False)
+
     def _refuse(self, student: str, why: str) -> None:
+        """A submission that cannot be graded as it is: an earlier notebook is taken away."""
         try:
             self._recorder.refuse(student)
         except Exception as error:
@@ -196,8 +210,8 @@ def table(lines: list[Line]) -> str:
     for line in lines:
         score = "" if line.score is None else f"{line.score:g} of {line.most:g}"
         states = line.states or "could not be graded"
-        first, *others = line.notes or ("",)
-        rows.append((line.student, score, states, first))
+        first, *others = [shown_note(note) for note in line.notes] or [""]
+        rows.append((shown_name(line.student), score, states, first))
         rows += [("", "", "", note) for note in others]
     widths = [max(len(row[column]) for row in rows) for column in range(3)]
     shown = "\n".join(
@@ -226,4 +240,4 @@ def _result(key: str) -> str:
 
 
 def _done(assignment: str, student: str) -> str:
-    return f"recorded/{assignment}/{student}"
+    return f"recorded/{assignment}/{digest(student)}"

@@ -6,6 +6,9 @@ Importing this package does not import nbgrader, which takes seconds; its module
 from autograder.nbgrader_glue.release import write_problem
 from autograder.nbgrader_glue.scores import outputs_for, with_verdicts
 from autograder.nbgrader_glue.steps import (
+    FEEDBACK_EXPORTER,
+    GRADES_EXPORTER,
+    LOG_FORMATTER,
     PAGE_FILTERS,
     SUBMISSION_EXPORTER,
     autograde_preprocessors,
@@ -14,6 +17,9 @@ from autograder.nbgrader_glue.steps import (
 )
 
 __all__ = [
+    "FEEDBACK_EXPORTER",
+    "GRADES_EXPORTER",
+    "LOG_FORMATTER",
     "PAGE_FILTERS",
     "SUBMISSION_EXPORTER",
     "autograde_preprocessors",

@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
+from autograder.nbgrader_glue import names
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows
 from autograder.nbgrader_glue.release import configuration
 from autograder.report import Student, read_verdicts
+from autograder.terminal import shown_name
 
 
 def read_class(root: Path, assignment: str) -> tuple[float, list[Student]]:
@@ -28,6 +30,8 @@ def read_class(root: Path, assignment: str) -> tuple[float, list[Student]]:
 
 
 def _student(name: str, notebook: Path, standing) -> Student:
+    if why := names.refusal(name):
+        return Student(shown_name(name), note=why)
     if standing is None or not notebook.exists():
         return Student(name, note="not graded yet, or could not be")
     try:

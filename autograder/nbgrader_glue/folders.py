@@ -3,8 +3,9 @@
 import glob
 import logging
 import os
-import re
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from nbgrader import utils
@@ -12,7 +13,8 @@ from nbgrader.converters import Autograde
 from nbgrader.coursedir import CourseDirectory
 from traitlets.config import Config
 
-from autograder.nbgrader_glue import submitted
+from autograder.cache import digest
+from autograder.nbgrader_glue import names, submitted
 
 QUIET = logging.getLogger("autograder.nbgrader")
 QUIET.setLevel(logging.CRITICAL)  # what is mended stands in the summary table
@@ -34,16 +36,10 @@ class Folders:
 
     def submissions(self) -> dict[str, Path]:
         """Student → where that student's notebook is, or should be; in order of the names."""
-        excluded = self.course.student_id_exclude.split(",")
-        pattern = self.course.format_path(
-            self.course.submitted_directory, "(?P<student>[^/\\\\]*)", self.assignment, escape=True
-        )
-        found = {}
-        for folder in glob.glob(str(self.submitted("*"))):
-            match = re.fullmatch(pattern, folder)
-            if match and match["student"] not in excluded:
-                found[match["student"]] = Path(folder) / f"{self.assignment}.ipynb"
-        return dict(sorted(found.items()))
+        step = self.course.submitted_directory
+        found = names.folders(self.course, step, "*", glob.escape(self.assignment))
+        return {student: Path(folder) / f"{self.assignment}.ipynb"
+                for folder, student in found.items()}  # fmt: skip
 
     def submitted(self, student: str) -> Path:
         course = self.course
@@ -60,6 +56,8 @@ class Folders:
 
     def check(self, student: str) -> None:
         """RefusedError where nothing of the submission is to be read."""
+        if why := names.refusal(student):
+            raise submitted.RefusedError(why)
         top = Path(self.course.root) / self.course.submitted_directory
         submitted.check(self.submitted(student), top)
         self.timestamp(student)
@@ -71,30 +69,59 @@ class Folders:
         """A submission's files that are not notebooks."""
         return self._files(self.submitted(student))
 
-    def write(self, student: str, notebook: bytes) -> None:
-        """The graded notebook, and the files beside it; the source's win over the student's.
+    @contextmanager
+    def written(self, student: str, notebook: bytes) -> Iterator[None]:
+        """The graded notebook, and the files beside it, in place when the block ends.
 
-        The notebook comes last and at once: where it is, the rest is there too.
+        The source's files win over the student's. Where something fails, here or in the block, what
+        was in that place before stays.
         """
-        self.remove(student)
         path = self.autograded(student)
-        path.parent.mkdir(mode=0o755, parents=True)
-        copied = {name: self.submitted(student) for name in self.beside(student)}
-        copied |= dict.fromkeys(self.beside_source.keys() - self._not_copied, self.source)
-        for name, folder in copied.items():
-            target = path.parent / name
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(folder / name, target)
-        path.with_suffix(".part").write_bytes(notebook)
-        path.with_suffix(".part").replace(path)
+        folder = path.parent
+        new, old = (folder.parent / f".{name}-{digest(student, self.assignment)[:16]}"
+                    for name in ("new", "old"))  # fmt: skip
+        if old.exists() and not folder.exists():
+            old.rename(folder)  # a run was killed between the two lines that change them
+        for left in (new, old):
+            _remove(left)
+        try:
+            self._fill(new, student)
+            (new / path.name).write_bytes(notebook)
+            yield
+            if folder.exists():
+                folder.rename(old)
+            try:
+                new.rename(folder)
+            except OSError:
+                if old.exists():
+                    old.rename(folder)
+                raise
+        except BaseException:
+            with suppress(OSError):
+                _remove(new)
+            raise
+        _remove(old)
         self.converter.set_permissions(self.assignment, student)
 
+    def _fill(self, folder: Path, student: str) -> None:
+        """A folder with what belongs beside the notebook."""
+        folder.mkdir(mode=0o755, parents=True)
+        copied = {name: self.submitted(student) for name in self.beside(student)}
+        copied |= dict.fromkeys(self.beside_source.keys() - self._not_copied, self.source)
+        for name, origin in copied.items():
+            target = folder / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(origin / name, target)
+
     def remove(self, student: str) -> None:
-        folder = self.autograded(student).parent
-        if folder.exists():
-            utils.rmtree(str(folder))
+        _remove(self.autograded(student).parent)
 
     def _files(self, folder: Path) -> Files:
         found = utils.find_all_files(str(folder), [*self.course.ignore, "*.ipynb"])
         stats = {os.path.relpath(name, folder): os.stat(name) for name in sorted(found)}
         return {name: (stat.st_size, stat.st_mtime_ns) for name, stat in stats.items()}
+
+
+def _remove(folder: Path) -> None:
+    if folder.exists():
+        utils.rmtree(str(folder))

@@ -1,7 +1,9 @@
 """nbgrader's preprocessors of this course: for `nbgrader generate_assignment` and `autograde`."""
 
 import secrets
+from collections.abc import Iterable
 from functools import lru_cache
+from logging import Logger
 from pathlib import Path
 
 import nbformat
@@ -9,9 +11,11 @@ from nbformat import NotebookNode
 from nbgrader.preprocessors import NbGraderPreprocessor
 from traitlets import Unicode
 
+from autograder.files import put_in_place
 from autograder.grade import grade, is_judged
 from autograder.nbgrader_glue.scores import with_verdicts
 from autograder.repair import repair
+from autograder.terminal import shown_name, shown_note
 
 
 class ContinuePastChecks(NbGraderPreprocessor):
@@ -47,8 +51,7 @@ class RepairCells(FromSource):
 
     def preprocess(self, nb, resources):
         nb, notes = repair(nb, self.source_of(resources))
-        for note in notes:
-            self.log.warning("%s: %s", resources["nbgrader"]["student"], note)
+        _warn(self.log, resources["nbgrader"]["student"], notes)
         return nb, resources
 
 
@@ -66,18 +69,24 @@ class Judge(FromSource):
         secret = secret_of(Path(self.parent.parent.coursedir.root) / self.seed_file)
         seed = seed_of(secret, names["student"], names["assignment"])
         graded = grade(nb, self.source_of(resources), seed)
-        for note in graded.notes:
-            self.log.warning("%s: %s", names["student"], note)
+        _warn(self.log, names["student"], graded.notes)
         return with_verdicts(graded), resources
 
 
+def _warn(log: Logger, student: str, notes: Iterable[str]) -> None:
+    for note in notes:
+        log.warning("%s: %s", shown_name(student), shown_note(note))
+
+
 def secret_of(path: Path) -> str:
-    """The instructor's secret; made where there is none yet."""
+    """The instructor's secret; made where there is none yet. ValueError where its file is empty."""
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(secrets.token_hex(16) + "\n", encoding="utf-8")
-        path.chmod(0o600)
-    return path.read_text(encoding="utf-8").strip()
+        put_in_place(path, secrets.token_hex(16) + "\n", 0o600)
+    secret = path.read_text(encoding="utf-8").strip()
+    if not secret:
+        raise ValueError(f"{path} is empty: put the course's seed back, or delete it for a new one")
+    return secret
 
 
 def seed_of(secret: str, student: str, assignment: str) -> str:

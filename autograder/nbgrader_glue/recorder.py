@@ -11,6 +11,7 @@ from nbgrader.preprocessors import AssignLatePenalties
 from traitlets import import_item
 from traitlets.config import Config
 
+from autograder.nbgrader_glue import names
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
 from autograder.nbgrader_glue.preprocessors import Judge, secret_of, seed_of
@@ -90,7 +91,7 @@ class Recorder:
         return repr((self._folders.beside(student), self._folders.beside_source))
 
     def record(self, student: str, judged: dict) -> Standing:
-        """Write a judged submission's rows, then its files."""
+        """Write a judged submission's rows and files; where that fails, the earlier ones stay."""
         notebook: NotebookNode = nbformat.from_dict(judged)
         for cell in notebook.cells:
             if grade_id(cell):
@@ -100,15 +101,17 @@ class Recorder:
             notebook, _ = step(notebook, {})
         text = nbformat.v4.writes(notebook).encode() + b"\n"
         self._may_enter(student)
-        standing = self._rows.record(student, self._folders.timestamp(student), notebook)
-        self._folders.write(student, text)
-        return standing
+        with self._folders.written(student, text):
+            return self._rows.record(student, self._folders.timestamp(student), notebook)
 
     def refuse(self, student: str) -> None:
         """Enter a submission that cannot be graded, and take an earlier one's notebook away.
 
-        As with nbgrader, a folder without any notebook is no submission.
+        As with nbgrader, a folder without any notebook is no submission. Of a folder whose name is no
+        student's nothing is entered or taken away.
         """
+        if names.refusal(student):
+            return
         if self._folders.holds_notebook(student):
             self._may_enter(student)
             try:

@@ -6,6 +6,12 @@ Each list of preprocessors is nbgrader 0.9.6's own with ours put in; a test hold
 OURS = "autograder.nbgrader_glue.preprocessors"
 # For `autograde`: what reads a submission.
 SUBMISSION_EXPORTER = "autograder.nbgrader_glue.submitted.SubmissionExporter"
+# For `generate_feedback`: what writes its pages.
+FEEDBACK_EXPORTER = "autograder.nbgrader_glue.feedback.FeedbackExporter"
+# For `export`.
+GRADES_EXPORTER = "autograder.nbgrader_glue.grades.GradesExporter"
+# For every command.
+LOG_FORMATTER = "autograder.nbgrader_glue.log.PlainFormatter"
 # For the formgrader and `generate_feedback`: what shows a student's text.
 PAGE_FILTERS = {"markdown2html": "autograder.nbgrader_glue.markdown.markdown2html"}
 

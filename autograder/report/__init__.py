@@ -17,7 +17,9 @@ import nbformat
 from autograder.card import LOOKS
 from autograder.outputs import read_verdict
 from autograder.problems import CHECKS
+from autograder.terminal import shown_note
 from autograder.verdict import State
+from autograder.wall import one_line
 
 MOST_LINES = 10  # of mistakes in the terminal; the page has them all
 
@@ -51,15 +53,17 @@ def read_verdicts(notebook: Path) -> dict[str, dict]:
     """The verdicts in an autograded notebook, by check. ValueError where it cannot be read."""
     try:
         cells = nbformat.read(notebook, as_version=4).cells
-    except (OSError, UnicodeDecodeError, nbformat.reader.NotJSONError) as error:
-        raise ValueError(f"{notebook.name} cannot be read: {error}") from None
-    said = [
-        read_verdict(output)
-        for cell in cells
-        if cell.metadata.get("nbgrader", {}).get("grade")
-        for output in cell.get("outputs", [])
-    ]
-    return {one["check"]: one for one in said if one}
+        said = [
+            read_verdict(output)
+            for cell in cells
+            if cell.metadata.get("nbgrader", {}).get("grade")
+            for output in cell.get("outputs", [])
+        ]
+        return {one["check"]: one for one in said if one}
+    except (
+        Exception
+    ) as error:  # a file that is JSON may lack anything, or hold anything in its place
+        raise ValueError(f"{notebook.name} cannot be read: {one_line(str(error))}") from None
 
 
 def mistakes_made(students: Iterable[Student]) -> list[Made]:
@@ -116,5 +120,7 @@ def summary(most: float, students: list[Student]) -> str:
     if scores:
         lines[0] += f", mean {mean(scores):.3g}, median {median(scores):.3g} of {most:g} points"
     for one in mistakes_made(students)[:MOST_LINES]:
-        lines.append(f"{len(one.students):4d} × {one.check}: {one.name or one.sentence}")
+        lines.append(
+            f"{len(one.students):4d} × {shown_note(f'{one.check}: {one.name or one.sentence}')}"
+        )
     return "\n".join(lines)

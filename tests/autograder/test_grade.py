@@ -1,5 +1,6 @@
 """grade: a pure function of a submission, its source and a seed; its scores as nbgrader reads them."""
 
+import ast
 import copy
 from types import SimpleNamespace
 from typing import ClassVar
@@ -9,12 +10,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from nbformat import NotebookNode
+from nbformat.v4 import new_code_cell
 from nbgrader.utils import determine_grade
 
 from autograder import grade as grading
 from autograder import outputs
 from autograder.check import VISIBLE_SEED
-from autograder.grade import Sitting, grade, is_judged, stream
+from autograder.grade import Sitting, grade, is_judged, of_content, stream
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
 from autograder.nbgrader_glue import outputs_for
 from autograder.problems import CHECKS
@@ -123,6 +126,42 @@ def test_values_hard_coded_for_the_visible_cases_are_caught(release):
     assert visible.state is State.CORRECT
     submission = p3_pendulum.right_but(release, g_vec=answer)
     assert states(grade(submission, SOURCE, "seed"))["p3-g_vec"] is State.INCORRECT
+
+
+def test_inputs_that_one_hand_in_shows_are_of_no_use_to_the_next(release):
+    """A function that keeps what it was called with, a cell that shows it, and a table made of that."""
+    seen = "seen = []\ndef g_vec(q, pend):\n    value = pend.m * pend.g * pend.lc * np.sin(q[0])\n"
+    seen += "    seen.append((float(q[0]), float(value)))\n    return value"
+    showing = p3_pendulum.right_but(release, g_vec=seen)
+    showing.cells.append(new_code_cell("print(seen)"))
+    first = grade(showing, SOURCE, "seed")
+    assert states(first)["p3-g_vec"] is State.CORRECT
+    shown = first.notebook.cells[-1].outputs[0].text
+    table = dict(ast.literal_eval(shown))
+    assert len(table) == HIDDEN_CASES
+    tabled = p3_pendulum.right_but(
+        release, g_vec=function("g_vec", f"{table!r}.get(float(q[0]), 1.0)")
+    )
+    assert states(grade(tabled, SOURCE, "seed"))["p3-g_vec"] is State.INCORRECT
+    again = grade(showing, SOURCE, "seed")
+    assert again.notebook.cells[-1].outputs[0].text == shown
+
+
+CODE = st.lists(st.text(), max_size=3)
+
+
+@given(CODE, CODE, st.text())
+def test_cases_depend_on_the_code_alone(one, other, text):
+    def notebook(sources, kind="code"):
+        return [NotebookNode(cell_type=kind, source=source) for source in sources]
+
+    def seed(cells):
+        return of_content("seed", NotebookNode(cells=cells))
+
+    assert (seed(notebook(one)) == seed(notebook(other))) == (one == other)
+    noted = NotebookNode(cells=notebook([text], "markdown") + notebook(one))
+    assert of_content("seed", noted) == seed(notebook(one))
+    assert of_content("another", noted) != seed(notebook(one))
 
 
 def answered_in_kernel(calls, namespace):

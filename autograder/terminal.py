@@ -1,0 +1,34 @@
+"""What this program says in a terminal: text, and nothing that a terminal obeys."""
+
+import sys
+from typing import TextIO
+
+from autograder.wall import one_line
+
+MOST_OF_A_NAME = 64  # characters, so that a table keeps its width
+MOST_OF_A_NOTE = 1000
+
+
+def say(text: str, to: TextIO | None = None) -> None:
+    """Print some lines, to stdout unless told otherwise."""
+    to = to or sys.stdout
+    encoding = to.encoding or "utf-8"
+    print(plain(text).encode(encoding, "backslashreplace").decode(encoding), file=to)
+
+
+def plain(text: str) -> str:
+    """The text with all but line breaks printable: of the rest, each character's code instead."""
+    return "".join(
+        character if character.isprintable() or character == "\n" else repr(character)[1:-1]
+        for character in text
+    )
+
+
+def shown_name(student: str) -> str:
+    """A student's id in a line of ours, whatever it holds."""
+    return one_line(student, MOST_OF_A_NAME)
+
+
+def shown_note(note: str) -> str:
+    """What the instructor is told of a submission, in a line of ours."""
+    return one_line(note, MOST_OF_A_NOTE)
