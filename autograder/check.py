@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -36,14 +37,17 @@ def check(id: str, fresh: bool = False) -> None:
     does. Raises NotCorrectError after showing a verdict that is not "correct", and ValueError for
     an unknown id.
     """
-    known_check(id)
-    namespace = sys._getframe(1).f_globals
-    rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
-    count = HIDDEN_CASES if fresh else VISIBLE_CASES
-    verdict = CHECKS[id].run(lambda calls: answer_all(calls, namespace), rng, count)
+    verdict = verdict_on(known_check(id), sys._getframe(1).f_globals, fresh)
     _show(verdict)
     if verdict.state is not State.CORRECT:
         raise NotCorrectError(verdict)
+
+
+def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
+    """The verdict on the function in a namespace that a known check asks for."""
+    rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
+    count = HIDDEN_CASES if fresh else VISIBLE_CASES
+    return CHECKS[id].run(lambda calls: answer_all(calls, namespace), rng, count)
 
 
 def _show(verdict: Verdict) -> None:

@@ -14,3 +14,12 @@ def from_file(name):
 
 def hint(id):
     """Do nothing: hints are for the one who writes."""
+
+
+def look_at(*ids):
+    """A block that uses the student's functions, for the feedback page: an error becomes one line."""
+    import sys
+
+    from wall import Look
+
+    return Look(ids, sys._getframe(1).f_globals)
