@@ -30,12 +30,12 @@ class NotCorrectError(Exception):
         return [f"{self.verdict.headline}: see the card above."]
 
 
-def check(id: str, fresh: bool = False) -> None:
+def check(id: str | None = None, fresh: bool = False) -> None:
     """Judge the function that the check `id` asks for, as this notebook defines it, and show it.
 
     The visible check tries a few fixed cases; `fresh=True` draws new ones each time, as the grader
-    does. Raises NotCorrectError after showing a verdict that is not "correct", and ValueError for
-    an unknown id.
+    does. Raises NotCorrectError after showing a verdict that is not "correct", and UnknownCheckError
+    for what is no check's id.
     """
     verdict = verdict_on(known_check(id), sys._getframe(1).f_globals, fresh)
     _show(verdict)

@@ -16,7 +16,7 @@ def look_at(*ids: str) -> Look:
     """A block that uses the functions of these checks; where one fails, a line names it and its card.
 
     ids: each after those that it builds on. The cell goes on after the block as if nothing had been
-    raised, so that "Run All Cells" does; an interrupt ends both. ValueError for an unknown id.
+    raised, so that "Run All Cells" does; an interrupt ends both. UnknownCheckError for no check's id.
     """
     for id in ids:
         known_check(id)

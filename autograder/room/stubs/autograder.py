@@ -1,7 +1,7 @@
 """Stands for `autograder` where a submission is graded: the judging happens elsewhere."""
 
 
-def check(id, fresh=False):
+def check(id=None, fresh=False):
     """Do nothing: grade cells are judged outside, on numbers."""
 
 
@@ -12,7 +12,7 @@ def from_file(name):
     return from_file(name)
 
 
-def hint(id):
+def hint(id=None):
     """Do nothing: hints are for the one who writes."""
 
 
