@@ -41,6 +41,8 @@ CELLS = [
     "hint('p3-freq')",
     "check()",
     f"{defined(State.CORRECT)}\ncheck('{START}', fresh=True)",
+    "def kinetic_energy(I, qd):\n    return I +",
+    f"check('{START}')",
 ]
 
 
@@ -54,7 +56,9 @@ def kernel(request):
             patch.setenv("NBGRADER_EXECUTION", "validate")
         first, *outputs = executed(["from autograder import check, hint", *CELLS])
     assert first == []
-    return request.param, dict(zip([*BODIES, *ASKED, "fresh"], outputs, strict=True))
+    return request.param, dict(
+        zip([*BODIES, *ASKED, "fresh", "broken", "old"], outputs, strict=True)
+    )
 
 
 def lines_of(error) -> list[str]:
@@ -135,6 +139,17 @@ def test_what_is_no_text_is_said_to_be_none(wrong):
         with pytest.raises(UnknownCheckError, match="in quotes") as refused:
             function(wrong)
     assert ("'p3-M'" in str(refused.value)) == (wrong is p3_M)
+
+
+def test_an_old_definition_is_said_to_be_one(kernel):
+    (card,) = kernel[1]["old"]  # it is right: no error
+    said = (
+        "This is your old kinetic_energy: the cell that was to define it anew stopped with "
+        "SyntaxError: invalid syntax, line 2."
+    )
+    assert said in " ".join(card.data["text/plain"].split())
+    assert said in card.data["text/html"]
+    assert "old" not in kernel[1]["fresh"][0].data["text/plain"]
 
 
 def called(state: State, **how):
