@@ -29,6 +29,7 @@ def html_card(verdict: Verdict) -> str:
     lines = [_paragraph("problem", verdict.problem)]
     lines += [_rows(verdict)] if verdict.rows else []
     lines += [_paragraph("diagnosis", sentence) for sentence in verdict.diagnosis]
+    lines.append(_paragraph("remark", verdict.remark))
     lines += [_worst_case(verdict.witness)] if verdict.witness else []
     lines.append(_paragraph("next", verdict.next_step))
     text = (

@@ -2,10 +2,13 @@
 
 import os
 import sys
+from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from autograder import card
+from autograder.definitions import watched
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
 from autograder.problems import CHECKS, known_check
 from autograder.verdict import State, Verdict
@@ -13,6 +16,7 @@ from autograder.wall import answer_all
 
 # A visible check tries the same cases each time, so that a student can see an error change.
 VISIBLE_SEED = 20260101
+_definitions = watched({check.name for check in CHECKS.values()})
 
 
 class NotCorrectError(Exception):
@@ -29,21 +33,35 @@ class NotCorrectError(Exception):
         return [f"{self.verdict.headline}: see the card above."]
 
 
-def check(id: str, fresh: bool = False) -> None:
+def check(id: str | None = None, fresh: bool = False) -> None:
     """Judge the function that the check `id` asks for, as this notebook defines it, and show it.
 
     The visible check tries a few fixed cases; `fresh=True` draws new ones each time, as the grader
-    does. Raises NotCorrectError after showing a verdict that is not "correct", and ValueError for
-    an unknown id.
+    does. Raises NotCorrectError after showing a verdict that is not "correct", and UnknownCheckError
+    for what is no check's id.
     """
-    known_check(id)
     namespace = sys._getframe(1).f_globals
-    rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
-    count = HIDDEN_CASES if fresh else VISIBLE_CASES
-    verdict = CHECKS[id].run(lambda calls: answer_all(calls, namespace), rng, count)
+    verdict = _with_word_of_old(verdict_on(known_check(id), namespace, fresh), namespace)
     _show(verdict)
     if verdict.state is not State.CORRECT:
         raise NotCorrectError(verdict)
+
+
+def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
+    """The verdict on the function in a namespace that a known check asks for."""
+    rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
+    count = HIDDEN_CASES if fresh else VISIBLE_CASES
+    return CHECKS[id].run(lambda calls: answer_all(calls, namespace), rng, count)
+
+
+def _with_word_of_old(verdict: Verdict, namespace: Mapping) -> Verdict:
+    """The verdict, and first of all that the function is an old one, where it is."""
+    name = CHECKS[verdict.check].name
+    error = _definitions.old(name, namespace.get(name)) if _definitions else ""
+    if not error:
+        return verdict
+    said = f"This is your old {name}: the cell that was to define it anew stopped with {error}."
+    return replace(verdict, problem=f"{said} {verdict.problem}".rstrip())
 
 
 def _show(verdict: Verdict) -> None:

@@ -25,3 +25,10 @@ def said_of(fault: Fault, name: str, signature: str) -> str:
         FaultKind.NOT_NUMBERS: f"{signature} returned {fault.message}; it must return numbers.",
         FaultKind.GARBLED: f"What {signature} returned could not be read as numbers.",
     }[fault.kind]
+
+
+def said_of_second(fault: Fault, name: str, signature: str) -> str:
+    """The sentence for a second call, after a first one that gave numbers."""
+    if fault.kind in (FaultKind.RAISED, FaultKind.NOTHING, FaultKind.NOT_NUMBERS):
+        return said_of(fault, name, signature)
+    return f"{signature} gave no numbers."

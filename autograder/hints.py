@@ -7,8 +7,8 @@ from autograder.problems import CHECKS, known_check
 _given: dict[str, int] = {}
 
 
-def hint(id: str) -> None:
-    """Show the hints of the check `id` so far, and one more. ValueError for an unknown id.
+def hint(id: str | None = None) -> None:
+    """Show the hints of the check `id` so far, and one more. UnknownCheckError for no check's id.
 
     The count starts again with the kernel. Nothing is taken off for hints.
     """

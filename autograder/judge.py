@@ -10,6 +10,7 @@ from types import FunctionType
 
 import numpy as np
 
+from autograder import changes
 from autograder.diagnosis import (
     TOLERANCE,
     Known,
@@ -19,7 +20,7 @@ from autograder.diagnosis import (
     relative_errors,
     terms_off,
 )
-from autograder.faults import said_of
+from autograder.faults import said_of, said_of_second
 from autograder.quantities import Quantities, UnfitError, finite, one_number
 from autograder.verdict import Row, State, Verdict
 from autograder.wall import Call, Fault, FaultKind, Reply, Symbol, read, real, shortened
@@ -113,31 +114,69 @@ class Check:
         fault = next((reply.fault for reply in replies if reply.fault), None)
         if fault:
             return self._faulty(fault)
+        changed = changes.changed(self.signature, calls, replies)
         try:
             # Near the largest float, their numbers less ours overflow: wrong, but not our failure.
             with np.errstate(over="ignore", invalid="ignore"):
                 given = self.quantities(calls, [finite(reply.value) for reply in replies])
-                return self.judge(calls, expected, given)
+                if not any(reply.again for reply in replies):
+                    return self.judge(calls, expected, given, changed=changed)
         except UnfitError as error:
             return self._error(f"{self.signature} returned {error}.")
         except Exception as error:
             return self._failed(error)
+        return self._judge_again(calls, expected, given, replies, changed)
 
-    def judge(self, calls: list[Call], expected: list, given: list) -> Verdict:
-        """The verdict on quantities given, case by case, against those expected."""
+    def _judge_again(self, calls, expected, given, replies, changed) -> Verdict:
+        """The verdict where second calls must be right as well."""
+        second = [reply.again or reply for reply in replies]
+        fault = next((reply.fault for reply in second if reply.fault), None)
+        if fault:
+            said = said_of_second(fault, self.name, self.signature)
+            return self._error(f"{changes.remark(self.name, changed, True)} Then {said}")
+        try:
+            with np.errstate(over="ignore", invalid="ignore"):
+                again = self.quantities(calls, [finite(reply.value) for reply in second])
+                return self.judge(calls, expected, given, again, changed)
+        except UnfitError as error:
+            said = f"{self.signature} returned {error}."
+            return self._error(f"{changes.remark(self.name, changed, True)} Then {said}")
+        except Exception as error:
+            return self._failed(error)
+
+    def judge(
+        self, calls: list[Call], expected: list, given: list, again: list | None = None,
+        changed: tuple[str, ...] = (),
+    ) -> Verdict:  # fmt: skip
+        """The verdict on quantities given, case by case, against those expected.
+
+        again: the quantities of second calls, where a first one changed its arguments; a criterion is
+        met where both are right. changed: the names of these arguments.
+        """
         errors = self._errors(expected, given)
-        met = self._met(errors)
+        right = self._met(errors)
+        met = right
+        if again is not None:
+            later = self._errors(expected, again)
+            met = [one and two for one, two in zip(right, self._met(later), strict=True)]
+        remark = changes.remark(self.name, changed, met != right)
         credit = sum(c.share for c, ok in zip(self.criteria, met, strict=True) if ok)
         rows = tuple(Row(c.text, c.share, ok) for c, ok in zip(self.criteria, met, strict=True))
         if all(met):
-            return Verdict(self.id, State.CORRECT, 1.0, rows)
+            return Verdict(self.id, State.CORRECT, 1.0, rows, remark=remark)
+        if all(right):  # only what it does to its arguments is wrong
+            worst, diagnosis = self._witness(calls, expected, again, later, met, changes.SECOND), ()
+        else:
+            worst = self._witness(calls, expected, given, errors, right)
+            diagnosis = self._diagnosis(calls, expected, given, right)
         return Verdict(
             self.id,
             State.PARTLY_CORRECT if credit > 0 else State.INCORRECT,
             credit,
             rows,
-            self._witness(calls, expected, given, errors, met),
-            diagnosis=self._diagnosis(calls, expected, given, met),
+            worst,
+            diagnosis=diagnosis,
+            remark=remark,
             next_step="Change your function, run its cell, then run this cell again.",
         )
 
@@ -187,11 +226,12 @@ class Check:
                 sentences += [_where(criterion, off)] if off else [criterion.otherwise]
         return tuple(dict.fromkeys(filter(None, sentences)))
 
-    def _witness(self, calls, expected, given, errors, met):
+    def _witness(self, calls, expected, given, errors, met, when=""):
         k = met.index(False)
         worst = int(np.argmax(errors[k]))
         # A quantity formed from several values is not what the function returned.
         what = "" if len(self.criteria) == 1 else self.criteria[k].text
+        what = ", ".join(filter(None, [what, when]))
         unit = self.criteria[k].unit
         return witness(calls[worst], expected[worst][k], given[worst][k], unit, what, self.pose)
 

@@ -43,8 +43,9 @@ class Witness:
 class Verdict:
     """What is known of one answer. `credit` is its share of the cell's points, in [0, 1].
 
-    `problem` says what is wrong with the code where the state is an error; `diagnosis` says of each
-    criterion that is not met what is known of the reason; `next_step` is what to do now.
+    `problem` says what is wrong with the code where the state is an error, or that it is not the code
+    on the screen; `diagnosis` says of each criterion that is not met what is known of the reason;
+    `remark` says, of a right answer too, what harms other code; `next_step` is what to do now.
     """
 
     check: str
@@ -54,6 +55,7 @@ class Verdict:
     witness: Witness | None = None
     problem: str = ""
     diagnosis: tuple[str, ...] = ()
+    remark: str = ""
     next_step: str = ""
 
     def without_inputs(self) -> "Verdict":
@@ -73,6 +75,7 @@ class Verdict:
         return [
             *([self.problem] if self.problem else []),
             *self.diagnosis,
+            *([self.remark] if self.remark else []),
             *([worst_case(self.witness)] if self.witness else []),
             *([self.next_step] if self.next_step else []),
         ]

@@ -18,11 +18,12 @@ from autograder.repair import repair
 from autograder.terminal import shown_name, shown_note
 
 
-class ContinuePastChecks(NbGraderPreprocessor):
-    """For `generate_assignment`: a check that is not met stops no "Run All Cells"."""
+class ContinuePastErrors(NbGraderPreprocessor):
+    """For `generate_assignment`: neither a broken answer nor a check that is not met stops "Run All"."""
 
     def preprocess_cell(self, cell, resources, index):
-        if is_judged(cell):
+        claims = cell.metadata.get("nbgrader") or {}
+        if is_judged(cell) or (cell.cell_type == "code" and claims.get("solution")):
             tags = cell.metadata.setdefault("tags", [])
             if "raises-exception" not in tags:
                 tags.append("raises-exception")

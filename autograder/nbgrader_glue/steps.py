@@ -42,9 +42,9 @@ def autograde_preprocessors() -> list[str]:
 
 
 def generate_preprocessors() -> list[str]:
-    """nbgrader's own, with ContinuePastChecks first."""
+    """nbgrader's own, with ContinuePastErrors first."""
     return [
-        f"{OURS}.ContinuePastChecks",
+        f"{OURS}.ContinuePastErrors",
         "nbgrader.preprocessors.IncludeHeaderFooter",
         "nbgrader.preprocessors.InstantiateTests",
         "nbgrader.preprocessors.LockCells",

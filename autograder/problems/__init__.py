@@ -1,6 +1,7 @@
 """The checks of every problem, by the grade_id of the cell they judge."""
 
 import difflib
+import re
 
 from autograder.problems import (
     c6_regressor,
@@ -24,10 +25,47 @@ MODULES = (
 CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 
 
+class UnknownCheckError(ValueError):
+    """No check has this id. In a notebook it is one line, without the way through our code."""
+
+    def _render_traceback_(self):
+        return [str(self)]
+
+
 def known_check(id: str) -> str:
-    """The id, where a check has it; else ValueError, with the one that is nearest."""
+    """The id, where a check has it; else UnknownCheckError, with those that are nearest."""
+    if not isinstance(id, str):
+        name = getattr(id, "__name__", "")
+        said = "nothing" if id is None else f"a {type(id).__name__}"
+        raise UnknownCheckError(
+            f"give the id of a check, in quotes; this is {said}{_meant(nearest(str(name)))}"
+        )
     if id not in CHECKS:
-        close = difflib.get_close_matches(id, CHECKS, n=1)
-        meant = f"; did you mean {close[0]!r}?" if close else f"; known are {', '.join(CHECKS)}"
-        raise ValueError(f"there is no check {id!r}{meant}")
+        meant = _meant(nearest(id)) or f"; known are {', '.join(CHECKS)}"
+        raise UnknownCheckError(f"there is no check {id!r}{meant}")
     return id
+
+
+def nearest(id: str) -> list[str]:
+    """The ids that may be meant, of the same problem where that is known."""
+    problem, name, *_ = [*re.split(r"[-_ .]", id.casefold(), maxsplit=1), ""]
+    same = [known for known in CHECKS if known.startswith(f"{problem}-")]
+    names = {known: known.partition("-")[2].casefold() for known in same or CHECKS}
+    asked = name if same else id.casefold()
+    if not asked:
+        return same
+    return (
+        [known for known, name in names.items() if name == asked]
+        or [known for known, name in names.items() if len(asked) > 1 and asked in name]
+        or [
+            known
+            for close in difflib.get_close_matches(asked, names.values(), cutoff=0.5)
+            for known, name in names.items()
+            if name == close
+        ]
+        or same
+    )
+
+
+def _meant(ids: list[str]) -> str:
+    return f"; did you mean {' or '.join(map(repr, dict.fromkeys(ids)))}?" if ids else ""

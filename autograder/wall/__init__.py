@@ -23,6 +23,7 @@ from .calls import (
     said_by,
     time_limit,
 )
+from .looks import Look
 from .readings import MOST_NUMBERS, FaultKind, NotNumbersError, one_line, shortened
 
 __all__ = [
@@ -33,6 +34,7 @@ __all__ = [
     "Fault",
     "FaultKind",
     "Function",
+    "Look",
     "NotNumbersError",
     "Reply",
     "Symbol",

@@ -6,7 +6,8 @@ of them, so that a function or a SymPy matrix arrives as a student's own code wo
 
 from dataclasses import dataclass
 from functools import lru_cache
-from types import SimpleNamespace
+from numbers import Number
+from types import FunctionType, SimpleNamespace
 
 import numpy as np
 
@@ -55,6 +56,43 @@ def real(value):
         case np.ndarray():
             return value.copy()
     return value
+
+
+def changed(value, given) -> list[str]:
+    """What a call changed in the argument `given` that `real(value)` had made: nothing, the names of
+    a namespace's entries, or "" for the argument itself.
+    """
+    if not isinstance(value, SimpleNamespace):
+        return [] if _is_still(value, given) else [""]
+    entries, now = vars(value), vars(given)
+    names = [name for name in entries if name not in now or not _is_still(entries[name], now[name])]
+    return names or ([] if entries.keys() == now.keys() else [""])
+
+
+def _is_still(value, given) -> bool:
+    """Whether an argument is as `real(value)` made it, to the bit."""
+    match value:
+        case Symbol():
+            return given == real(value)
+        case Function():  # its numbers are its own; another may stand in its place
+            return isinstance(given, FunctionType)
+        case Expressions(rows):
+            return list(given) == list(_matrix(rows)) and given.shape == _matrix(rows).shape
+        case SimpleNamespace():
+            return isinstance(given, SimpleNamespace) and not changed(value, given)
+        case tuple():
+            return isinstance(given, list) and len(given) == len(value) and all(
+                map(_is_still, value, given)
+            )  # fmt: skip
+        case np.ndarray():
+            return (
+                isinstance(given, np.ndarray)
+                and (given.shape, given.dtype) == (value.shape, value.dtype)
+                and given.tobytes() == value.tobytes()
+            )
+    if not isinstance(given, Number):
+        return False
+    return bool(given == value or (given != given and value != value))
 
 
 @lru_cache(maxsize=64)

@@ -40,6 +40,7 @@ VERDICTS = st.builds(
     witness=st.none() | st.builds(Witness, TEXT, TEXT, TEXT, st.just(()) | POSES),
     problem=TEXT,
     diagnosis=st.lists(TEXT, max_size=2).map(tuple),
+    remark=TEXT,
     next_step=TEXT,
 )
 MARK = '<b>"it\'s"&</b>'
@@ -78,6 +79,7 @@ def full(state: State) -> Verdict:
         Witness("g_vec([0.3], m=1)", "2.1 N·m", "0.3 N·m (14% of the right value)"),
         "It raised ValueError.",
         ("The sign is wrong.", "And the unit."),
+        "It changes q.",
         "Change your function.",
     )
 
@@ -100,6 +102,7 @@ def test_the_card_has_only_its_own_tags(verdict):
         Verdict(MARK, State.ERROR),
         Verdict("a", State.ERROR, problem=MARK),
         Verdict("a", State.INCORRECT, diagnosis=(MARK,)),
+        Verdict("a", State.CORRECT, remark=MARK),
         Verdict("a", State.INCORRECT, next_step=MARK),
         Verdict("a", State.INCORRECT, rows=(Row(MARK, 1.0, False),)),
         Verdict("a", State.INCORRECT, witness=Witness(MARK, "1", "2")),
@@ -162,6 +165,7 @@ def test_sentences_come_in_the_order_of_their_use(state):
         "It raised ValueError.",
         "The sign is wrong.",
         "And the unit.",
+        "It changes q.",
         "Worst case: g_vec([0.3], m=1) gave 2.1 N·m, off by 0.3 N·m (14% of the right value).",
         "Change your function.",
     ]

@@ -6,9 +6,9 @@ import nbclient
 import nbformat
 import pytest
 
-from autograder import check
+from autograder import check, hint
 from autograder.check import NotCorrectError
-from autograder.problems import CHECKS
+from autograder.problems import CHECKS, UnknownCheckError, nearest
 from autograder.verdict import State
 
 START = "start-kinetic-energy"
@@ -33,11 +33,16 @@ def executed(sources: list[str]):
     return [cell.outputs for cell in notebook.cells]
 
 
+ASKED = ("near", "far", "hint", "empty")
 CELLS = [
     *(f"{defined(state)}\ncheck('{START}')" for state in BODIES),
     "check('start-kinetic-energi')",
     "check('nothing like it')",
+    "hint('p3-freq')",
+    "check()",
     f"{defined(State.CORRECT)}\ncheck('{START}', fresh=True)",
+    "def kinetic_energy(I, qd):\n    return I +",
+    f"check('{START}')",
 ]
 
 
@@ -49,9 +54,11 @@ def kernel(request):
         patch.delenv("NBGRADER_EXECUTION", raising=False)
         if request.param == "validate":
             patch.setenv("NBGRADER_EXECUTION", "validate")
-        first, *outputs = executed(["from autograder import check", *CELLS])
+        first, *outputs = executed(["from autograder import check, hint", *CELLS])
     assert first == []
-    return request.param, dict(zip([*BODIES, "near", "far", "fresh"], outputs, strict=True))
+    return request.param, dict(
+        zip([*BODIES, *ASKED, "fresh", "broken", "old"], outputs, strict=True)
+    )
 
 
 def lines_of(error) -> list[str]:
@@ -84,17 +91,65 @@ def test_the_error_is_one_line_for_a_student_and_the_whole_verdict_for_validate(
         assert len(lines_of(error)) > 1
 
 
-def test_an_unknown_id_suggests_the_near_one(kernel):
-    (error,) = kernel[1]["near"]
-    assert error.ename == "ValueError"
-    assert error.evalue == (
-        "there is no check 'start-kinetic-energi'; did you mean 'start-kinetic-energy'?"
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ("near", "there is no check 'start-kinetic-energi'; did you mean 'start-kinetic-energy'?"),
+        ("far", f"there is no check 'nothing like it'; known are {', '.join(CHECKS)}"),
+        ("hint", "there is no check 'p3-freq'; did you mean 'p3-small_angle_frequency'?"),
+        ("empty", "give the id of a check, in quotes; this is nothing"),
+    ],
+)
+def test_an_unknown_id_is_answered_in_one_line(kernel, asked, said):
+    (error,) = kernel[1][asked]
+    assert (error.ename, error.evalue) == ("UnknownCheckError", said)
+    assert lines_of(error) == [said]
+
+
+def p3_M(q):
+    """Stands for a function that was handed over in place of its id."""
+
+
+@pytest.mark.parametrize(
+    ("asked", "meant"),
+    [
+        ("p3-freq", ["p3-small_angle_frequency"]),
+        ("p3-frequencey", ["p3-small_angle_frequency"]),
+        ("P3-m", ["p3-M"]),
+        ("p3_M", ["p3-M"]),
+        ("p1-Mm", ["p1-M"]),
+        ("M", ["p1-M", "p3-M"]),
+        ("g_vec", ["p3-g_vec", "p4-g_vec"]),
+        ("p5-step", ["p5-rk4_step"]),
+        ("p5-rk4step", ["p5-rk4_step"]),
+        ("p6-regressor", ["c6-regressor"]),
+        ("p4", [id for id in CHECKS if id.startswith("p4-")]),
+        ("p4-!", [id for id in CHECKS if id.startswith("p4-")]),
+        ("", []),
+        ("nothing like it", []),
+    ],
+)
+def test_the_nearest_ids(asked, meant):
+    assert nearest(asked) == meant
+
+
+@pytest.mark.parametrize("wrong", [None, 3, p3_M, ["p3-M"], check])
+def test_what_is_no_text_is_said_to_be_none(wrong):
+    for function in (check, hint):
+        with pytest.raises(UnknownCheckError, match="in quotes") as refused:
+            function(wrong)
+    assert ("'p3-M'" in str(refused.value)) == (wrong is p3_M)
+
+
+def test_an_old_definition_is_said_to_be_one(kernel):
+    (card,) = kernel[1]["old"]  # it is right: no error
+    said = (
+        "This is your old kinetic_energy: the cell that was to define it anew stopped with "
+        "SyntaxError: invalid syntax, line 2."
     )
-
-
-def test_an_unknown_id_that_is_near_none_lists_them(kernel):
-    (error,) = kernel[1]["far"]
-    assert error.evalue == f"there is no check 'nothing like it'; known are {', '.join(CHECKS)}"
+    assert said in " ".join(card.data["text/plain"].split())
+    assert said in card.data["text/html"]
+    assert "old" not in kernel[1]["fresh"][0].data["text/plain"]
 
 
 def called(state: State, **how):

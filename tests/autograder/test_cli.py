@@ -48,7 +48,8 @@ def test_problems_are_written_without_solutions(course, capsys):
         if "nbgrader" in cell.metadata
     }
     assert tags["p3-M"] == ["raises-exception"]  # so that "Run All Cells" goes on
-    assert tags["answer-M"] is None
+    assert tags["answer-M"] == ["raises-exception"]
+    assert tags["p3-setup"] is None  # without it nothing else can run
 
 
 def test_no_gradebook_is_made_and_the_solutions_stay(course):

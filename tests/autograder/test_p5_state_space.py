@@ -69,7 +69,7 @@ STEPS = {
     "solve_ivp": lambda f, x, u, dt: solve_ivp(
         lambda _, x: f(x, u), (0, dt), x, rtol=1e-8, atol=1e-10
     ).y[:, -1],
-    "in place": lambda f, x, u, dt: x.__iadd__(rk4(f, x, u, dt) - x),
+    "on a copy": lambda f, x, u, dt: np.copy(x).__iadd__(rk4(f, x, u, dt) - x),
 }
 
 

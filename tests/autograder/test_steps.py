@@ -12,7 +12,7 @@ from autograder.nbgrader_glue import (
     generate_preprocessors,
     sanitize_preprocessors,
 )
-from autograder.nbgrader_glue.preprocessors import ContinuePastChecks, Judge, RepairCells
+from autograder.nbgrader_glue.preprocessors import ContinuePastErrors, Judge, RepairCells
 
 
 @pytest.mark.parametrize(
@@ -20,7 +20,7 @@ from autograder.nbgrader_glue.preprocessors import ContinuePastChecks, Judge, Re
     [
         (sanitize_preprocessors, Autograde.sanitize_preprocessors, RepairCells, 0),
         (autograde_preprocessors, Autograde.autograde_preprocessors, Judge, 1),
-        (generate_preprocessors, GenerateAssignment.preprocessors, ContinuePastChecks, 0),
+        (generate_preprocessors, GenerateAssignment.preprocessors, ContinuePastErrors, 0),
     ],
 )
 def test_steps_are_nbgraders_but_for_ours(ours, theirs, first, left_out):

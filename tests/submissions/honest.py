@@ -291,14 +291,13 @@ def g_vec(q, pend):
 
 @variant
 def works_in_place(release):
-    """Changes the arrays it is given, and returns one of them."""
+    """Changes what it is given, in ways that change no second result, and returns a part of it."""
     return right_but(
         release,
         g_vec="""
 def g_vec(q, pend):
-    np.sin(q, out=q)
-    q *= pend.m * pend.g * pend.lc
-    return q
+    q %= 2 * np.pi
+    return pend.m * pend.g * pend.lc * np.sin(q)
 """,
         C="def C(q, qd, pend):\n    qd[:] = 0\n    pend.m = 0\n    return qd",
     )

@@ -1,7 +1,7 @@
 """Stands for `autograder` where a submission is graded: the judging happens elsewhere."""
 
 
-def check(id, fresh=False):
+def check(id=None, fresh=False):
     """Do nothing: grade cells are judged outside, on numbers."""
 
 
@@ -12,5 +12,14 @@ def from_file(name):
     return from_file(name)
 
 
-def hint(id):
+def hint(id=None):
     """Do nothing: hints are for the one who writes."""
+
+
+def look_at(*ids):
+    """A block that uses the student's functions, for the feedback page: an error becomes one line."""
+    import sys
+
+    from wall import Look
+
+    return Look(ids, sys._getframe(1).f_globals)

@@ -130,7 +130,7 @@ return {returned}
 ALIASED = f"""
 def rk4_step(f, x, u, dt):
     {step().replace(chr(10), chr(10) + "    ")}
-x = x0
+x = np.array(x0)
 states = [x]
 for k in range(len(t) - 1):
     x += rk4_step(f, x, {TORQUE}, t[k + 1] - t[k]) - x

@@ -1,0 +1,120 @@
+"""A cell that uses the student's functions: where one of them fails, a line says so, and no error."""
+
+import inspect
+import sys
+import traceback
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+
+from .calls import TimeLimitError, said_by, time_limit
+from .readings import one_line
+
+# For the id of the check in whose function an error was raised, if any: the one that is to blame.
+Blame = Callable[[str | None], str | None]
+
+
+class Look:
+    """A block that uses functions of the student's. An error in it becomes one printed line.
+
+    Figures that were opened in a block that failed are closed: they are empty or half drawn. What is
+    no function's error, an interrupt above all, goes through.
+
+    ids: of the checks that judge these functions, each after those that it builds on. namespace: the
+    notebook's. blame: asked after an error; without it, the line names every card that may say more.
+    seconds: the time limit of the block; none by default.
+    """
+
+    def __init__(
+        self,
+        ids: tuple[str, ...],
+        namespace: Mapping,
+        blame: Blame | None = None,
+        seconds: float | None = None,
+    ):
+        self._ids = ids
+        self._namespace = namespace
+        self._blame = blame
+        self._seconds = seconds
+        self._limit = ExitStack()
+        self._figures: set[int] = set()
+
+    def __enter__(self):
+        self._figures = _open_figures()
+        if self._seconds is not None:
+            self._limit.enter_context(time_limit(self._seconds))
+
+    def __exit__(self, kind, error, trace) -> bool:
+        self._limit.close()
+        if error is None:
+            return False
+        # The limit of a whole cell is another's to see.
+        own = (Exception, SystemExit, *([TimeLimitError] if self._seconds is not None else []))
+        if isinstance(error, own):
+            print(self._said_of(error))
+        _close_figures(_open_figures() - self._figures)
+        return isinstance(error, own)
+
+    def _said_of(self, error: BaseException) -> str:
+        raising = self._raising(error)
+        if isinstance(error, NotImplementedError):
+            names = [_name(raising)] if raising else map(_name, self._ids)
+            return f"Write {_joined(names)} first, then run this cell again."
+        missing = [id for id in self._ids if _name(id) not in self._namespace]
+        if isinstance(error, NameError) and error.name in map(_name, missing):
+            return f"The notebook defines no {error.name}: {_cards(missing)}."
+        if isinstance(error, TimeLimitError):
+            said = f"did not end within {self._seconds:g} s"
+        else:
+            said = f"raises {one_line(type(error).__name__)}"
+        details = f"{said}: {one_line(said_by(error), 120)}".removesuffix(": ")
+        if self._blame is None:
+            cards = self._ids[: self._ids.index(raising) + 1] if raising else self._ids
+            who = _name(raising) if raising else "This cell"
+            return f"{who} {said if raising else details}: {_cards(cards)}."
+        blamed = self._blame(raising)
+        if blamed is None:  # right, but not in a form that serves here
+            return f"{_name(raising) if raising else 'This cell'} {details}"
+        if blamed == raising:
+            return f"{_name(raising)} {said}: {_cards([blamed])}."
+        return f"What {_name(blamed)} returns is of no use in this cell: {_cards([blamed])}."
+
+    def _raising(self, error: BaseException) -> str | None:
+        """The check of the innermost of these functions on the way to the error."""
+        codes = {_code(self._namespace.get(_name(id))): id for id in self._ids}
+        frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
+        return next((codes[f.f_code] for f in reversed(frames) if f.f_code in codes), None)
+
+
+def _name(id: str) -> str:
+    """The function that a check judges: p1-M judges M."""
+    return id.partition("-")[2]
+
+
+def _joined(names) -> str:
+    *others, last = names
+    return f"{', '.join(others)} and {last}" if others else last
+
+
+def _cards(ids) -> str:
+    return f"see the card{'s' if len(ids) > 1 else ''} of {_joined(ids)}"
+
+
+def _code(function):
+    """What a function runs; None where that is not Python."""
+    try:
+        function = inspect.unwrap(function)
+    except ValueError:  # wrapped in itself
+        return None
+    if not hasattr(function, "__code__") and callable(function):
+        function = type(function).__call__
+    return getattr(function, "__code__", None)
+
+
+def _open_figures() -> set[int]:
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    return set(pyplot.get_fignums()) if pyplot else set()
+
+
+def _close_figures(numbers: set[int]) -> None:
+    for number in numbers:
+        sys.modules["matplotlib.pyplot"].close(number)
