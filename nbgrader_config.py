@@ -41,6 +41,6 @@ c.Autograde.autograde_preprocessors = nbgrader_glue.autograde_preprocessors()
 c.Autograde.exporter_class = nbgrader_glue.SUBMISSION_EXPORTER
 c.HTMLExporter.filters = nbgrader_glue.PAGE_FILTERS
 
-c.ClearSolutions.code_stub = {"python": "raise NotImplementedError  # your answer goes here"}
-c.ClearSolutions.text_stub = "*(your answer goes here)*"
+c.ClearSolutions.code_stub = {"python": nbgrader_glue.CODE_STUB}
+c.ClearSolutions.text_stub = nbgrader_glue.TEXT_STUB
 c.CsvExportPlugin.to = "course/grades.csv"

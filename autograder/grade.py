@@ -13,7 +13,8 @@ from nbformat import NotebookNode
 from autograder import outputs
 from autograder.judge import HIDDEN_CASES, CannotRunError
 from autograder.problems import CHECKS
-from autograder.repair import grade_id, repair
+from autograder.recognise import grade_id
+from autograder.repair import repair
 from autograder.sandbox import Room, RoomLostError
 from autograder.verdict import State, Verdict
 from autograder.wall import Call, Fault, FaultKind, Reply, shortened

@@ -17,7 +17,7 @@ from autograder.nbgrader_glue.preprocessors import Judge, secret_of, seed_of
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.steps import autograde_preprocessors, sanitize_preprocessors
 from autograder.nbgrader_glue.submitted import RefusedError
-from autograder.repair import grade_id
+from autograder.recognise import grade_id
 
 # Steps whose work is done here or by `repair`, with no regard to their settings.
 REPLACED = ("ClearOutput", "DeduplicateIds", "OverwriteKernelspec", "OverwriteCells")
