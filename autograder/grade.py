@@ -6,11 +6,13 @@ import logging
 import re
 import time
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from nbformat import NotebookNode
 
 from autograder import outputs
+from autograder.beside import Beside
 from autograder.judge import HIDDEN_CASES, CannotRunError
 from autograder.problems import CHECKS
 from autograder.recognise import grade_id
@@ -23,6 +25,7 @@ log = logging.getLogger(__name__)
 
 # A notebook in which everything takes as long as it may must not hold up a batch.
 NOTEBOOK_SECONDS = 60.0
+NOTHING = Beside()
 MISSING = """
 import json
 from wall.languages import missing
@@ -41,25 +44,36 @@ class Graded:
     notes: tuple[str, ...]
 
 
-def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
+def grade(
+    submission: NotebookNode,
+    source: NotebookNode,
+    seed: str,
+    beside: Beside = NOTHING,
+    said: tuple[str, ...] = (),
+) -> Graded:
     """Run the submission's cells in a sandbox and judge its graded functions outside.
 
+    beside: files that its cells find. said: notes that come first.
     seed: decides the random cases; the same seed gives the same verdicts. Each check has its own
     stream, so that adding a problem changes no other's cases. A grade cell that no check belongs
     to gets no credit and says so. Where a sandbox is lost through no fault of the notebook's, that
     is graded once more. OSError where that happens again, or no sandbox starts.
     """
     try:
-        return _graded(submission, source, seed)
+        return _graded(submission, source, seed, beside, said)
     except OSError as error:
         log.warning("%s: the notebook is graded once more", error)
-        return _graded(submission, source, seed)
+        return _graded(submission, source, seed, beside, said)
 
 
-def _graded(submission, source, seed) -> Graded:
-    notebook, notes = repair(submission, source)
+def _graded(submission, source, seed, beside, said) -> Graded:
+    notebook, notes = repair(submission, source, said)
     verdicts = {}
-    with Sitting() as sitting:
+    with Sitting(partial(Room, files=beside.laid)) as sitting:
+
+        def ask(calls):
+            return [beside.explained(reply) for reply in sitting.ask(calls)]
+
         for cell in notebook.cells:
             if cell.cell_type != "code":
                 continue
@@ -67,10 +81,11 @@ def _graded(submission, source, seed) -> Graded:
             if not is_judged(cell):
                 shown = map(outputs.of_student, sitting.run(cell.source))
                 cell.outputs = [output for output in shown if output]
+                cell.outputs += _explanations(cell.outputs, beside)
                 continue
             name = grade_id(cell)
             if name in CHECKS:
-                verdict = CHECKS[name].run(sitting.ask, stream(seed, name), HIDDEN_CASES)
+                verdict = CHECKS[name].run(ask, stream(seed, name), HIDDEN_CASES)
             else:
                 problem = f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
@@ -79,6 +94,12 @@ def _graded(submission, source, seed) -> Graded:
                 notes.append(f"{name} could not be judged: {verdict.problem}")
             verdicts[name] = verdict.without_inputs()
     return Graded(notebook, verdicts, tuple(notes))
+
+
+def _explanations(shown, beside) -> list[NotebookNode]:
+    """Below an error that names a file: why it is not there."""
+    errors = (f"{out.ename}: {out.evalue}" for out in shown if out.output_type == "error")
+    return [outputs.stream("stderr", f"{why}\n") for why in map(beside.explanation, errors) if why]
 
 
 def is_judged(cell: NotebookNode) -> bool:

@@ -1,10 +1,12 @@
 """Which of a notebook's cells is which of its source: by nbgrader's settings, by id, or by text."""
 
+import copy
 from collections import Counter
 from dataclasses import dataclass
 
 from nbformat import NotebookNode
 
+from autograder.form import give_form
 from autograder.released import essence, released
 
 
@@ -53,6 +55,28 @@ def places(notebook: NotebookNode, source: NotebookNode) -> Places:
         if len(at) + len(bare) < len(known):
             bare |= _found(notebook, key, names, at | bare)
     return Places(at | bare, [name for name in known if name in bare], doubled)
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """Whether a notebook is one of the source's, and whether anything was answered in it."""
+
+    known: bool
+    answered: bool
+
+
+def likeness(notebook: NotebookNode, source: NotebookNode) -> Likeness:
+    """A third of the graded cells is enough: those that everybody deletes are no answers."""
+    notebook = copy.deepcopy(notebook)
+    give_form(notebook, source, [])
+    known, at = known_cells(source), places(notebook, source).at
+    answers = [name for name, cell in known.items() if cell.metadata["nbgrader"].get("solution")]
+    untouched = sum(
+        essence(notebook.cells[at[name]].source) in ("", essence(released(known[name])))
+        for name in answers
+        if name in at
+    )
+    return Likeness(0 < len(known) <= 3 * len(at), untouched < len(answers))
 
 
 def _found(notebook, key, names: dict, at: dict[str, int]) -> dict[str, int]:

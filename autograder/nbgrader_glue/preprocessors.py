@@ -10,6 +10,7 @@ from nbgrader.preprocessors import NbGraderPreprocessor
 from traitlets import Unicode
 
 from autograder.grade import grade, is_judged
+from autograder.nbgrader_glue import handed_in
 from autograder.nbgrader_glue.scores import with_verdicts
 from autograder.repair import repair
 
@@ -36,6 +37,12 @@ class FromSource(NbGraderPreprocessor):
         path = Path(folder) / f"{names['notebook']}.ipynb"
         return _read_source(path, path.stat().st_mtime_ns)
 
+    def submitted(self, names) -> Path:
+        course = self.parent.parent.coursedir
+        return Path(
+            course.format_path(course.submitted_directory, names["student"], names["assignment"])
+        )
+
 
 @lru_cache(maxsize=8)
 def _read_source(path: Path, changed: int) -> NotebookNode:
@@ -46,9 +53,11 @@ class RepairCells(FromSource):
     """For `autograde`, first: graded cells as in the source, so that no copied cell stops a batch."""
 
     def preprocess(self, nb, resources):
-        nb, notes = repair(nb, self.source_of(resources))
+        names, source = resources["nbgrader"], self.source_of(resources)
+        _, said = handed_in.counted(self.submitted(names), names["notebook"], source)
+        nb, notes = repair(nb, source, said)
         for note in notes:
-            self.log.warning("%s: %s", resources["nbgrader"]["student"], note)
+            self.log.warning("%s: %s", names["student"], note)
         return nb, resources
 
 
@@ -65,10 +74,17 @@ class Judge(FromSource):
         names = resources["nbgrader"]
         secret = secret_of(Path(self.parent.parent.coursedir.root) / self.seed_file)
         seed = seed_of(secret, names["student"], names["assignment"])
-        graded = grade(nb, self.source_of(resources), seed)
+        graded = grade(nb, self.source_of(resources), seed, self._beside(names))
         for note in graded.notes:
             self.log.warning("%s: %s", names["student"], note)
         return with_verdicts(graded), resources
+
+    def _beside(self, names):
+        converter = self.parent.parent
+        course, assignment = converter.coursedir, names["assignment"]
+        source = Path(course.format_path(course.source_directory, ".", assignment))
+        kept = converter.exclude_overwriting.get(assignment, [])
+        return handed_in.beside(self.submitted(names), source, course.ignore, kept)
 
 
 def secret_of(path: Path) -> str:

@@ -11,6 +11,7 @@ from nbgrader.preprocessors import AssignLatePenalties
 from traitlets import import_item
 from traitlets.config import Config
 
+from autograder.beside import Beside
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
 from autograder.nbgrader_glue.preprocessors import Judge, secret_of, seed_of
@@ -81,6 +82,14 @@ class Recorder:
         except RefusedError as error:
             return str(error)
         return ""
+
+    def counted(self, student: str) -> tuple[Path, list[str]]:
+        """The notebook of a submission that is graded, and what to know of the others."""
+        return self._folders.counted(student, nbformat.reads(self.source, as_version=4))
+
+    def laid_in(self, student: str) -> Beside:
+        """The files that the notebook's cells find beside it."""
+        return self._folders.laid_in(student)
 
     def seed_of(self, student: str) -> str:
         return seed_of(self._secret, student, self.assignment)
