@@ -1,7 +1,7 @@
 """Files that were handed in beside a notebook: which its cells find, and why others are not there."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
@@ -10,6 +10,21 @@ from autograder.wall import Reply, one_line
 
 MOST_FILES = 100
 MOST_BYTES = 8 << 20
+# In which a derivation may be handed in.
+DOCUMENTS = (
+    ".docx",
+    ".gif",
+    ".heic",
+    ".jpeg",
+    ".jpg",
+    ".md",
+    ".odt",
+    ".pdf",
+    ".png",
+    ".rtf",
+    ".svg",
+)
+DOCUMENTS += (".tex", ".tif", ".tiff", ".txt", ".webp")
 # What a cell imports under these names is the grader's own.
 RESERVED = ("armdyn", "autograder", "toolchain", "wall")
 # How Python, IPython and NumPy name a file or a module that is not there.
@@ -22,15 +37,19 @@ MISSING_MODULE = re.compile(r"No module named '(\w+)")
 
 @dataclass(frozen=True)
 class Beside:
-    """laid: the files that cells find, by their path from the notebook. left_out: why others are not."""
+    """laid: the files that cells find, by their path from the notebook. left_out: why others are not.
+
+    documents: a student's own pictures and texts.
+    """
 
     laid: Mapping[str, bytes] = field(default_factory=dict)
     left_out: Mapping[str, str] = field(default_factory=dict)
+    documents: tuple[str, ...] = ()
 
     def digest(self) -> str:
         """A name for these files, different for different ones."""
         laid = (part for item in sorted(self.laid.items()) for part in item)
-        return digest(*laid, repr(sorted(self.left_out.items())))
+        return digest(*laid, repr((sorted(self.left_out.items()), self.documents)))
 
     def explanation(self, error: str) -> str:
         """Why a file or module that an error names is not there; empty where it names none."""
@@ -66,8 +85,11 @@ class Beside:
         return f"{shown} was not handed in with the notebook"
 
 
-def choose(files: Mapping[str, Path]) -> Beside:
-    """What of a submission's files, by their path from the notebook, is laid in: the smallest first."""
+def choose(files: Mapping[str, Path], own: Collection[str] = ()) -> Beside:
+    """What of a submission's files, by their path from the notebook, is laid in: the smallest first.
+
+    own: those that are not the assignment's.
+    """
     left_out = {
         name: "the grader has a module of this name" for name in files if _is_reserved(name)
     }
@@ -81,7 +103,8 @@ def choose(files: Mapping[str, Path]) -> Beside:
             left_out[name] = f"the files beside it have more than {MOST_BYTES >> 20} MB"
         else:
             laid[name] = files[name].read_bytes()
-    return Beside(laid, left_out)
+    documents = sorted(name for name in own if name.lower().endswith(DOCUMENTS))
+    return Beside(laid, left_out, tuple(documents))
 
 
 def _is_reserved(name: str) -> bool:

@@ -67,7 +67,7 @@ def grade(
 
 
 def _graded(submission, source, seed, beside, said) -> Graded:
-    notebook, notes = repair(submission, source, said)
+    notebook, notes = repair(submission, source, said, beside.documents)
     verdicts = {}
     with Sitting(partial(Room, files=beside.laid)) as sitting:
 

@@ -4,19 +4,25 @@ nbgrader gives an untouched answer 0 unread. So it gets a sentence that says whe
 it is not untouched, and who grades it finds what to read.
 """
 
+from collections.abc import Sequence
+
 from nbformat import NotebookNode
 
-from autograder.letter import is_letter
+from autograder.letter import is_letter, plain
 from autograder.recognise import grade_id
 from autograder.released import essence, released
+from autograder.wall import one_line
 
 POINTER = "(From the grader: this cell holds no answer; it may be in the student's own {where}.)"
 
 
-def point_to_own_cells(notebook: NotebookNode, source: NotebookNode) -> list[str]:
+def point_to_own_cells(
+    notebook: NotebookNode, source: NotebookNode, documents: Sequence[str] = ()
+) -> list[str]:
     """Put the sentence into each empty answer that has something of the student's beside it; notes.
 
-    That is text or a picture in cells directly above, or below, before the next graded cell.
+    That is text or a picture in cells directly above, or below, before the next graded cell; or else
+    documents, which were handed in beside the notebook.
     """
     given = {essence(text) for cell in source.cells for text in (cell.source, released(cell))}
     untouched = {
@@ -33,11 +39,12 @@ def point_to_own_cells(notebook: NotebookNode, source: NotebookNode) -> list[str
             "cell above": any(_is_own(other, given) for other in above),
             "cell below": any(_is_own(other, given) for other in below),
             "picture, attached to it": bool(cell.get("attachments")),
+            f"file {one_line(next(iter(documents), ''), 100)}": bool(documents),
         }
         where = next((where for where, there in own.items() if there), None)
         if where:
             text = POINTER.format(where=where)
-            text = f"# {text}" if cell.cell_type == "code" else f"*{text}*"
+            text = f"# {text}" if cell.cell_type == "code" else f"*{plain(text)}*"
             cell.source = "\n\n".join(filter(None, [cell.source.rstrip(), text]))
             notes.append(f"{name} holds no answer; it may be in the student's own {where}")
     return notes

@@ -6,7 +6,7 @@ student too: in a cell that is put first.
 """
 
 import copy
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from nbformat import NotebookNode
 
@@ -21,7 +21,10 @@ MOST_NOTES = 50
 
 
 def repair(
-    submission: NotebookNode, source: NotebookNode, said: Iterable[str] = ()
+    submission: NotebookNode,
+    source: NotebookNode,
+    said: Iterable[str] = (),
+    documents: Sequence[str] = (),
 ) -> tuple[NotebookNode, list[str]]:
     """The submission with each graded cell of `source` in it exactly once, and what was mended.
 
@@ -29,9 +32,10 @@ def repair(
     student's own before it. An editable cell keeps the student's text; where it was deleted, an empty
     one is put in. Of several copies the last one counts, as it does when the notebook is run; the
     others stay as ordinary cells. Cells that only claim to be graded stay too, without the claim.
-    An empty answer that a person reads points to the student's own cells beside it.
+    An empty answer that a person reads points to the student's own cells beside it, or documents.
 
-    said: what the student should know besides; it comes first.
+    said: what the student should know besides; it comes first. documents: files of the student's that
+    may hold an answer.
     """
     notebook, notes = copy.deepcopy(submission), list(said)
     for cell in notebook.cells:
@@ -60,7 +64,7 @@ def repair(
             _keep_changed_text(notebook, placed[name], original, notes)
             _put_right(placed[name], original, notes)
     _put_back(notebook, known, placed, notes)
-    notes += point_to_own_cells(notebook, source)
+    notes += point_to_own_cells(notebook, source, documents)
     if len(notes) > MOST_NOTES:
         notes = [*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES} more such notes"]
     if notes:

@@ -49,7 +49,7 @@ def beside(folder: Path, source: Path, ignore: list[str], kept: list[str]) -> Be
     theirs, ours = (_files(where, ignore) for where in (folder, source))
     for name in kept:
         ours.pop(Path(name).as_posix(), None)
-    return choose(theirs | ours)
+    return choose(theirs | ours, theirs.keys() - _files(source, ignore))
 
 
 def _files(folder: Path, ignore: list[str]) -> dict[str, Path]:

@@ -9,6 +9,7 @@ from nbformat import NotebookNode
 from nbgrader.preprocessors import NbGraderPreprocessor
 from traitlets import Unicode
 
+from autograder.beside import Beside
 from autograder.grade import grade, is_judged
 from autograder.nbgrader_glue import handed_in
 from autograder.nbgrader_glue.scores import with_verdicts
@@ -43,6 +44,13 @@ class FromSource(NbGraderPreprocessor):
             course.format_path(course.submitted_directory, names["student"], names["assignment"])
         )
 
+    def beside(self, names) -> Beside:
+        converter = self.parent.parent
+        course, assignment = converter.coursedir, names["assignment"]
+        source = Path(course.format_path(course.source_directory, ".", assignment))
+        kept = converter.exclude_overwriting.get(assignment, [])
+        return handed_in.beside(self.submitted(names), source, course.ignore, kept)
+
 
 @lru_cache(maxsize=8)
 def _read_source(path: Path, changed: int) -> NotebookNode:
@@ -55,7 +63,7 @@ class RepairCells(FromSource):
     def preprocess(self, nb, resources):
         names, source = resources["nbgrader"], self.source_of(resources)
         _, said = handed_in.counted(self.submitted(names), names["notebook"], source)
-        nb, notes = repair(nb, source, said)
+        nb, notes = repair(nb, source, said, self.beside(names).documents)
         for note in notes:
             self.log.warning("%s: %s", names["student"], note)
         return nb, resources
@@ -74,17 +82,10 @@ class Judge(FromSource):
         names = resources["nbgrader"]
         secret = secret_of(Path(self.parent.parent.coursedir.root) / self.seed_file)
         seed = seed_of(secret, names["student"], names["assignment"])
-        graded = grade(nb, self.source_of(resources), seed, self._beside(names))
+        graded = grade(nb, self.source_of(resources), seed, self.beside(names))
         for note in graded.notes:
             self.log.warning("%s: %s", names["student"], note)
         return with_verdicts(graded), resources
-
-    def _beside(self, names):
-        converter = self.parent.parent
-        course, assignment = converter.coursedir, names["assignment"]
-        source = Path(course.format_path(course.source_directory, ".", assignment))
-        kept = converter.exclude_overwriting.get(assignment, [])
-        return handed_in.beside(self.submitted(names), source, course.ignore, kept)
 
 
 def secret_of(path: Path) -> str:

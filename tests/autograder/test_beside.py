@@ -79,6 +79,11 @@ def test_the_smallest_come_first(tmp_path, monkeypatch):
     assert set(choose(files).laid) == {"c.py"}
 
 
+def test_a_students_pictures_and_texts_are_documents(tmp_path):
+    files = written(tmp_path, {"a.JPG": 1, "b.csv": 1, "c.pdf": 1, "arm.svg": 1})
+    assert choose(files, own={"a.JPG", "b.csv", "c.pdf"}).documents == ("a.JPG", "c.pdf")
+
+
 @pytest.mark.parametrize("name", ["autograder.py", "wall/calls.py", "armdyn/__init__.py"])
 def test_what_would_stand_for_the_graders_own_is_left_out(tmp_path, name):
     path = tmp_path / "any"
@@ -129,6 +134,6 @@ def test_a_reply_with_numbers_stays_as_it_is():
 
 def test_other_files_have_another_digest():
     several = [Beside(), Beside({"a": b"b"}), Beside({"a": b"c"}), Beside({"ab": b""}),
-               Beside({}, {"a": "b"})]  # fmt: skip
+               Beside({}, {"a": "b"}), Beside(documents=("a",))]  # fmt: skip
     assert len({files.digest() for files in several}) == len(several)
     assert Beside({"a": b"", "b": b""}).digest() == Beside({"b": b"", "a": b""}).digest()

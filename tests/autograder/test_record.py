@@ -62,6 +62,10 @@ def copy_beside(folder, release):
     write(folder / COPY, p3_pendulum.right(release))
 
 
+def photo_beside(folder, release):
+    (folder / "IMG 1234.jpg").write_bytes(b"\xff\xd8")
+
+
 def damaged_beside(folder, release):
     copy_beside(folder, release)
     (folder / NOTEBOOK).write_text("")
@@ -122,8 +126,9 @@ def files_beside(folder, release):
 
 HAND_INS = {
     made.__name__: made
-    for made in (edited_locked_cells, derivation_in_own_cells, copy_beside, damaged_beside, other_name,
-                 two_other_names, in_a_subfolder, as_an_archive, without_settings, files_beside)
+    for made in (edited_locked_cells, derivation_in_own_cells, copy_beside, photo_beside,
+                 damaged_beside, other_name, two_other_names, in_a_subfolder, as_an_archive,
+                 without_settings, files_beside)
 }  # fmt: skip
 
 
@@ -202,12 +207,13 @@ def test_what_was_tested_is_not_trivial(pair):
         f"copy_beside 0 of 15 6 not attempted {NOTEBOOK} was graded and has no answers, but {COPY}",
         f"damaged_beside could not be graded {NOTEBOOK} is not valid JSON: ask for it again; {COPY}",
         "derivation_in_own_cells 10 of 15 6 correct, 1 to be read p3-derivation holds no answer; it may",
+        "photo_beside 0 of 15 6 not attempted, 1 to be read p3-derivation holds no answer; it may be in",
         "edited_locked_cells 10 of 15 6 correct the text of p3-setup had been changed; it was put back",
         "files_beside 8 of 15 4 correct, 2 error in your code",
         "without_settings 10 of 15 6 correct, 1 to be read 16 cells had lost their nbgrader settings",
         f"empty could not be graded there is no {NOTEBOOK}",
         "p3-M was there more than once; the last one counts",
-        "16 graded, 0 unchanged, 7 could not be graded",
+        "17 graded, 0 unchanged, 7 could not be graded",
     ],
 )
 def test_table_says(pair, line):
@@ -263,7 +269,7 @@ def test_a_persons_marks_stay(pair, monkeypatch, capsys):
     assert main(["grade", P3, "--jobs", "1"]) == 1
     said = capsys.readouterr().out
     assert "right 14 of 15 6 correct" in " ".join(said.split())
-    assert "0 graded, 16 unchanged" in said
+    assert "0 graded, 17 unchanged" in said
     assert rows(courses.database(root)) == before
 
 
@@ -278,7 +284,7 @@ def test_what_is_gone_is_put_back(pair, monkeypatch, capsys):
         gradebook.find_grade("p3-M", P3, P3, "partly_right").auto_score = 0.5
         gradebook.db.commit()
     assert main(["grade", P3, "--jobs", "1"]) == 1
-    assert "3 graded, 13 unchanged" in capsys.readouterr().out
+    assert "3 graded, 14 unchanged" in capsys.readouterr().out
     assert (rows(courses.database(root)), files(root / "course" / "autograded")) == before
 
 
@@ -288,5 +294,5 @@ def test_with_another_file_beside_it_a_notebook_is_judged_again(pair, monkeypatc
     (root / "course" / "submitted" / "files_beside" / P3 / "script.py").write_text("half = 0.7\n")
     assert main(["grade", P3, "--jobs", "1"]) == 1
     said = " ".join(capsys.readouterr().out.split())
-    assert "1 graded, 15 unchanged" in said
+    assert "1 graded, 16 unchanged" in said
     assert "files_beside 6.5 of 15" in said  # the kinetic part of L is wrong now

@@ -437,3 +437,14 @@ def test_what_a_student_wrote_is_plain_text_in_the_letter():
     marks = "![x](javascript:1) <b> `a` *b* _c_ [d](e) | ~e~ # f\\"
     page = markdown2html({}, letter([marks]).source)
     assert html.unescape(re.search("<li>(.*?)</li>", page, re.DOTALL)[1]).strip() == marks
+
+
+def test_a_document_beside_the_notebook_may_be_the_answer(release):
+    documents = ["my_*derivation*.pdf", "other.jpg"]
+    mended, (note,) = repair(release, SOURCE, documents=documents)
+    assert (
+        note
+        == "p3-derivation holds no answer; it may be in the student's own file my_*derivation*.pdf"
+    )
+    assert r"own file my\_\*derivation\*.pdf" in cell_of(mended, "p3-derivation").source
+    assert repair(p3_pendulum.right(release), SOURCE, documents=documents)[1] == []
