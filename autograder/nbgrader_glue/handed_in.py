@@ -2,6 +2,7 @@
 
 import os
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import nbformat
@@ -46,15 +47,20 @@ def counted(folder: Path, name: str, source: NotebookNode) -> tuple[Path, list[s
 
 def beside(folder: Path, source: Path, ignore: list[str], kept: list[str]) -> Beside:
     """A submission's files, no notebooks. The source's win over the student's, except `kept`."""
-    theirs, ours = (_files(where, ignore) for where in (folder, source))
+    found = _files(folder, ignore)
+    theirs = {name: path for name, path in found.items() if path.suffix != ".ipynb"}
+    ours = _files(source, [*ignore, "*.ipynb"])
+    own = theirs.keys() - ours
     for name in kept:
         ours.pop(Path(name).as_posix(), None)
-    return choose(theirs | ours, theirs.keys() - _files(source, ignore))
+    chosen = choose(theirs | ours, own)
+    notebooks = dict.fromkeys(found.keys() - theirs.keys(), "it is a notebook")
+    return replace(chosen, left_out=chosen.left_out | notebooks)
 
 
 def _files(folder: Path, ignore: list[str]) -> dict[str, Path]:
     found = {}
-    for name in utils.find_all_files(str(folder), [*ignore, "*.ipynb"]):
+    for name in utils.find_all_files(str(folder), ignore):
         path = Path(name)
         parts = path.relative_to(folder).parts
         hidden = any(part.startswith(".") for part in parts)

@@ -1,6 +1,7 @@
 """What `nbgrader autograde` does around the judging, for many submissions of one assignment."""
 
 import copy
+from functools import cached_property
 from pathlib import Path
 
 import nbformat
@@ -85,7 +86,11 @@ class Recorder:
 
     def counted(self, student: str) -> tuple[Path, list[str]]:
         """The notebook of a submission that is graded, and what to know of the others."""
-        return self._folders.counted(student, nbformat.reads(self.source, as_version=4))
+        return self._folders.counted(student, self._source)
+
+    @cached_property
+    def _source(self) -> NotebookNode:
+        return nbformat.reads(self.source, as_version=4)
 
     def laid_in(self, student: str) -> Beside:
         """The files that the notebook's cells find beside it."""
