@@ -448,3 +448,47 @@ def test_a_document_beside_the_notebook_may_be_the_answer(release):
     )
     assert r"own file my\_\*derivation\*.pdf" in cell_of(mended, "p3-derivation").source
     assert repair(p3_pendulum.right(release), SOURCE, documents=documents)[1] == []
+
+
+def answers_for_a_person(*names):
+    """A source of nothing but answers that a person reads."""
+    cells = [
+        new_markdown_cell("### BEGIN SOLUTION\nyes\n### END SOLUTION", id=name) for name in names
+    ]
+    for cell, name in zip(cells, names, strict=True):
+        cell.metadata.nbgrader = nbformat.NotebookNode(
+            grade_id=name, grade=True, solution=True, locked=False, points=1
+        )
+    return new_notebook(cells=cells)
+
+
+def untouched(source):
+    notebook = copy.deepcopy(source)
+    for cell in notebook.cells:
+        cell.source = released(cell)
+    return notebook
+
+
+def test_the_letter_is_no_answer():
+    source = answers_for_a_person("a")
+    submission = untouched(source)
+    submission.cells.append(copy.deepcopy(submission.cells[0]))
+    mended, (note,) = repair(submission, source)
+    assert note == "a was there more than once; the last one counts"
+    mended.cells.pop(1)  # the copy, so that the letter stands directly above the answer
+    again, notes = repair(mended, source)
+    assert notes == []
+    assert cell_of(again, "a").source == TEXT_STUB
+
+
+def test_a_text_that_two_cells_have_tells_neither():
+    source = answers_for_a_person("a", "b")
+    _, notes = repair(lost(untouched(source), "id"), source)
+    assert notes[:2] == ["a was missing; it was put back", "b was missing; it was put back"]
+
+
+def test_an_id_does_not_count_against_other_settings(release):
+    submission = copy.deepcopy(release)
+    cell_of(submission, "answer-M").metadata.nbgrader = {"grade_id": "p9-made-up"}
+    _, notes = repair(submission, SOURCE)
+    assert "answer-M was missing; it was put back" in notes
