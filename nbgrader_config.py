@@ -44,7 +44,7 @@ c.HTMLExporter.filters = nbgrader_glue.PAGE_FILTERS
 
 c.Application.logging_config = {"formatters": {"console": {"class": nbgrader_glue.LOG_FORMATTER}}}
 
-c.ClearSolutions.code_stub = {"python": "raise NotImplementedError  # your answer goes here"}
-c.ClearSolutions.text_stub = "*(your answer goes here)*"
+c.ClearSolutions.code_stub = {"python": nbgrader_glue.CODE_STUB}
+c.ClearSolutions.text_stub = nbgrader_glue.TEXT_STUB
 c.ExportApp.plugin_class = nbgrader_glue.GRADES_EXPORTER
 c.ExportPlugin.to = "course/grades.csv"

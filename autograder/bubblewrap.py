@@ -22,6 +22,7 @@ INSIDE = {
     HERE / "room" / "first.py": "first.py",
     HERE / "room" / "watch.py": "watch.py",
     HERE / "room" / "namespaces.py": "namespaces.py",
+    HERE / "room" / "beside.py": "beside.py",
     HERE / "room" / "stubs" / "autograder.py": "autograder.py",
     HERE / "room" / "stubs" / "armdyn.py": "armdyn.py",
     **{path: f"wall/{path.name}" for path in (HERE / "wall").glob("*.py")},

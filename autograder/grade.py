@@ -6,15 +6,18 @@ import logging
 import re
 import time
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from nbformat import NotebookNode
 
 from autograder import outputs
+from autograder.beside import Beside
 from autograder.cache import digest
 from autograder.judge import HIDDEN_CASES, CannotRunError
 from autograder.problems import CHECKS
-from autograder.repair import grade_id, repair
+from autograder.recognise import grade_id
+from autograder.repair import repair
 from autograder.sandbox import Room, RoomLostError
 from autograder.terminal import shown_name, shown_note
 from autograder.verdict import State, Verdict
@@ -24,6 +27,7 @@ log = logging.getLogger(__name__)
 
 # A notebook in which everything takes as long as it may must not hold up a batch.
 NOTEBOOK_SECONDS = 60.0
+NOTHING = Beside()
 MISSING = """
 import json
 from wall.languages import missing
@@ -42,9 +46,16 @@ class Graded:
     notes: tuple[str, ...]
 
 
-def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
+def grade(
+    submission: NotebookNode,
+    source: NotebookNode,
+    seed: str,
+    beside: Beside = NOTHING,
+    said: tuple[str, ...] = (),
+) -> Graded:
     """Run the submission's cells in a sandbox and judge its graded functions outside.
 
+    beside: files that its cells find. said: notes that come first.
     seed: decides the random cases, together with the code of the repaired notebook: the same
     submission gets the same verdicts again, and what one hand-in was shown of its cases is of no use
     to the next. Each check has its own stream, so that adding a problem changes no other's cases.
@@ -53,16 +64,20 @@ def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
     sandbox starts.
     """
     try:
-        return _graded(submission, source, seed)
+        return _graded(submission, source, seed, beside, said)
     except OSError as error:
         log.warning("%s: the notebook is graded once more", shown_note(str(error)))
-        return _graded(submission, source, seed)
+        return _graded(submission, source, seed, beside, said)
 
 
-def _graded(submission, source, seed) -> Graded:
-    notebook, notes = repair(submission, source)
+def _graded(submission, source, seed, beside, said) -> Graded:
+    notebook, notes = repair(submission, source, said, beside.documents)
     verdicts, seed = {}, of_content(seed, notebook)
-    with Sitting() as sitting:
+    with Sitting(partial(Room, files=beside.laid)) as sitting:
+
+        def ask(calls):
+            return [beside.explained(reply) for reply in sitting.ask(calls)]
+
         for cell in notebook.cells:
             if cell.cell_type != "code":
                 continue
@@ -70,10 +85,11 @@ def _graded(submission, source, seed) -> Graded:
             if not is_judged(cell):
                 shown = map(outputs.of_student, sitting.run(cell.source))
                 cell.outputs = [output for output in shown if output]
+                cell.outputs += _explanations(cell.outputs, beside)
                 continue
             name = grade_id(cell)
             if name in CHECKS:
-                verdict = CHECKS[name].run(sitting.ask, stream(seed, name), HIDDEN_CASES)
+                verdict = CHECKS[name].run(ask, stream(seed, name), HIDDEN_CASES)
             else:
                 problem = f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
@@ -82,6 +98,12 @@ def _graded(submission, source, seed) -> Graded:
                 notes.append(f"{name} could not be judged: {verdict.problem}")
             verdicts[name] = verdict.without_inputs()
     return Graded(notebook, verdicts, tuple(notes))
+
+
+def _explanations(shown, beside) -> list[NotebookNode]:
+    """Below an error that names a file: why it is not there."""
+    errors = (f"{out.ename}: {out.evalue}" for out in shown if out.output_type == "error")
+    return [outputs.stream("stderr", f"{why}\n") for why in map(beside.explanation, errors) if why]
 
 
 def is_judged(cell: NotebookNode) -> bool:

@@ -6,15 +6,18 @@ from functools import lru_cache
 import nbformat
 from nbformat import NotebookNode
 
+from autograder.beside import Beside
 from autograder.cache import code_version
-from autograder.grade import grade
+from autograder.grade import NOTHING, grade
 from autograder.nbgrader_glue import with_verdicts
 from autograder.sandbox import Room
 from autograder.verdict import State
 
 
-def judge(content: bytes, source: str, seed: str) -> dict:
-    """grade(submission, source, seed), its verdicts as nbgrader reads them.
+def judge(
+    content: bytes, source: str, seed: str, beside: Beside = NOTHING, said: tuple[str, ...] = ()
+) -> dict:
+    """grade(submission, source, seed, beside, said), its verdicts as nbgrader reads them.
 
     notebook, states, notes, certain (whether every check could be judged) and code, by which a
     worker with other code is known; or refused, why the file cannot be graded, and code.
@@ -22,13 +25,14 @@ def judge(content: bytes, source: str, seed: str) -> dict:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # nbformat's are not the instructor's business
-            return _judged(content, source, seed) | {"code": code_version()}
+            return _judged(content, source, seed, beside, said) | {"code": code_version()}
     except (UnicodeDecodeError, nbformat.reader.NotJSONError):
         refused = "is not valid JSON: ask for it again"
     except OSError:
         raise  # ours
     except Exception as error:
         refused = f"cannot be read: {type(error).__name__}: {error}"
+    refused = "; ".join([refused, *said])
     return {"refused": refused, "code": code_version()}
 
 
@@ -38,9 +42,9 @@ def load() -> None:
     code_version()
 
 
-def _judged(content: bytes, source: str, seed: str) -> dict:
+def _judged(content: bytes, source: str, seed: str, beside: Beside, said: tuple) -> dict:
     notebook, notes = _read(content.decode("utf-8-sig"))
-    graded = grade(notebook, _source(source), seed)
+    graded = grade(notebook, _source(source), seed, beside, said)
     notebook = with_verdicts(graded)
     nbformat.validate(notebook, relax_add_props=True)
     states = [verdict.state for verdict in graded.verdicts.values()]

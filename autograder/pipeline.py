@@ -96,7 +96,7 @@ class _Run:
             self._lines[student] = replace(line, notes=(*line.notes, note))
         return [self._lines[student] for student in self._submissions]
 
-    def _tasks(self) -> Iterator[tuple[str, tuple[bytes, str, str]]]:
+    def _tasks(self) -> Iterator[tuple[str, tuple]]:
         """What is left to be judged; what needs no judging is settled on the way."""
         for student, path in self._submissions.items():
             try:
@@ -104,19 +104,23 @@ class _Run:
                 if why:
                     self._refuse(student, why)
                     continue
-                task = self._task(student, path)
-            except FileNotFoundError:
-                self._refuse(student, f"there is no {path.name}")
+                task = self._task(student)
+            except FileNotFoundError as error:
+                self._refuse(student, str(error))
             except Exception as error:
                 self._fail(student, error)
             else:
                 if task:
                     yield student, task
 
-    def _task(self, student: str, path: Path) -> tuple[bytes, str, str] | None:
+    def _task(self, student: str) -> tuple | None:
+        """The arguments of `judge`; None where there is nothing to judge."""
         recorder = self._recorder
+        path, said = recorder.counted(student)
+        self._submissions[student] = path
         content, seed = path.read_bytes(), recorder.seed_of(student)
-        key = digest(content, seed, self._common)
+        beside = recorder.laid_in(student)
+        key = digest(content, seed, beside.digest(), *said, self._common)
         self._keys[student] = key
         if not self._force:
             if self._unchanged(student, key):
@@ -125,7 +129,7 @@ class _Run:
             if known:
                 self._settle(student, known, new=False)
                 return None
-        return content, recorder.source, seed
+        return content, recorder.source, seed, beside, tuple(said)
 
     def _unchanged(self, student: str, key: str) -> bool:
         """Whether this very submission was recorded, and its rows and files are still there."""

@@ -1,123 +1,76 @@
 """Puts a submitted notebook's graded cells right, from the source version, before it is judged.
 
 Students copy, delete, rename and retype cells, by accident or not. nbgrader trusts the cells'
-metadata as submitted; here it is rebuilt from the source, and every change is reported.
+metadata as submitted; here it is rebuilt from the source, and every change is reported, to the
+student too: in a cell that is put first.
 """
 
 import copy
-import json
-import re
-from itertools import count
+from collections.abc import Iterable, Sequence
 
 from nbformat import NotebookNode
-from nbformat.v4 import new_code_cell, new_markdown_cell, new_raw_cell
 
+from autograder.form import NEW_CELL, give_form, tell_apart, without_surrogates
+from autograder.letter import letter
+from autograder.own_cells import point_to_own_cells
+from autograder.recognise import Places, grade_id, known_cells, places
+from autograder.released import essence, released
 from autograder.wall import one_line
 
-NEW_CELL = {"code": new_code_cell, "markdown": new_markdown_cell, "raw": new_raw_cell}
 MOST_NOTES = 50
 
 
-def repair(submission: NotebookNode, source: NotebookNode) -> tuple[NotebookNode, list[str]]:
+def repair(
+    submission: NotebookNode,
+    source: NotebookNode,
+    said: Iterable[str] = (),
+    documents: Sequence[str] = (),
+) -> tuple[NotebookNode, list[str]]:
     """The submission with each graded cell of `source` in it exactly once, and what was mended.
 
-    A locked cell gets the source's text again. An editable cell keeps the student's text; where it
-    was deleted, an empty one is put in. Of several copies the last one counts, as it does when the
-    notebook is run; the others stay as ordinary cells. Cells that only claim to be graded stay too,
-    without the claim.
+    A locked cell gets the source's text again; what a student wrote into it becomes a cell of the
+    student's own before it. An editable cell keeps the student's text; where it was deleted, an empty
+    one is put in. Of several copies the last one counts, as it does when the notebook is run; the
+    others stay as ordinary cells. Cells that only claim to be graded stay too, without the claim.
+    An empty answer that a person reads points to the student's own cells beside it, or documents.
+
+    said: what the student should know besides; it comes first. documents: files of the student's that
+    may hold an answer.
     """
-    notebook, notes = copy.deepcopy(submission), []
+    notebook, notes = copy.deepcopy(submission), list(said)
     for cell in notebook.cells:
         cell.pop("outputs", None)  # made anew
     clean = without_surrogates(notebook)
     if clean is not notebook:
         notes.append("characters that no text can hold were replaced by \ufffd")
         notebook = clean
-    _give_form(notebook, source, notes)
-    known = {grade_id(cell): cell for cell in source.cells if grade_id(cell)}
-    at = _last_places(notebook, known, notes)
+    give_form(notebook, source, notes)
+    known = known_cells(source)
+    found = places(notebook, source)
+    _tell_of(found, notes)
     for index, cell in enumerate(notebook.cells):
         claimed = grade_id(cell)
-        if "nbgrader" in cell.metadata and (claimed is None or at.get(claimed) != index):
+        if "nbgrader" in cell.metadata and (claimed is None or found.at.get(claimed) != index):
             del cell.metadata["nbgrader"]
             if claimed and claimed not in known:
                 notes.append(
                     f"a cell that claims to be {one_line(claimed, 60)}, which the source does not have"
                 )
-    placed = {name: notebook.cells[index] for name, index in at.items()}
+    placed = {name: notebook.cells[index] for name, index in found.at.items()}
+    for name in found.bare:
+        placed[name].metadata["nbgrader"] = copy.deepcopy(known[name].metadata["nbgrader"])
     for name, original in known.items():
         if name in placed:
+            _keep_changed_text(notebook, placed[name], original, notes)
             _put_right(placed[name], original, notes)
     _put_back(notebook, known, placed, notes)
-    _tell_apart(notebook)
+    notes += point_to_own_cells(notebook, source, documents)
     if len(notes) > MOST_NOTES:
         notes = [*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES} more such notes"]
+    if notes:
+        notebook.cells.insert(0, letter(notes))
+    tell_apart(notebook)
     return notebook, notes
-
-
-def without_surrogates(value):
-    """The same JSON value, in it \ufffd for each half of a surrogate pair: JSON can write one, no file.
-
-    Where there is none, `value` itself.
-    """
-    try:
-        json.dumps(value, ensure_ascii=False).encode()
-    except UnicodeEncodeError:
-        return _replaced(value)
-    return value
-
-
-def _replaced(value):
-    if isinstance(value, str):
-        return re.sub("[\ud800-\udfff]", "\ufffd", value)
-    if isinstance(value, dict):
-        return type(value)({_replaced(key): _replaced(part) for key, part in value.items()})
-    if isinstance(value, list):
-        return [_replaced(part) for part in value]
-    return value
-
-
-# What nbformat has rules for; a cell's settings that break them would stop its student's grading.
-RULED = ("collapsed", "deletable", "editable", "execution", "format", "jupyter", "name")
-RULED += ("scrolled", "source_hidden", "tags", "title")
-PARTS = ("cell_type", "id", "metadata", "source")
-PARTS_OF = {"code": ("outputs", "execution_count"), "markdown": ("attachments",)}
-PARTS_OF["raw"] = PARTS_OF["markdown"]
-
-
-def _give_form(notebook, source, notes) -> None:
-    """Make it a valid notebook, of the source's settings, without outputs: they are made anew."""
-    notebook.metadata = copy.deepcopy(source.metadata)
-    for index, cell in enumerate(notebook.cells):
-        kind = cell.get("cell_type")
-        whole = kind in NEW_CELL and isinstance(cell.get("source"), str)
-        if not (whole and isinstance(cell.get("metadata"), dict)):
-            notes.append(f"cell {index + 1} was no whole cell")
-            cell.cell_type = kind = kind if kind in NEW_CELL else "raw"
-            cell.source = cell.source if isinstance(cell.get("source"), str) else ""
-            cell.metadata = NotebookNode()
-        for part in set(cell) - {*PARTS, *PARTS_OF[kind]}:
-            del cell[part]
-        for setting in RULED:
-            cell.metadata.pop(setting, None)
-        if kind == "code":
-            cell.outputs, cell.execution_count = [], None
-        elif "attachments" in cell and not _are_attachments(cell.attachments):
-            del cell["attachments"]
-
-
-def _are_attachments(files) -> bool:
-    return isinstance(files, dict) and all(
-        isinstance(bundle, dict) and all(isinstance(data, str) for data in bundle.values())
-        for bundle in files.values()
-    )
-
-
-def grade_id(cell: NotebookNode) -> str | None:
-    """The cell's grade_id, or None where it has none that can be one."""
-    claims = cell.metadata.get("nbgrader")
-    name = claims.get("grade_id") if isinstance(claims, dict) else None
-    return name if isinstance(name, str) else None
 
 
 def is_locked(cell: NotebookNode) -> bool:
@@ -126,15 +79,36 @@ def is_locked(cell: NotebookNode) -> bool:
     return not claims.get("solution") and bool(claims.get("grade") or claims.get("locked"))
 
 
-def _last_places(notebook, known, notes) -> dict[str, int]:
-    at: dict[str, int] = {}
-    for index, cell in enumerate(notebook.cells):
-        name = grade_id(cell)
-        if name in known:
-            if name in at:
-                notes.append(f"{name} was there more than once; the last one counts")
-            at[name] = index
-    return at
+def _tell_of(found: Places, notes) -> None:
+    notes += [f"{name} was there more than once; the last one counts" for name in found.doubled]
+    if len(found.bare) == 1:
+        notes.append(f"{found.bare[0]} had lost its nbgrader settings; they were put back")
+    elif found.bare:
+        notes.append(
+            f"{len(found.bare)} cells had lost their nbgrader settings, which were put back: "
+            f"{', '.join(found.bare)}"
+        )
+
+
+def _keep_changed_text(notebook, cell, original, notes) -> None:
+    """What was written into a locked cell runs as a cell of the student's own, before it."""
+    if not is_locked(original):
+        return
+    if essence(cell.source) in (essence(released(original)), essence(original.source)):
+        return
+    name = grade_id(original)
+    if not cell.source.strip():
+        notes.append(f"{name} had been emptied; its text was put back")
+        return
+    notes.append(
+        f"the text of {name} had been changed; it was put back, and the changed text runs as a cell "
+        "of its own before it"
+    )
+    own = NEW_CELL[cell.cell_type](source=cell.source)
+    if "attachments" in cell:
+        own.attachments = cell.attachments
+    del own["id"]  # a random one
+    notebook.cells.insert(_index(notebook.cells, cell), own)
 
 
 def _put_right(cell, original, notes) -> None:
@@ -176,21 +150,6 @@ def _put_back(notebook, known, placed, notes) -> None:
             notebook.cells.insert(position, cell)
             placed[name] = cell
         before = placed[name]
-
-
-def _tell_apart(notebook) -> None:
-    """Each cell an id of its own, as nbformat 4.5 asks for: a copied cell has that of the first."""
-    if notebook.nbformat_minor < 5:
-        return
-    ids = {cell["id"] for cell in notebook.cells if isinstance(cell.get("id"), str)}
-    new = (name for number in count() if (name := f"cell-{number}") not in ids)
-    taken = set()
-    for cell in notebook.cells:
-        name = cell.get("id")
-        whole = isinstance(name, str) and re.fullmatch("[A-Za-z0-9_-]{1,64}", name)
-        if not whole or name in taken:
-            cell.id = name = next(new)
-        taken.add(name)
 
 
 def _index(cells, wanted) -> int:

@@ -6,6 +6,7 @@ where the kernel allows it, and a process of its own where not. Without bubblewr
 containers) there are limits on time, memory and file size only, and `Room` says so once.
 """
 
+import base64
 import json
 import logging
 import math
@@ -18,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Mapping
 from contextlib import suppress
 from enum import Enum
 from functools import cache
@@ -25,7 +27,15 @@ from pathlib import Path
 
 from autograder import warm
 from autograder.bubblewrap import ENVIRONMENT, INSIDE, bubblewrapped, has_bubblewrap
-from autograder.wall import CALL_SECONDS, MOST_NUMBERS, Call, Reply, decode_reply, encode_call
+from autograder.wall import (
+    CALL_SECONDS,
+    MOST_NUMBERS,
+    Call,
+    Reply,
+    decode_reply,
+    encode_call,
+    one_line,
+)
 
 log = logging.getLogger(__name__)
 
@@ -59,9 +69,11 @@ class Room:
 
     run(source) gives a cell's outputs, ask(calls) the replies to calls. Both raise RoomLostError
     when the process does not survive them. OSError where the sandbox does not start.
+
+    files: what is laid into the folder in which cells run, by the path in it.
     """
 
-    def __init__(self, way: Way | None = None):
+    def __init__(self, way: Way | None = None, files: Mapping[str, bytes] | None = None):
         self.way = way or _best_way()
         self._buffer = bytearray()
         self._process = _start_warm() if self.way is Way.WARM else ColdProcess(self.way)
@@ -70,6 +82,8 @@ class Room:
             hello = self._receive(START_SECONDS, MOST_BYTES, MOST_VALUES)
             if not hello.get("ready"):
                 self._lost(str(hello.get("refused")))
+            if files:
+                self._lay(files)
         except RoomLostError as error:
             # Nothing of the student's has run yet.
             raise OSError(f"the sandbox did not start: {error}") from None
@@ -115,6 +129,13 @@ class Room:
     def close(self) -> None:
         """End the process, and all that it started."""
         self._process.end()
+
+    def _lay(self, files: Mapping[str, bytes]) -> None:
+        coded = {name: base64.b64encode(content).decode() for name, content in files.items()}
+        self._send({"files": coded})
+        failed = self._receive(START_SECONDS, MOST_BYTES, MOST_VALUES).get("failed")
+        if failed:
+            log.warning("no place in the sandbox for %s", ", ".join(map(one_line, failed)))
 
     def _send(self, request: dict) -> None:
         left = memoryview(json.dumps(request).encode() + b"\n")
@@ -223,13 +244,14 @@ class ColdProcess:
 
 
 def _unwalled(folder: Path):
+    room = folder / ".room"  # apart from what cells write, and what was handed in
     for path, name in INSIDE.items():
-        (folder / name).parent.mkdir(exist_ok=True, parents=True)
-        shutil.copy(path, folder / name)
+        (room / name).parent.mkdir(exist_ok=True, parents=True)
+        shutil.copy(path, room / name)
     environment = ENVIRONMENT | {
         name: str(folder) for name in ("HOME", "IPYTHONDIR", "MPLCONFIGDIR", "TMPDIR")
     }
-    return [sys.executable, "-I", "-u", str(folder / "runner.py")], environment
+    return [sys.executable, "-I", "-u", str(room / "runner.py")], environment
 
 
 def _best_way() -> Way:

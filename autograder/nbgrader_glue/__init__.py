@@ -15,13 +15,16 @@ from autograder.nbgrader_glue.steps import (
     generate_preprocessors,
     sanitize_preprocessors,
 )
+from autograder.released import CODE_STUB, TEXT_STUB
 
 __all__ = [
+    "CODE_STUB",
     "FEEDBACK_EXPORTER",
     "GRADES_EXPORTER",
     "LOG_FORMATTER",
     "PAGE_FILTERS",
     "SUBMISSION_EXPORTER",
+    "TEXT_STUB",
     "autograde_preprocessors",
     "generate_preprocessors",
     "outputs_for",

@@ -8,13 +8,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from nbformat import NotebookNode
 from nbgrader import utils
 from nbgrader.converters import Autograde
 from nbgrader.coursedir import CourseDirectory
 from traitlets.config import Config
 
+from autograder.beside import Beside
 from autograder.cache import digest
-from autograder.nbgrader_glue import names, submitted
+from autograder.nbgrader_glue import handed_in, names, submitted
 
 QUIET = logging.getLogger("autograder.nbgrader")
 QUIET.setLevel(logging.CRITICAL)  # what is mended stands in the summary table
@@ -49,6 +51,15 @@ class Folders:
         course = self.course
         folder = course.format_path(course.autograded_directory, student, self.assignment)
         return Path(folder) / f"{self.assignment}.ipynb"
+
+    def counted(self, student: str, source: NotebookNode) -> tuple[Path, list[str]]:
+        """The notebook of a submission that is graded, and what to know of the others."""
+        return handed_in.counted(self.submitted(student), self.assignment, source)
+
+    def laid_in(self, student: str) -> Beside:
+        """The files that the notebook's cells find beside it."""
+        kept = self.converter.exclude_overwriting.get(self.assignment, [])
+        return handed_in.beside(self.submitted(student), self.source, self.course.ignore, kept)
 
     def timestamp(self, student: str):
         """When it was handed in, in UTC; None where that is not known. RefusedError where it is none."""

@@ -11,8 +11,10 @@ from nbformat import NotebookNode
 from nbgrader.preprocessors import NbGraderPreprocessor
 from traitlets import Unicode
 
+from autograder.beside import Beside
 from autograder.files import put_in_place
 from autograder.grade import grade, is_judged
+from autograder.nbgrader_glue import handed_in
 from autograder.nbgrader_glue.scores import with_verdicts
 from autograder.repair import repair
 from autograder.terminal import shown_name, shown_note
@@ -41,6 +43,19 @@ class FromSource(NbGraderPreprocessor):
         path = Path(folder) / f"{names['notebook']}.ipynb"
         return _read_source(path, path.stat().st_mtime_ns)
 
+    def submitted(self, names) -> Path:
+        course = self.parent.parent.coursedir
+        return Path(
+            course.format_path(course.submitted_directory, names["student"], names["assignment"])
+        )
+
+    def beside(self, names) -> Beside:
+        converter = self.parent.parent
+        course, assignment = converter.coursedir, names["assignment"]
+        source = Path(course.format_path(course.source_directory, ".", assignment))
+        kept = converter.exclude_overwriting.get(assignment, [])
+        return handed_in.beside(self.submitted(names), source, course.ignore, kept)
+
 
 @lru_cache(maxsize=8)
 def _read_source(path: Path, changed: int) -> NotebookNode:
@@ -51,8 +66,10 @@ class RepairCells(FromSource):
     """For `autograde`, first: graded cells as in the source, so that no copied cell stops a batch."""
 
     def preprocess(self, nb, resources):
-        nb, notes = repair(nb, self.source_of(resources))
-        _warn(self.log, resources["nbgrader"]["student"], notes)
+        names, source = resources["nbgrader"], self.source_of(resources)
+        _, said = handed_in.counted(self.submitted(names), names["notebook"], source)
+        nb, notes = repair(nb, source, said, self.beside(names).documents)
+        _warn(self.log, names["student"], notes)
         return nb, resources
 
 
@@ -69,7 +86,7 @@ class Judge(FromSource):
         names = resources["nbgrader"]
         secret = secret_of(Path(self.parent.parent.coursedir.root) / self.seed_file)
         seed = seed_of(secret, names["student"], names["assignment"])
-        graded = grade(nb, self.source_of(resources), seed)
+        graded = grade(nb, self.source_of(resources), seed, self.beside(names))
         _warn(self.log, names["student"], graded.notes)
         return with_verdicts(graded), resources
 

@@ -1,6 +1,7 @@
 """What `nbgrader autograde` does around the judging, for many submissions of one assignment."""
 
 import copy
+from functools import cached_property
 from pathlib import Path
 
 import nbformat
@@ -11,6 +12,7 @@ from nbgrader.preprocessors import AssignLatePenalties
 from traitlets import import_item
 from traitlets.config import Config
 
+from autograder.beside import Beside
 from autograder.nbgrader_glue import names
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
@@ -18,7 +20,7 @@ from autograder.nbgrader_glue.preprocessors import Judge, secret_of, seed_of
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.steps import autograde_preprocessors, sanitize_preprocessors
 from autograder.nbgrader_glue.submitted import RefusedError
-from autograder.repair import grade_id
+from autograder.recognise import grade_id
 
 # Steps whose work is done here or by `repair`, with no regard to their settings.
 REPLACED = ("ClearOutput", "DeduplicateIds", "OverwriteKernelspec", "OverwriteCells")
@@ -82,6 +84,18 @@ class Recorder:
         except RefusedError as error:
             return str(error)
         return ""
+
+    def counted(self, student: str) -> tuple[Path, list[str]]:
+        """The notebook of a submission that is graded, and what to know of the others."""
+        return self._folders.counted(student, self._source)
+
+    @cached_property
+    def _source(self) -> NotebookNode:
+        return nbformat.reads(self.source, as_version=4)
+
+    def laid_in(self, student: str) -> Beside:
+        """The files that the notebook's cells find beside it."""
+        return self._folders.laid_in(student)
 
     def seed_of(self, student: str) -> str:
         return seed_of(self._secret, student, self.assignment)

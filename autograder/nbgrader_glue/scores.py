@@ -8,8 +8,9 @@ number, and where no verdict could be reached as an error.
 from nbformat import NotebookNode
 
 from autograder import outputs
+from autograder.form import without_surrogates
 from autograder.grade import Graded, is_judged
-from autograder.repair import grade_id, without_surrogates
+from autograder.recognise import grade_id
 from autograder.verdict import State, Verdict
 
 

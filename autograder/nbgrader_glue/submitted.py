@@ -10,6 +10,7 @@ import nbformat
 from nbconvert.exporters import NotebookExporter
 from nbgrader.converters.base import NbGraderException
 
+from autograder.nbgrader_glue.handed_in import counted
 from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.sandbox import Room
 from autograder.wall import one_line
@@ -88,6 +89,8 @@ def _can_start(converter) -> None:
 class SubmissionExporter(NotebookExporter):
     """For `autograde`: reads a submission only when it has been checked, with or without a BOM.
 
+    The converter goes by file names. Where a submission has no notebook of the assignment's name, it is
+    told that there is one, and the one that counts is read in its place.
     It is made when `autograde` has found the submissions and has changed nothing yet.
     """
 
@@ -95,12 +98,43 @@ class SubmissionExporter(NotebookExporter):
         super().__init__(config=config, **kw)
         leave_out_unfit(self.parent)
         _can_start(self.parent)
+        for folder, notebooks in getattr(self.parent, "assignments", {}).items():
+            name = self.parent.coursedir.assignment_id
+            if (
+                f"{name}.ipynb" not in map(os.path.basename, notebooks)
+                and self._source(name).exists()
+            ):
+                self._look_for(Path(folder), name, notebooks)
+
+    def _look_for(self, folder: Path, name: str, notebooks: list[str]) -> None:
+        try:
+            self._check(folder)
+            self._counted(folder, name)
+        except (OSError, RefusedError) as error:
+            self.log.warning("%s: %s", folder, error)
+        else:
+            notebooks.append(str(folder / f"{name}.ipynb"))
+
+    def _counted(self, folder: Path, name: str) -> Path:
+        return counted(folder, name, nbformat.read(self._source(name), as_version=4))[0]
+
+    def _source(self, name: str) -> Path:
+        course = self.parent.coursedir
+        folder = course.format_path(course.source_directory, ".", course.assignment_id)
+        return Path(folder) / f"{name}.ipynb"
+
+    def _check(self, folder: Path) -> None:
+        course = self.parent.coursedir
+        check(folder, Path(course.root) / course.submitted_directory)
 
     def from_filename(self, filename, resources=None, **kw):
         course, names = self.parent.coursedir, resources["nbgrader"]
-        step = course.submitted_directory
-        folder = course.format_path(step, names["student"], names["assignment"])
-        check(Path(folder), Path(course.root) / step)
+        folder = Path(
+            course.format_path(course.submitted_directory, names["student"], names["assignment"])
+        )
+        self._check(folder)
+        if not os.path.exists(filename):
+            filename = str(self._counted(folder, names["notebook"]))
         return super().from_filename(filename, resources=resources, **kw)
 
     def from_file(self, file_stream, resources=None, **kw):

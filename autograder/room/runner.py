@@ -1,9 +1,9 @@
 """Runs a student's cells and answers calls, inside the sandbox.
 
 One request a line on standard input, one reply a line on standard output, both JSON:
-{"run": source} → {"outputs": [...]}, {"ask": [calls]} → a {"reply": ...} for each call in turn, up
-to the first fault. Both descriptors are moved out of the way first, so that what the student's code
-prints cannot mix with the replies.
+{"files": {name: base64}} → {"failed": [names]}, {"run": source} → {"outputs": [...]}, {"ask": [calls]}
+→ a {"reply": ...} for each call in turn, up to the first fault. Both descriptors are moved out of the
+way first, so that what the student's code prints cannot mix with the replies.
 """
 
 import base64
@@ -58,6 +58,7 @@ def serve(shell=None, walled=False):
     """
     requests, replies = _private_channel()
     _limit_resources(walled)
+    import beside
     import numpy as np
     import wall
 
@@ -66,12 +67,15 @@ def serve(shell=None, walled=False):
     # The same cells draw the same numbers in every room.
     random.seed(0)
     np.random.seed(0)  # noqa: NPY002
+    beside.look_in_the_folder()
     _reply(replies, {"ready": True})
     for line in requests:
         request = json.loads(line)
         if "run" in request:
             outputs = _run(shell, request["run"], request["seconds"], wall)
             _reply(replies, {"outputs": outputs})
+        elif "files" in request:
+            _reply(replies, {"failed": beside.lay(request["files"])})
         else:
             _quietly(_answer, request["ask"], shell.user_ns, replies, wall)
 

@@ -25,6 +25,7 @@ from tests.autograder.judging import judged, judged_in
 from tests.autograder.problems import problem
 from tests.autograder.rooms import failed, gone, kept, printed, room_of
 from tests.submissions import other_languages as answers
+from tests.submissions.answers import cell_of
 from tests.submissions.other_languages import LANGUAGES
 
 ROOT = Path(__file__).parents[2]
@@ -310,7 +311,7 @@ def test_a_hostile_program_is_held_by_the_same_walls(needs, suffix):
 
 
 @pytest.mark.parametrize("suffix", [".m"])
-def test_nbgrader_autogrades_it_without_the_files_beside_it(tmp_path, suffix):
+def test_nbgrader_autogrades_a_file_that_lies_beside_the_notebook(tmp_path, suffix):
     name = "p1-inertia"
     shutil.copy(ROOT / "nbgrader_config.py", tmp_path)
     shutil.copytree(PROBLEMS["M"].folder, tmp_path / "solutions" / name)
@@ -319,11 +320,11 @@ def test_nbgrader_autogrades_it_without_the_files_beside_it(tmp_path, suffix):
     (course / "seed").write_text("0123456789abcdef")
     release = nbformat.read(course / "release" / name / f"{name}.ipynb", as_version=4)
     submission = PROBLEMS["M"].submissions.right(release)
-    submission = answers.in_file(submission, "M", ".m", answers.right("M", ".m"))
+    cell_of(submission, "answer-M").source = 'M = from_file("M.m")'
     folder = course / "submitted" / "student" / name
     folder.mkdir(parents=True)
     (folder / f"{name}.ipynb").write_text(json.dumps(submission))
-    (folder / "M.m").write_text("nothing of this file counts")
+    (folder / "M.m").write_text(answers.right("M", ".m"))
     run(tmp_path, "nbgrader", "autograde", name)
     notebook = nbformat.read(course / "autograded" / "student" / name / f"{name}.ipynb", 4)
     shown = {

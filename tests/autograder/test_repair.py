@@ -1,6 +1,8 @@
 """Repair: whatever a student does to the released notebook, its graded cells are right afterwards."""
 
 import copy
+import html
+import re
 import sys
 from collections import Counter
 
@@ -8,19 +10,31 @@ import nbformat
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from nbformat.v4 import new_code_cell, new_notebook
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_raw_cell
 
-from autograder.repair import MOST_NOTES, NEW_CELL, grade_id, is_locked, repair
-from tests.autograder.problems import problem
+from autograder.form import NEW_CELL
+from autograder.letter import letter
+from autograder.nbgrader_glue.markdown import markdown2html
+from autograder.recognise import grade_id
+from autograder.released import TEXT_STUB, released
+from autograder.repair import MOST_NOTES, is_locked, repair
+from tests.autograder.problems import NAMES, problem
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import blank, cell_of
 
 P3 = "p3-pendulum"
 SOURCE = problem(P3).source
+CHANGED = (
+    "the text of {} had been changed; it was put back, and the changed text runs as a cell of its "
+    "own before it"
+)
+BELOW = "p3-derivation holds no answer; it may be in the student's own cell below"
 KNOWN = {grade_id(cell): cell for cell in SOURCE.cells if grade_id(cell)}
 INDEX = st.integers(0, 99)
 EDITS = st.one_of(
-    st.tuples(st.sampled_from(["delete", "strip", "grow", "invent", "unhook", "break"]), INDEX),
+    st.tuples(
+        st.sampled_from(["delete", "strip", "rename", "grow", "invent", "unhook", "break"]), INDEX
+    ),
     st.tuples(st.sampled_from(["copy", "move", "swap"]), INDEX, INDEX),
     st.tuples(st.just("retype"), INDEX, st.sampled_from(["code", "markdown", "raw"])),
     st.tuples(st.just("points"), INDEX, st.integers(-5, 100)),
@@ -54,6 +68,8 @@ def edit(notebook, edits):
                 del cells[at]
             case "strip":
                 cell.metadata.pop("nbgrader", None)
+            case "rename":
+                cell.id = f"new-{number}"
             case "grow":
                 cell.source += f"\n# note {number}"
             case "invent":
@@ -121,6 +137,10 @@ def test_graded_cells_are_right_after_any_edits(release, edits):
         if not (grade_id(cell) and is_locked(cell)):
             assert cell.source == was.source
 
+    texts = "\n".join(cell.source for cell in mended.cells)
+    for cell in submission.cells:  # nothing that a student wrote is lost
+        assert cell.source in texts
+
     again, notes = repair(mended, SOURCE)
     assert again == mended
     assert notes == []
@@ -163,7 +183,8 @@ def test_an_old_notebook_stays_valid(release):
 def test_an_empty_notebook_gets_all_cells(kind):
     empty = nbformat.v4.new_notebook(cells=[NEW_CELL[kind](source="mine")])
     mended, notes = repair(empty, SOURCE)
-    assert len(notes) == len(KNOWN)
+    missing = [f"{name} was missing; it was put back" for name in KNOWN]
+    assert notes == [*missing, BELOW]
     assert mended.cells[-1].source == "mine"
 
 
@@ -176,7 +197,8 @@ def test_notes_say_what_was_mended(release):
             "p3-g_vec was missing; it was put back",
             "the nbgrader settings of p3-C had been changed",
             "p3-lagrangian had been made a markdown cell",
-            "answer-small_angle_frequency was missing; it was put back",
+            "answer-small_angle_frequency had lost its nbgrader settings; they were put back",
+            CHANGED.format("p3-inertia_about_pivot"),
         ]
     )
 
@@ -189,7 +211,7 @@ def test_of_several_copies_the_last_one_counts(release):
         submission.cells.insert(0 if text == "first" else len(submission.cells), cell)
     mended, notes = repair(submission, SOURCE)
     assert cell_of(mended, "answer-M").source == "second"
-    assert mended.cells[0].source == "first"
+    assert mended.cells[1].source == "first"
     assert notes == ["answer-M was there more than once; the last one counts"] * 2
 
 
@@ -249,3 +271,224 @@ def test_twice_the_copies_take_twice_the_work():
         return made.total()
 
     assert calls(200) < 2.5 * calls(100)
+
+
+def sources(notebook):
+    return [cell.source for cell in notebook.cells]
+
+
+@pytest.mark.parametrize("name", ["p3-setup", "p3-M"])
+@pytest.mark.parametrize("kind", ["code", "markdown"])
+def test_what_is_written_into_a_locked_cell_comes_before_it(release, name, kind):
+    submission = copy.deepcopy(release)
+    cell = cell_of(submission, name)
+    cell.source += "\nimport math"
+    changed, cell.cell_type = cell.source, kind
+    mended, notes = repair(submission, SOURCE)
+    assert CHANGED.format(name) in notes
+    at = sources(mended).index(changed)
+    assert mended.cells[at].cell_type == kind
+    assert grade_id(mended.cells[at]) is None
+    assert grade_id(mended.cells[at + 1]) == name
+    assert mended.cells[at + 1].source == KNOWN[name].source
+    assert letter(notes).source == mended.cells[0].source
+
+
+@pytest.mark.parametrize(
+    "edit_text", [lambda text: text.replace("\n", "\r\n"), lambda text: f"\n{text}  \n"]
+)
+def test_nothing_is_said_of_white_space_and_settings(release, edit_text):
+    submission = copy.deepcopy(release)
+    for cell in submission.cells:
+        cell.metadata |= {"collapsed": True, "vscode": {"languageId": "python"}, "tags": ["x"]}
+        if grade_id(cell) and is_locked(cell):
+            cell.source = edit_text(cell.source)
+    assert repair(submission, SOURCE)[1] == []
+
+
+def test_an_emptied_locked_cell_is_told(release):
+    submission = copy.deepcopy(release)
+    cell_of(submission, "p3-M").source = " "
+    mended, notes = repair(submission, SOURCE)
+    assert notes == ["p3-M had been emptied; its text was put back"]
+    assert len(mended.cells) == len(release.cells) + 1
+
+
+def lost(notebook, *parts):
+    """What an editor leaves that drops these parts of each cell."""
+    notebook = copy.deepcopy(notebook)
+    for cell in notebook.cells:
+        if "id" in parts:
+            cell.pop("id")
+            notebook.nbformat_minor = 4
+        if "id in its place" in parts:  # as Google's Colab
+            cell.metadata["id"] = cell.pop("id")
+            notebook.nbformat_minor = 0
+        cell.metadata.pop("nbgrader", None)
+    return notebook
+
+
+@pytest.mark.parametrize("part", ["settings", "id in its place"])
+def test_cells_without_settings_are_known_by_their_ids(release, part):
+    right = p3_pendulum.right(release)
+    mended, notes = repair(lost(right, part), SOURCE)
+    assert [grade_id(cell) for cell in mended.cells[1:]] == [grade_id(c) for c in right.cells]
+    assert cell_of(mended, "answer-M").source == cell_of(right, "answer-M").source
+    assert notes == [
+        f"{len(KNOWN)} cells had lost their nbgrader settings, which were put back: {', '.join(KNOWN)}"
+    ]
+
+
+def test_where_ids_are_lost_as_well_the_text_tells(release):
+    right = p3_pendulum.right(release)
+    mended, notes = repair(lost(right, "id"), SOURCE)
+    order = [text for text in sources(mended) if text]
+    for name in p3_pendulum.POINTS:  # each check stands behind its answer
+        answer = cell_of(right, f"answer-{name.removeprefix('p3-')}").source
+        assert order.index(answer) < order.index(KNOWN[name].source)
+    assert "answer-M was missing; it was put back" in notes
+    assert "p3-M was missing; it was put back" not in notes
+
+
+def test_a_cell_with_settings_is_known_by_them_alone(release):
+    submission = copy.deepcopy(release)
+    other = new_code_cell("mine", id="answer-M")
+    submission.cells.append(other)
+    mended, notes = repair(submission, SOURCE)
+    assert notes == [BELOW]
+    assert grade_id(mended.cells[-1]) is None
+
+
+def test_the_released_text_is_known_without_a_release():
+    for name in NAMES:
+        given = problem(name).release.cells
+        assert [released(cell) for cell in problem(name).source.cells] == [
+            cell.source for cell in given
+        ]
+
+
+PICTURE = {"photo.jpg": {"image/jpeg": "/9j/"}}
+OWN = {
+    "text": new_markdown_cell("K = ½ I q̇² because …"),
+    "a_picture": new_markdown_cell("", attachments=PICTURE),
+    "raw_text": new_raw_cell("L = K - P"),
+    "code": new_code_cell("sp.diff(L, q)"),
+}
+
+
+def around(release, cell, *, below=0, text=None):
+    """The release, its derivation as it was, or this text; a cell so far below it or above it."""
+    submission = copy.deepcopy(release)
+    answer = cell_of(submission, "p3-derivation")
+    if text is not None:
+        answer.source = text
+    if cell is not None:
+        at = submission.cells.index(answer) + (below if below > 0 else below + 1)
+        submission.cells.insert(at, copy.deepcopy(cell))
+    return submission
+
+
+@pytest.mark.parametrize("kind", OWN)
+@pytest.mark.parametrize(
+    ("below", "where"), [(1, "cell below"), (2, "cell below"), (0, "cell above")]
+)
+def test_an_answer_beside_its_cell_is_left_for_a_person(release, kind, below, where):
+    below = below or -1
+    mended, notes = repair(around(release, OWN[kind], below=below), SOURCE)
+    assert notes == [BELOW.replace("cell below", where)]
+    text = cell_of(mended, "p3-derivation").source
+    assert text.startswith(TEXT_STUB)
+    assert f"the student's own {where}" in text
+
+
+@pytest.mark.parametrize(
+    "submission",
+    [
+        lambda release: release,
+        lambda release: around(release, new_markdown_cell(" \n"), below=1),
+        lambda release: around(release, OWN["text"], below=-3),  # above the problem's text
+        lambda release: around(release, OWN["text"], below=1, text="my derivation"),
+        lambda release: around(release, cell_of(release, "p3-derivation"), below=2),  # a copy
+    ],
+    ids=["untouched", "empty", "elsewhere", "answered", "copied"],
+)
+def test_an_answer_with_nothing_beside_it_stays_as_it_is(release, submission):
+    submission = submission(release)
+    mended, notes = repair(submission, SOURCE)
+    assert BELOW not in notes
+    assert cell_of(mended, "p3-derivation").source == cell_of(submission, "p3-derivation").source
+
+
+def test_an_answer_in_the_cell_below_the_last_text_is_seen(release):
+    submission = copy.deepcopy(release)
+    submission.cells[-1].source = "My derivation: …"
+    assert repair(submission, SOURCE)[1] == [BELOW]
+
+
+def test_a_picture_attached_to_an_untouched_answer_is_seen(release):
+    submission = copy.deepcopy(release)
+    cell_of(submission, "p3-derivation").attachments = PICTURE
+    mended, (note,) = repair(submission, SOURCE)
+    assert note.endswith("own picture, attached to it")
+    assert cell_of(mended, "p3-derivation").attachments == PICTURE
+
+
+def test_what_a_student_wrote_is_plain_text_in_the_letter():
+    marks = "![x](javascript:1) <b> `a` *b* _c_ [d](e) | ~e~ # f\\"
+    page = markdown2html({}, letter([marks]).source)
+    assert html.unescape(re.search("<li>(.*?)</li>", page, re.DOTALL)[1]).strip() == marks
+
+
+def test_a_document_beside_the_notebook_may_be_the_answer(release):
+    documents = ["my_*derivation*.pdf", "other.jpg"]
+    mended, (note,) = repair(release, SOURCE, documents=documents)
+    assert (
+        note
+        == "p3-derivation holds no answer; it may be in the student's own file my_*derivation*.pdf"
+    )
+    assert r"own file my\_\*derivation\*.pdf" in cell_of(mended, "p3-derivation").source
+    assert repair(p3_pendulum.right(release), SOURCE, documents=documents)[1] == []
+
+
+def answers_for_a_person(*names):
+    """A source of nothing but answers that a person reads."""
+    cells = [
+        new_markdown_cell("### BEGIN SOLUTION\nyes\n### END SOLUTION", id=name) for name in names
+    ]
+    for cell, name in zip(cells, names, strict=True):
+        cell.metadata.nbgrader = nbformat.NotebookNode(
+            grade_id=name, grade=True, solution=True, locked=False, points=1
+        )
+    return new_notebook(cells=cells)
+
+
+def untouched(source):
+    notebook = copy.deepcopy(source)
+    for cell in notebook.cells:
+        cell.source = released(cell)
+    return notebook
+
+
+def test_the_letter_is_no_answer():
+    source = answers_for_a_person("a")
+    submission = untouched(source)
+    submission.cells.append(copy.deepcopy(submission.cells[0]))
+    mended, (note,) = repair(submission, source)
+    assert note == "a was there more than once; the last one counts"
+    mended.cells.pop(1)  # the copy, so that the letter stands directly above the answer
+    again, notes = repair(mended, source)
+    assert notes == []
+    assert cell_of(again, "a").source == TEXT_STUB
+
+
+def test_a_text_that_two_cells_have_tells_neither():
+    source = answers_for_a_person("a", "b")
+    _, notes = repair(lost(untouched(source), "id"), source)
+    assert notes[:2] == ["a was missing; it was put back", "b was missing; it was put back"]
+
+
+def test_an_id_does_not_count_against_other_settings(release):
+    submission = copy.deepcopy(release)
+    cell_of(submission, "answer-M").metadata.nbgrader = {"grade_id": "p9-made-up"}
+    _, notes = repair(submission, SOURCE)
+    assert "answer-M was missing; it was put back" in notes

@@ -1,0 +1,117 @@
+"""Which of the notebooks in a submission's folder is graded, and which files lie beside it."""
+
+import os
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import nbformat
+from nbformat import NotebookNode
+from nbgrader import utils
+
+from autograder.beside import Beside, choose
+from autograder.recognise import Likeness, likeness
+from autograder.wall import one_line
+
+MOST_BYTES = 64 << 20  # of a notebook that is only looked at
+MOST_NAMES = 5
+UNREADABLE = Likeness(known=False, answered=True)
+
+
+def counted(folder: Path, name: str, source: NotebookNode) -> tuple[Path, list[str]]:
+    """The notebook that is graded, and what to know of the others.
+
+    The one of the assignment's name, whatever else is there; where there is none, the one that is
+    recognised by its cells. FileNotFoundError, which says what is there, where there is no such one or
+    several have answers.
+    """
+    wanted = folder / f"{name}.ipynb"
+    notebooks = sorted(path for path in folder.glob("*.ipynb") if path.is_file())
+    others = [path for path in notebooks if not (wanted.exists() and path.samefile(wanted))]
+    if wanted.exists() and not others:
+        return wanted, []
+    alike = {path: _likeness(path, source) for path in others}
+    alike = {path: like for path, like in alike.items() if like.known}
+    if wanted.exists():
+        mine = _likeness(wanted, source)
+        return wanted, [_ignored(path, like, wanted, mine) for path, like in alike.items()]
+    answered = [path for path, like in alike.items() if like.answered] or list(alike)
+    if len(answered) != 1:
+        raise FileNotFoundError(_what_is_there(folder, wanted, answered))
+    (taken,) = answered
+    rest = [
+        _ignored(path, like, taken, alike[taken]) for path, like in alike.items() if path != taken
+    ]
+    return taken, [f"there is no {wanted.name}; {_shown(taken)} was graded in its place", *rest]
+
+
+def beside(folder: Path, source: Path, ignore: list[str], kept: list[str]) -> Beside:
+    """A submission's files, no notebooks. The source's win over the student's, except `kept`."""
+    found = _files(folder, ignore)
+    theirs = {name: path for name, path in found.items() if path.suffix != ".ipynb"}
+    ours = _files(source, [*ignore, "*.ipynb"])
+    own = theirs.keys() - ours
+    for name in kept:
+        ours.pop(Path(name).as_posix(), None)
+    chosen = choose(theirs | ours, own)
+    notebooks = dict.fromkeys(found.keys() - theirs.keys(), "it is a notebook")
+    return replace(chosen, left_out=chosen.left_out | notebooks)
+
+
+def _files(folder: Path, ignore: list[str]) -> dict[str, Path]:
+    found = {}
+    for name in utils.find_all_files(str(folder), ignore):
+        path = Path(name)
+        parts = path.relative_to(folder).parts
+        hidden = any(part.startswith(".") for part in parts)
+        if not hidden and parts != ("timestamp.txt",) and _is_text(parts) and path.is_file():
+            found["/".join(parts)] = path
+    return found
+
+
+def _is_text(parts) -> bool:
+    try:
+        "".join(parts).encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def _likeness(path: Path, source: NotebookNode) -> Likeness:
+    if path.stat().st_size > MOST_BYTES:
+        return UNREADABLE
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return likeness(nbformat.read(path, as_version=4), source)
+    except Exception:  # whatever it is, it is no notebook of this assignment
+        return UNREADABLE
+
+
+def _ignored(path: Path, like: Likeness, graded: Path, mine: Likeness) -> str:
+    if like.answered and not mine.answered:
+        return f"{_shown(graded)} was graded and has no answers, but {_shown(path)} beside it has"
+    there = "with answers" if like.answered else "without answers"
+    return f"{_shown(path)}, {there}, lies beside {_shown(graded)} and was not graded"
+
+
+def _what_is_there(folder: Path, wanted: Path, answered: list[Path]) -> str:
+    missing = f"there is no {wanted.name}"
+    if answered:
+        shown = " and ".join(map(_shown, answered))
+        return f"{missing}, and it could be {shown}: ask which one counts, and rename it"
+    names = sorted(
+        os.path.relpath(os.path.join(at, file), folder)
+        for at, _, files in os.walk(folder)
+        for file in files
+        if file != "timestamp.txt" and ".ipynb_checkpoints" not in at
+    )
+    if not names:
+        return missing
+    shown = ", ".join(one_line(name, 60) for name in names[:MOST_NAMES])
+    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    return f"{missing}, only {shown}{more}"
+
+
+def _shown(path: Path) -> str:
+    return one_line(path.name, 100)

@@ -1,0 +1,35 @@
+"""The text of a source's cells as students got it: stubs for solutions, nothing that is hidden."""
+
+import re
+
+from nbformat import NotebookNode
+
+# nbgrader_config.py has nbgrader put these in, so that an untouched answer is known again.
+CODE_STUB = "raise NotImplementedError  # your answer goes here"
+TEXT_STUB = "*(your answer goes here)*"
+
+
+def released(cell: NotebookNode) -> str:
+    """A source cell's text in the student version."""
+    stub = CODE_STUB if cell.cell_type == "code" else TEXT_STUB
+    lines, part, solved = [], "", False
+    for line in cell.source.split("\n"):
+        mark = re.search("(BEGIN|END) (SOLUTION|HIDDEN TESTS|MARK SCHEME)", line)
+        if mark:
+            part = mark[2] if mark[1] == "BEGIN" else ""
+            if part == "SOLUTION":
+                solved = True
+                lines.append(re.match(r"\s*", line)[0] + stub)
+        elif not part:
+            lines.append(line)
+    is_answer = cell.metadata.get("nbgrader", {}).get("solution")
+    return stub if is_answer and not solved else "\n".join(lines)
+
+
+def same_text(one: str, other: str) -> bool:
+    """Whether two texts are the same but for white space, which editors change by themselves."""
+    return essence(one) == essence(other)
+
+
+def essence(text: str) -> str:
+    return "".join(text.split())
