@@ -252,7 +252,7 @@ def test_a_new_room_runs_the_earlier_cells_but_not_the_one_that_ended_the_last()
 def test_a_missing_name_is_blamed_on_the_cell_that_failed_to_define_it():
     class Room(Script):
         def run(self, source):
-            bad = {"output_type": "error", "ename": "NameError", "evalue": "x", "traceback": []}
+            bad = {"output_type": "error", "ename": "NameError", "evalue": "x"}
             return [bad] if "bad" in source else []
 
     with Sitting(Room) as sitting:
