@@ -246,13 +246,14 @@ class RoomShell(InteractiveShell):
         last line of the student's own on the way to it; 0 and "" where they cannot be known.
         """
         above = int(self.is_below_magic(source))
-        # `%%capture` runs what is below it as a cell of its own.
+        # `%%capture` runs what is below it as a cell of its own, and `%%time` as a file of this name.
         cells = tuple(f"<ipython-input-{self.running + more}-" for more in range(above + 1))
+        cells += ("<timed",) * above
         typed = []
         for frame in traceback.extract_tb(error.__traceback__):
             if not frame.filename.startswith(TYPED) or "run_cell_magic(" in (frame.line or ""):
                 continue
-            here = frame.filename.startswith((*cells, "<timed"))
+            here = frame.filename.startswith(cells)
             number = frame.lineno + above if here else frame.lineno
             text = "".join(source.split("\n")[number - 1 : number]) if here else frame.line
             typed.append((here, number, text))
