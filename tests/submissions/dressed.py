@@ -17,7 +17,14 @@ matplotlib.use("TkAgg")
 def dressed(notebook: NotebookNode, lines: str = LINES) -> NotebookNode:
     """A copy with the lines above each answer in code."""
     notebook = copy.deepcopy(notebook)
-    for cell in notebook.cells:
-        if cell.cell_type == "code" and cell.metadata.get("nbgrader", {}).get("solution"):
-            cell.source = f"{lines}\n{cell.source}"
+    answers = [
+        cell
+        for cell in notebook.cells
+        if cell.cell_type == "code" and cell.metadata.get("nbgrader", {}).get("solution")
+    ]
+    if any("sum(" in cell.source for cell in answers):
+        # In a kernel, too, it would put NumPy's sum in the place of Python's.
+        lines = lines.replace("%pylab", "%pylab --no-import-all")
+    for cell in answers:
+        cell.source = f"{lines}\n{cell.source}"
     return notebook
