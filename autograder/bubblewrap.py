@@ -18,6 +18,9 @@ HERE = Path(__file__).parent
 TOOLCHAIN = Path(find_spec("armdyn").origin).parent / "ports" / "toolchain"
 INSIDE = {
     HERE / "room" / "runner.py": "runner.py",
+    HERE / "room" / "shell.py": "shell.py",
+    HERE / "room" / "left_out.py": "left_out.py",
+    HERE / "room" / "inline_figures.py": "inline_figures.py",
     HERE / "room" / "forks.py": "forks.py",
     HERE / "room" / "first.py": "first.py",
     HERE / "room" / "watch.py": "watch.py",

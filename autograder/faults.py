@@ -6,12 +6,16 @@ from autograder.wall import Fault, FaultKind
 def said_of(fault: Fault, name: str, signature: str) -> str:
     """The sentence for a student whose function `name` should be callable as `signature`."""
     where = f" ({fault.line})" if fault.line else ""
+    left_out = f" Before that, {fault.line}." if fault.line else ""
     renamed = f" There is a {fault.message}: is that it?" if fault.message else ""
     return {
         FaultKind.MISSING: f"The notebook defines no {name}.{renamed} The check calls "
-        f"{signature}, by exactly this name; was its cell run?",
+        f"{signature}, by exactly this name; was its cell run?{left_out}",
         FaultKind.CELL_FAILED: f"The notebook defines no {name}: the cell that should "
-        f"define it stopped with {fault.message}",
+        f"define it stopped with {fault.message}{where}. Mend that line; what stands below it in "
+        "the cell runs then.",
+        FaultKind.STALE: f"An earlier {name} was called, and gave no numbers: the cell that defines "
+        f"it again stopped with {fault.message}{where}. Mend that line.",
         FaultKind.NOT_CALLABLE: f"{name} is a {fault.message}, not a function that can "
         f"be called as {signature}; was the name used again further down?",
         FaultKind.RAISED: f"{signature} raised {fault.message}{where}.",

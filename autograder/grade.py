@@ -3,9 +3,8 @@
 import hashlib
 import json
 import logging
-import re
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -13,6 +12,7 @@ from nbformat import NotebookNode
 
 from autograder import outputs
 from autograder.beside import Beside
+from autograder.blame import Ran, explained, ran
 from autograder.cache import digest
 from autograder.judge import HIDDEN_CASES, CannotRunError
 from autograder.problems import CHECKS
@@ -21,7 +21,7 @@ from autograder.repair import repair
 from autograder.sandbox import Room, RoomLostError
 from autograder.terminal import shown_name, shown_note
 from autograder.verdict import State, Verdict
-from autograder.wall import Call, Fault, FaultKind, Reply, shortened
+from autograder.wall import Call, Fault, FaultKind, Reply, one_line, shortened
 
 log = logging.getLogger(__name__)
 
@@ -135,7 +135,7 @@ class Sitting:
         self._room = None
         self._ends = time.monotonic() + NOTEBOOK_SECONDS
         self._ran: list[str] = []
-        self._failed: list[tuple[str, str]] = []  # source of a cell, and its error
+        self._cells: list[Ran] = []  # all of them, those that ended a room too
 
     def __enter__(self):
         return self
@@ -148,6 +148,7 @@ class Sitting:
         """The outputs of a cell; an error output where it ends its process."""
         if self._is_over():
             text = f"not run: the notebook took {NOTEBOOK_SECONDS:g} s before it came to this cell"
+            self._cells.append(Ran(source, f"TimeoutError: {text}", stopped=True))
             return [outputs.error("TimeoutError", text, [text])]
         try:
             shown = self._current().run(source)
@@ -155,12 +156,11 @@ class Sitting:
             self._room = None
             text = f"this cell ended Python itself: {error}"
             shown = [outputs.error("RoomLostError", text, [text])]
+            said = f"the end of Python itself ({one_line(str(error))})"
+            self._cells.append(Ran(source, said, stopped=True))
         else:
             self._ran.append(source)
-        for output in shown:
-            if output.get("output_type") == "error":
-                said = f"{output.get('ename')}: {output.get('evalue')}"
-                self._failed.append((source, said))
+            self._cells.append(ran(source, shown))
         return shown
 
     def ask(self, calls: list[Call]) -> list[Reply]:
@@ -179,7 +179,9 @@ class Sitting:
         last = replies[-1].fault
         if last and last.kind is FaultKind.NO_TOOLS and last.message in self._missing():
             raise CannotRunError(last.message)
-        return [self._explained(calls[0].name, reply) for reply in replies]
+        if last:
+            replies[-1] = Reply(fault=explained(calls[0].name, last, self._cells))
+        return replies
 
     def _missing(self) -> list[str]:
         """What no answer in this language can be run without, by a room that has met no student."""
@@ -197,12 +199,3 @@ class Sitting:
 
     def _is_over(self) -> bool:
         return time.monotonic() > self._ends
-
-    def _explained(self, name: str, reply: Reply) -> Reply:
-        """A missing name is blamed on the cell that should have defined it, where that failed."""
-        if reply.fault is None or reply.fault.kind is not FaultKind.MISSING:
-            return reply
-        for source, error in reversed(self._failed):
-            if re.search(rf"\bdef\s+{name}\b|^{name}\s*=", source, re.MULTILINE):
-                return Reply(fault=replace(reply.fault, kind=FaultKind.CELL_FAILED, message=error))
-        return reply

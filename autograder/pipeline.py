@@ -98,7 +98,7 @@ class _Run:
 
     def _tasks(self) -> Iterator[tuple[str, tuple]]:
         """What is left to be judged; what needs no judging is settled on the way."""
-        for student, path in self._submissions.items():
+        for student in self._submissions:
             try:
                 why = self._recorder.refusal(student)
                 if why:

@@ -89,9 +89,9 @@ def _serve(channel):
     """Load everything, then fork a runner into each room that its process 1 tells of."""
     import first
     import namespaces
-    import runner
+    from shell import new_shell
 
-    shell = runner.new_shell()
+    shell = new_shell()
     _warm_up()
     if len(os.listdir("/proc/self/task")) > 1:
         raise RuntimeError("a thread was started: no fork of this process would be whole")

@@ -7,18 +7,19 @@ way first, so that what the student's code prints cannot mix with the replies.
 """
 
 import base64
-import builtins
 import json
 import os
 import random
 import resource
 import sys
 import time
+from contextlib import suppress
 
 MEMORY_BYTES = 4 << 30
 FILE_BYTES = 64 << 20
 MOST_TEXT = 200_000
 MOST_OUTPUTS = 50
+MOST_SAID = 500  # of a line that was left out
 # Quick calls are answered in one go: each time that the judge is woken costs more than a call.
 HELD_SECONDS = 0.02
 # What a feedback page shows of a student's output. No HTML or JavaScript: it would run in the
@@ -61,6 +62,7 @@ def serve(shell=None, walled=False):
     import beside
     import numpy as np
     import wall
+    from shell import new_shell
 
     random.seed(0)
     shell = shell or new_shell()
@@ -77,7 +79,7 @@ def serve(shell=None, walled=False):
         elif "files" in request:
             _reply(replies, {"failed": beside.lay(request["files"])})
         else:
-            _quietly(_answer, request["ask"], shell.user_ns, replies, wall)
+            shell.context.run(_quietly, _answer, request["ask"], shell.user_ns, replies, wall)
 
 
 def _private_channel():
@@ -104,70 +106,72 @@ def _limit_resources(walled):
         resource.setrlimit(resource.RLIMIT_NPROC, (MOST_PROCESSES, MOST_PROCESSES))
 
 
-def new_shell():
-    """An IPython that shows what JupyterLab would show."""
-    from IPython.core.interactiveshell import InteractiveShell
-    from traitlets.config import Config
-
-    config = Config()
-    config.HistoryManager.enabled = False
-    config.InteractiveShell.colors = "nocolor"
-    # As in JupyterLab: figures become PNG images in the cell's output.
-    os.environ["MPLBACKEND"] = "module://matplotlib_inline.backend_inline"
-    shell = InteractiveShell.instance(config=config)
-    shell.user_ns["__name__"] = "__main__"
-    builtins.input = _no_input
-    return shell
-
-
-def _no_input(prompt=""):
-    raise RuntimeError("input() asks for something while nobody is there to answer")
-
-
 def _run(shell, source, seconds, wall):
-    """The cell's outputs, as a notebook stores them."""
+    """The cell's outputs, as a notebook stores them, and in those that say what went wrong, where."""
+    import inline_figures
     from IPython.utils.capture import capture_output
 
-    errors = []
-    shell._showtraceback = lambda kind, value, lines: errors.append((kind, value, lines))
-    shell.showsyntaxerror = lambda *args, **kwargs: errors.append((*sys.exc_info()[:2], []))
+    shell.begin()
+    stopped = None
     try:
-        with capture_output() as captured, wall.time_limit(seconds):
-            shell.run_cell(source, store_history=False)
-            _show_figures()
+        with capture_output(display=False) as captured, wall.time_limit(seconds):
+            ran = shell.run_cell(source, store_history=True)
+            stopped = ran.error_before_exec or ran.error_in_exec
+            inline_figures.show_rest()
     except BaseException as error:
-        errors.append((type(error), error, []))
+        stopped = error
     outputs = [
         {"output_type": "stream", "name": name, "text": wall.shortened(text, MOST_TEXT)}
         for name, text in (("stdout", captured.stdout), ("stderr", captured.stderr))
         if text
     ]
-    for output in captured.outputs[:MOST_OUTPUTS]:
-        data = {kind: _text(output.data[kind]) for kind in SHOWN if kind in output.data}
-        outputs.append({"output_type": "display_data", "data": data, "metadata": {}})
-    for kind, value, lines in errors[:1]:
-        if kind is wall.TimeLimitError:
-            kind, value, lines = TimeoutError, f"this cell ran longer than {seconds:g} s", []
-        elif isinstance(value, SyntaxError):
-            value, lines = f"{value.msg}, line {value.lineno}: {(value.text or '').strip()}", []
-        text = wall.shortened(value if isinstance(value, str) else wall.said_by(value))
-        lines = [str(line) for line in lines] or [f"{kind.__name__}: {text}"]
+    for said in shell.left_out[:MOST_OUTPUTS]:
+        text = wall.one_line(said, MOST_SAID)
         outputs.append(
-            {"output_type": "error", "ename": kind.__name__, "evalue": text, "traceback": lines}
+            {"output_type": "stream", "name": "stderr", "text": f"{text}\n", "left_out": text}
         )
-    return outputs
+    for data, _ in shell.display_pub.shown[:MOST_OUTPUTS]:
+        data = {kind: _text(data[kind]) for kind in SHOWN if kind in data}
+        outputs.append({"output_type": "display_data", "data": data, "metadata": {}})
+    errors = shell.errors or ([(type(stopped), stopped, [])] if stopped else [])
+    if errors and shell.is_below_magic(source):
+        stopped = errors[-1][1]
+    # After an error that was only shown, as a magic's, the cell may go on to one that stops it.
+    told = [*errors[:1], *(error for error in errors[1:] if error[1] is stopped)]
+    return outputs + [
+        _error(shell, source, *error, seconds, wall) | {"stopped": error[1] is stopped}
+        for error in told
+    ]
+
+
+def _error(shell, source, kind, value, lines, seconds, wall):
+    from shell import needed_network
+
+    at, line, is_offline = 0, "", False
+    with suppress(Exception):  # it may be of a student's own class
+        at, line = shell.typed_lines(value, source)
+        is_offline = needed_network(value)
+    if kind is wall.TimeLimitError:
+        kind, value, lines = TimeoutError, f"this cell ran longer than {seconds:g} s", []
+    elif isinstance(value, SyntaxError):
+        at, line = 0, ""
+        value, lines = f"{value.msg}, line {value.lineno}: {(value.text or '').strip()}", []
+    elif is_offline:
+        value = f"{wall.said_by(value)} (a notebook that is graded has no network)"
+    text = wall.shortened(value if isinstance(value, str) else wall.said_by(value))
+    return {
+        "output_type": "error",
+        "ename": kind.__name__,
+        "evalue": text,
+        "traceback": [str(line) for line in lines] or [f"{kind.__name__}: {text}"],
+        "at": at,
+        "line": wall.shortened(line),
+    }
 
 
 def _text(data):
     """Output data as a notebook stores it; some objects give their picture as raw bytes."""
     return base64.b64encode(data).decode() if isinstance(data, bytes) else str(data)
-
-
-def _show_figures():
-    if "matplotlib.pyplot" in sys.modules:
-        from matplotlib_inline.backend_inline import flush_figures
-
-        flush_figures()
 
 
 def _answer(calls, namespace, replies, wall):

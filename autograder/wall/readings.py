@@ -21,6 +21,7 @@ class FaultKind(StrEnum):
 
     MISSING = "missing"  # no such name in the notebook
     CELL_FAILED = "cell failed"  # no such name, and a cell that holds it stopped with an error
+    STALE = "stale"  # an earlier one was called: the cell of the last stopped with an error
     NOT_CALLABLE = "not callable"
     NOT_IMPLEMENTED = "not implemented"  # the stub is still there
     RAISED = "raised"

@@ -14,6 +14,7 @@ from autograder.nbgrader_glue import write_problem
 from autograder.repair import grade_id
 from autograder.verdict import State
 from tests.submissions import answers
+from tests.submissions.dressed import dressed
 
 ROOT = Path(__file__).parents[2]
 NAMES = sorted(path.stem for path in (ROOT / "solutions").glob("*/*.ipynb"))
@@ -56,12 +57,14 @@ class Problem:
         return nbformat.read(self.release_folder / f"{self.name}.ipynb", as_version=4)
 
     def graded(self, kind: str) -> Graded:
-        """What "source", "blank" or one of the module's submissions gets."""
+        """What "source", "blank", "dressed" or one of the module's submissions gets."""
         if kind not in self._graded:
             if kind == "source":
                 submission = self.source
             elif kind == "blank":
                 submission = answers.blank(self.release)
+            elif kind == "dressed":
+                submission = dressed(self.submissions.right(self.release))
             else:
                 submission = getattr(self.submissions, kind)(self.release)
             self._graded[kind] = grade(submission, self.source, "seed")

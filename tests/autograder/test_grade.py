@@ -181,6 +181,50 @@ def test_lost_rooms_cost_their_own_cells_alone(release):
     assert lost.evalue.startswith("this cell ended Python itself")
 
 
+SIX_WAYS_TO_STOP = {
+    "lagrangian": (
+        "kappa = kapa\ndef lagrangian(q, qd, m, lc, I, g):\n    return 0",
+        "the cell that should define it stopped with NameError: name 'kapa' is not defined "
+        "(line 1: kappa = kapa). Mend that line; what stands below it in the cell runs then.",
+    ),
+    "M": (
+        "%matplotlib inline\nI = float(input('I = '))\nM = lambda q, pend: I",
+        "the cell that should define it stopped with RuntimeError: input() asks for something while "
+        "nobody is there to answer; write the value into the cell (line 2: I = float(input('I = '))).",
+    ),
+    "C": (
+        "from pendulum import C",
+        "the cell that should define it stopped with ModuleNotFoundError: No module named 'pendulum' "
+        "(line 1: from pendulum import C).",
+    ),
+    "g_vec": (
+        "%run pendulum.py",
+        "by exactly this name; was its cell run? Before that, %run pendulum.py was left out: "
+        "Exception: File `'pendulum.py'` not found.",
+    ),
+    "inertia_about_pivot": (
+        "import os\nos._exit(0)\ndef inertia_about_pivot(I_com, m, lc): return 0",
+        "the cell that should define it stopped with the end of Python itself (it ended).",
+    ),
+    "small_angle_frequency": (
+        "def small_angle_frequency(pend):\n    raise NotImplementedError",
+        "An earlier small_angle_frequency was called, and gave no numbers: the cell that defines it "
+        "again stopped with SyntaxError: expected ':', line 1: def small_angle_frequency(pend).",
+    ),
+}
+
+
+def test_a_card_names_the_error_that_stopped_the_cell(release):
+    answers = {name: answer for name, (answer, _) in SIX_WAYS_TO_STOP.items()}
+    submission = p3_pendulum.right_but(release, **answers)
+    again = nbformat.v4.new_code_cell("def small_angle_frequency(pend)\n    return 1")
+    at = submission.cells.index(cell_of(submission, "answer-small_angle_frequency"))
+    submission.cells.insert(at + 1, again)
+    graded = grade(submission, SOURCE, "seed")
+    for name, (_, sentence) in SIX_WAYS_TO_STOP.items():
+        assert sentence in graded.verdicts[f"p3-{name}"].problem
+
+
 def test_what_a_student_writes_can_always_be_saved(release):
     submission = p3_pendulum.right_but(
         release,
@@ -291,7 +335,7 @@ def test_a_new_room_runs_the_earlier_cells_but_not_the_one_that_ended_the_last()
 def test_a_missing_name_is_blamed_on_the_cell_that_failed_to_define_it():
     class Room(Script):
         def run(self, source):
-            bad = {"output_type": "error", "ename": "NameError", "evalue": "x", "traceback": []}
+            bad = {"output_type": "error", "ename": "NameError", "evalue": "x"}
             return [bad] if "bad" in source else []
 
     with Sitting(Room) as sitting:

@@ -18,6 +18,7 @@ from nbgrader.api import Gradebook
 
 from tests.autograder import courses
 from tests.submissions import p3_pendulum
+from tests.submissions.dressed import dressed
 from tests.submissions.p3_pendulum import BAD_ANSWERS, POINTS
 
 ROOT = Path(__file__).parents[2]
@@ -76,7 +77,8 @@ def course(tmp_path_factory):
     course.nbgrader("collect", P3)
 
     for name in WHOLE:
-        course.submit(name, p3_pendulum.CLASS[name](release))
+        made = p3_pendulum.CLASS[name](release)
+        course.submit(name, dressed(made) if name == "right" else made)
     for name, (answer, _) in BAD_ANSWERS.items():
         course.submit(name, p3_pendulum.right_but(release, g_vec=answer))
     course.log = course.nbgrader("autograde", P3)

@@ -153,10 +153,10 @@ def test_the_release_holds_no_answer(given):
     assert not [line for line in model if len(line) > 20 and line in shown]
 
 
-def test_a_right_submission_is_right(given):
-    graded = given.graded("right")
+def test_a_right_submission_is_right_however_its_cells_are_dressed(given):
+    graded = given.graded("dressed")
     assert graded.verdicts.keys() == given.submissions.POINTS.keys()
-    assert given.states("right") == {State.CORRECT}, graded.verdicts
+    assert given.states("dressed") == {State.CORRECT}, graded.verdicts
     assert {verdict.credit for verdict in graded.verdicts.values()} == {1}
     assert graded.notes == ()
 

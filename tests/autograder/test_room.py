@@ -67,7 +67,10 @@ class TestOutputs:
 
     def test_input_says_that_nobody_answers(self, room):
         said = failed(room, "x = input('m = ')")
-        assert said == ("RuntimeError: input() asks for something while nobody is there to answer")
+        assert said == (
+            "RuntimeError: input() asks for something while nobody is there to answer; "
+            "write the value into the cell"
+        )
 
     def test_long_output_is_cut(self, room):
         (output,) = room.run("print('x' * 10**6)")

@@ -1,0 +1,35 @@
+"""Figures are pictures in the cell's outputs, whatever backend a notebook asks for."""
+
+import os
+import sys
+
+INLINE = "module://matplotlib_inline.backend_inline"
+
+
+def only_pictures():
+    """Let matplotlib draw with its inline backend alone, and IPython show figures as PNG alone.
+
+    A notebook may name any backend, as one with windows that a student has at home: its figures are
+    drawn all the same.
+    """
+    os.environ["MPLBACKEND"] = INLINE
+    import matplotlib
+    from IPython.core import pylabtools
+    from matplotlib import rcsetup
+    from matplotlib.backends.registry import backend_registry
+
+    load, select = backend_registry.load_backend_module, pylabtools.select_figure_formats
+    backend_registry.load_backend_module = lambda backend: load(INLINE)
+    rcsetup.validate_backend = matplotlib.RcParams.validate["backend"] = lambda backend: INLINE
+    matplotlib.rcParams["backend"] = INLINE
+    pylabtools.select_figure_formats = lambda shell, formats, **options: select(
+        shell, {"png"}, **options
+    )
+
+
+def show_rest():
+    """Show the figures that a cell drew and did not show, as the kernel does at its end."""
+    if "matplotlib.pyplot" in sys.modules:
+        from matplotlib_inline.backend_inline import flush_figures
+
+        flush_figures()
