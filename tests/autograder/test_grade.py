@@ -195,6 +195,7 @@ SIX_WAYS_TO_STOP = {
     "C": (
         "from pendulum import C",
         "the cell that should define it stopped with ModuleNotFoundError: No module named 'pendulum' "
+        "(no pendulum.py was handed in, and no package of this name is installed here) "
         "(line 1: from pendulum import C).",
     ),
     "g_vec": (
