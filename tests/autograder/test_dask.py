@@ -58,6 +58,10 @@ def test_a_killed_worker_costs_nobody_a_grade(cluster, tmp_path, monkeypatch):
     kinds = (p3_pendulum.right, p3_pendulum.partly_right, blank)
     for number in range(STUDENTS):
         submit(there, f"student{number:02}", kinds[number % 3](courses.release(there)))
+    # What lies beside a notebook travels with it.
+    with_module = p3_pendulum.right_but(courses.release(there), g_vec="from mine import g_vec")
+    folder = submit(there, "student00", with_module).parent
+    (folder / "mine.py").write_text("import numpy as np\n\n\n" + p3_pendulum.RIGHT["g_vec"])
     here = tmp_path / "here"
     shutil.copytree(there, here)
 
@@ -76,6 +80,7 @@ def test_a_killed_worker_costs_nobody_a_grade(cluster, tmp_path, monkeypatch):
     assert workers[0].returncode == -signal.SIGKILL
     assert workers[1].poll() is None
     assert all(line.graded and line.redone for line in lines)
+    assert lines[0].score == sum(p3_pendulum.POINTS.values())
     monkeypatch.setattr(pipeline._Run, "_settle", settle)
     assert [line.score for line in pipeline.grade_all(here, P3, jobs=2)] == [
         line.score for line in lines

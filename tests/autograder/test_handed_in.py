@@ -7,7 +7,8 @@ from contextlib import suppress
 
 import pytest
 
-from autograder.nbgrader_glue.handed_in import beside, counted
+from autograder.nbgrader_glue import handed_in
+from autograder.nbgrader_glue.handed_in import UNREADABLE, beside, counted
 from tests.autograder.problems import problem
 from tests.submissions import p3_pendulum
 
@@ -88,6 +89,20 @@ def test_where_none_counts_it_is_said_what_is_there(tmp_path, kinds, said):
     with pytest.raises(FileNotFoundError) as caught:
         counted(hand_in(tmp_path, kinds), P3, SOURCE)
     assert str(caught.value) == f"there is no {NOTEBOOK}{said}"
+
+
+def test_a_hand_in_of_many_notebooks_holds_up_nobody(tmp_path, monkeypatch):
+    folder = hand_in(tmp_path, {f"{n:03}.ipynb": "{}" for n in range(40)} | {NOTEBOOK: "right"})
+    looked_at = []
+    monkeypatch.setattr(
+        handed_in, "_likeness", lambda path, source: looked_at.append(path) or UNREADABLE
+    )
+    assert counted(folder, P3, SOURCE) == (folder / NOTEBOOK, [])
+    assert len(looked_at) == handed_in.MOST_LOOKED_AT + 1
+    looked_at.clear()
+    monkeypatch.setattr(handed_in, "MOST_BYTES", 5)
+    counted(folder, P3, SOURCE)
+    assert len(looked_at) == 2 + 1  # two bytes each, and the graded one
 
 
 def test_files_beside_the_notebook(tmp_path):

@@ -32,7 +32,7 @@ def write(path, notebook):
 
 
 def edited_locked_cells(folder, release):
-    """`math` is imported in the set-up, and an answer stands in its check's cell."""
+    """`math` is imported in the set-up, an answer stands in its check's cell, a photo below its own."""
     notebook = p3_pendulum.right_but(
         release,
         M=cell_of(release, "answer-M").source,
@@ -45,24 +45,17 @@ def edited_locked_cells(folder, release):
     check.source = p3_pendulum.RIGHT["M"] + check.source
     raising = cell_of(notebook, "p3-C")
     raising.source = "1 / 0\n" + raising.source
-    write(folder / NOTEBOOK, notebook)
-
-
-def derivation_in_own_cells(folder, release):
-    notebook = copy.deepcopy(p3_pendulum.right(release))
-    cell = cell_of(notebook, "p3-derivation")
-    cell.source = cell_of(release, "p3-derivation").source
+    derivation = cell_of(notebook, "p3-derivation")
+    derivation.source = cell_of(release, "p3-derivation").source
     photo = new_markdown_cell("![my derivation](attachment:photo.png)")
     photo.attachments = {"photo.png": {"image/png": "iVBORw0KGgo="}}
-    notebook.cells.insert(notebook.cells.index(cell) + 1, photo)
+    notebook.cells.insert(notebook.cells.index(derivation) + 1, photo)
     write(folder / NOTEBOOK, notebook)
 
 
 def copy_beside(folder, release):
+    """A photo of a derivation as well, in no cell."""
     write(folder / COPY, p3_pendulum.right(release))
-
-
-def photo_beside(folder, release):
     (folder / "IMG 1234.jpg").write_bytes(b"\xff\xd8")
 
 
@@ -72,8 +65,12 @@ def damaged_beside(folder, release):
 
 
 def other_name(folder, release):
+    """From an editor that keeps no settings of nbgrader's."""
     (folder / NOTEBOOK).unlink()
-    write(folder / "Pendulum final (2).ipynb", p3_pendulum.right(release))
+    notebook = copy.deepcopy(p3_pendulum.right(release))
+    for cell in notebook.cells:
+        cell.metadata = {}
+    write(folder / "Pendulum final (2).ipynb", notebook)
     write(folder / "scratch.ipynb", new_notebook(cells=[new_markdown_cell("notes")]))
 
 
@@ -90,13 +87,6 @@ def in_a_subfolder(folder, release):
 
 def as_an_archive(folder, release):
     (folder / NOTEBOOK).rename(folder / "p3-pendulum.zip")
-
-
-def without_settings(folder, release):
-    notebook = copy.deepcopy(p3_pendulum.right(release))
-    for cell in notebook.cells:
-        cell.metadata = {}
-    write(folder / NOTEBOOK, notebook)
 
 
 def files_beside(folder, release):
@@ -126,9 +116,8 @@ def files_beside(folder, release):
 
 HAND_INS = {
     made.__name__: made
-    for made in (edited_locked_cells, derivation_in_own_cells, copy_beside, photo_beside,
-                 damaged_beside, other_name, two_other_names, in_a_subfolder, as_an_archive,
-                 without_settings, files_beside)
+    for made in (edited_locked_cells, copy_beside, damaged_beside, other_name, two_other_names,
+                 in_a_subfolder, as_an_archive, files_beside)
 }  # fmt: skip
 
 
@@ -204,16 +193,16 @@ def test_what_was_tested_is_not_trivial(pair):
         f"two_other_names could not be graded there is no {NOTEBOOK}, and it could be a.ipynb and",
         f"in_a_subfolder could not be graded there is no {NOTEBOOK}, only my work/{NOTEBOOK}",
         f"as_an_archive could not be graded there is no {NOTEBOOK}, only p3-pendulum.zip",
-        f"copy_beside 0 of 15 6 not attempted {NOTEBOOK} was graded and has no answers, but {COPY}",
+        f"copy_beside 0 of 15 6 not attempted, 1 to be read {NOTEBOOK} was graded and has",
         f"damaged_beside could not be graded {NOTEBOOK} is not valid JSON: ask for it again; {COPY}",
-        "derivation_in_own_cells 10 of 15 6 correct, 1 to be read p3-derivation holds no answer; it may",
-        "photo_beside 0 of 15 6 not attempted, 1 to be read p3-derivation holds no answer; it may be in",
-        "edited_locked_cells 10 of 15 6 correct the text of p3-setup had been changed; it was put back",
+        "p3-derivation holds no answer; it may be in the student's own cell below",
+        "p3-derivation holds no answer; it may be in the student's own file IMG 1234.jpg",
+        "16 cells had lost their nbgrader settings",
+        "edited_locked_cells 10 of 15 6 correct, 1 to be read the text of p3-setup had been",
         "files_beside 8 of 15 4 correct, 2 error in your code",
-        "without_settings 10 of 15 6 correct, 1 to be read 16 cells had lost their nbgrader settings",
         f"empty could not be graded there is no {NOTEBOOK}",
         "p3-M was there more than once; the last one counts",
-        "17 graded, 0 unchanged, 7 could not be graded",
+        "14 graded, 0 unchanged, 7 could not be graded",
     ],
 )
 def test_table_says(pair, line):
@@ -227,7 +216,7 @@ def test_table_says(pair, line):
         ("other_name", "Pendulum final (2).ipynb was graded in its place"),
         ("edited_locked_cells", "the text of p3-setup had been changed; it was put back"),
         (
-            "derivation_in_own_cells",
+            "edited_locked_cells",
             "this cell holds no answer; it may be in the student's own cell below",
         ),
         (
@@ -253,7 +242,7 @@ def test_nbgraders_log_says_the_same(pair):
         f"two_other_names/{P3}: there is no p3-pendulum.ipynb, and it could be a.ipynb and b.ipynb",
         f"copy_beside: {NOTEBOOK} was graded and has no answers, but {COPY} beside it has",
         "edited_locked_cells: the text of p3-M had been changed",
-        "derivation_in_own_cells: p3-derivation holds no answer",
+        "edited_locked_cells: p3-derivation holds no answer",
     ):
         assert said in pair.log
 
@@ -269,7 +258,7 @@ def test_a_persons_marks_stay(pair, monkeypatch, capsys):
     assert main(["grade", P3, "--jobs", "1"]) == 1
     said = capsys.readouterr().out
     assert "right 14 of 15 6 correct" in " ".join(said.split())
-    assert "0 graded, 17 unchanged" in said
+    assert "0 graded, 14 unchanged" in said
     assert rows(courses.database(root)) == before
 
 
@@ -284,7 +273,7 @@ def test_what_is_gone_is_put_back(pair, monkeypatch, capsys):
         gradebook.find_grade("p3-M", P3, P3, "partly_right").auto_score = 0.5
         gradebook.db.commit()
     assert main(["grade", P3, "--jobs", "1"]) == 1
-    assert "3 graded, 14 unchanged" in capsys.readouterr().out
+    assert "3 graded, 11 unchanged" in capsys.readouterr().out
     assert (rows(courses.database(root)), files(root / "course" / "autograded")) == before
 
 
@@ -294,5 +283,5 @@ def test_with_another_file_beside_it_a_notebook_is_judged_again(pair, monkeypatc
     (root / "course" / "submitted" / "files_beside" / P3 / "script.py").write_text("half = 0.7\n")
     assert main(["grade", P3, "--jobs", "1"]) == 1
     said = " ".join(capsys.readouterr().out.split())
-    assert "1 graded, 16 unchanged" in said
+    assert "1 graded, 13 unchanged" in said
     assert "files_beside 6.5 of 15" in said  # the kinetic part of L is wrong now
