@@ -16,9 +16,9 @@ SPACE = 4 << 20  # bytes that a notebook, its page and its rows may well take
 def can_start(converter, other: Callable[[], None] = lambda: None) -> None:
     """NbGraderException where the course's disk is full, or `other`, which is called, raises OSError."""
     try:
-        other()
         with tempfile.TemporaryFile(dir=converter.coursedir.root) as file:
             file.write(bytes(SPACE))
+        other()
     except OSError as error:
         reason = f"{one_line(str(error))}: not started, and nothing is changed"
         converter.log.error(reason)

@@ -94,6 +94,22 @@ def run_again(command, root: Path) -> None:
     command(coursedir=CourseDirectory(config=config), config=config).start()
 
 
+def test_without_a_sandbox_nbgrader_removes_nothing(tmp_path, monkeypatch):
+    root = courses.new_course(tmp_path / "course")
+    submit(root, "ada", p3_pendulum.right(courses.release(root)))
+    graded = root / "course" / "autograded" / "ada" / P3 / courses.NOTEBOOK
+    graded.parent.mkdir(parents=True)
+    graded.write_text("earlier")
+
+    def no_room():
+        raise OSError("no sandbox starts")
+
+    monkeypatch.setattr("autograder.nbgrader_glue.submitted.Room", no_room)
+    with pytest.raises(NbGraderException, match="no sandbox starts: not started"):
+        run_again(Autograde, root)
+    assert graded.read_text() == "earlier"
+
+
 def test_what_was_graded_and_reported_stays(disk, monkeypatch, capsys):
     root = courses.new_course(disk.folder / "course")
     folder = submit(root, "ada", p3_pendulum.right(courses.release(root))).parent
