@@ -3,6 +3,7 @@
 from nbconvert.exporters import HTMLExporter
 
 from autograder.nbgrader_glue.names import leave_out_unfit
+from autograder.nbgrader_glue.start import can_start
 
 
 class FeedbackExporter(HTMLExporter):
@@ -14,3 +15,4 @@ class FeedbackExporter(HTMLExporter):
     def __init__(self, config=None, **kw):
         super().__init__(config=config, **kw)
         leave_out_unfit(self.parent)
+        can_start(self.parent)

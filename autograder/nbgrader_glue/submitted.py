@@ -2,20 +2,17 @@
 
 import os
 import stat
-import tempfile
 from datetime import datetime
 from pathlib import Path
 
 import nbformat
 from nbconvert.exporters import NotebookExporter
-from nbgrader.converters.base import NbGraderException
 
 from autograder.nbgrader_glue.handed_in import counted
 from autograder.nbgrader_glue.names import leave_out_unfit
+from autograder.nbgrader_glue.start import can_start
 from autograder.sandbox import Room
 from autograder.wall import one_line
-
-SPACE = 4 << 20  # bytes that a submission's notebook and its rows may well take
 
 
 class RefusedError(ValueError):
@@ -73,19 +70,6 @@ def timestamp(course, folder: Path) -> datetime | None:
     )
 
 
-def _can_start(converter) -> None:
-    """NbGraderException, before an earlier grading is removed for a new one that cannot be made."""
-    course = converter.coursedir
-    try:
-        Room().close()
-        with tempfile.TemporaryFile(dir=course.root) as file:
-            file.write(bytes(SPACE))
-    except OSError as error:
-        reason = f"nothing was graded, and nothing is changed: {one_line(str(error))}"
-        converter.log.error(reason)
-        raise NbGraderException(reason) from None
-
-
 class SubmissionExporter(NotebookExporter):
     """For `autograde`: reads a submission only when it has been checked, with or without a BOM.
 
@@ -97,7 +81,7 @@ class SubmissionExporter(NotebookExporter):
     def __init__(self, config=None, **kw):
         super().__init__(config=config, **kw)
         leave_out_unfit(self.parent)
-        _can_start(self.parent)
+        can_start(self.parent, lambda: Room().close())
         for folder, notebooks in getattr(self.parent, "assignments", {}).items():
             name = self.parent.coursedir.assignment_id
             if (

@@ -15,11 +15,12 @@ P3 = "p3-pendulum"
 
 @pytest.fixture
 def course(tmp_path, monkeypatch):
-    """A course's folder, and the working directory."""
-    shutil.copy(ROOT / "nbgrader_config.py", tmp_path)
-    shutil.copytree(ROOT / "solutions" / P3, tmp_path / "solutions" / P3)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+    """A course's folder, called as a student might, and the working directory."""
+    root = tmp_path / "robots [2026] *"
+    shutil.copytree(ROOT / "solutions" / P3, root / "solutions" / P3)
+    shutil.copy(ROOT / "nbgrader_config.py", root)
+    monkeypatch.chdir(root)
+    return root
 
 
 def files(folder: Path) -> dict[str, bytes]:

@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
-from nbgrader.converters import Autograde
+from nbgrader.converters import Autograde, GenerateFeedback
 from nbgrader.converters.base import NbGraderException
 from nbgrader.coursedir import CourseDirectory
 
@@ -86,12 +86,28 @@ def test_a_file_that_does_not_fit_leaves_the_earlier_one(disk):
     assert list(disk.folder.iterdir()) == [path]
 
 
-def autograde_again(root: Path) -> None:
-    """`nbgrader autograde --force`, which removes the earlier notebooks first, in this process."""
+def run_again(command, root: Path) -> None:
+    """An nbgrader command with --force, which removes what is there first, in this process."""
     config = configuration(root)
     config.CourseDirectory.assignment_id = P3
-    config.Autograde.force = True
-    Autograde(coursedir=CourseDirectory(config=config), config=config).start()
+    config.BaseConverter.force = True
+    command(coursedir=CourseDirectory(config=config), config=config).start()
+
+
+def test_without_a_sandbox_nbgrader_removes_nothing(tmp_path, monkeypatch):
+    root = courses.new_course(tmp_path / "course")
+    submit(root, "ada", p3_pendulum.right(courses.release(root)))
+    graded = root / "course" / "autograded" / "ada" / P3 / courses.NOTEBOOK
+    graded.parent.mkdir(parents=True)
+    graded.write_text("earlier")
+
+    def no_room():
+        raise OSError("no sandbox starts")
+
+    monkeypatch.setattr("autograder.nbgrader_glue.submitted.Room", no_room)
+    with pytest.raises(NbGraderException, match="no sandbox starts: not started"):
+        run_again(Autograde, root)
+    assert graded.read_text() == "earlier"
 
 
 def test_what_was_graded_and_reported_stays(disk, monkeypatch, capsys):
@@ -108,9 +124,10 @@ def test_what_was_graded_and_reported_stays(disk, monkeypatch, capsys):
         return (*found, (root / "course" / "report" / f"{P3}.html").read_bytes())
 
     before, failures = state(), 0
-    with disk.left(0), pytest.raises(NbGraderException, match="nothing is changed"):
-        autograde_again(root)
-    assert state() == before
+    for command in (Autograde, GenerateFeedback):
+        with disk.left(0), pytest.raises(NbGraderException, match=f"({FULL}).*nothing is changed"):
+            run_again(command, root)
+        assert state() == before
     for space in (0, 12 << 10, 30 << 10, 60 << 10, SIZE):
         capsys.readouterr()
         with disk.left(space):

@@ -39,8 +39,10 @@ UNFIT = {
     ".hidden": "begins with a dot, and nbgrader overlooks it",
     "l" * 200: "has 200 characters, and the gradebook holds 128",
 }
+BESIDE = ["\x1b]0;data\x07.csv", "data[1].csv", "two\nlines.csv"]  # files of zoe's
 if sys.platform == "linux":  # elsewhere a name is text
     UNFIT |= {os.fsdecode(b"caf\xe9"): "is not UTF-8"}
+    BESIDE.append(os.fsdecode(b"donn\xe9es.csv"))
 FIT = ["b1", "dom\\ain", '=1, "y" <i>z {0} %s #\'', "Jose\u0301 \u0634\u0643"]
 
 
@@ -57,7 +59,8 @@ def course(tmp_path_factory):
     right = p3_pendulum.right(courses.release(root))
     for name in [*UNFIT, *FIT, "zoe"]:
         submit(root, name, right)
-    (root / "course" / "submitted" / "zoe" / P3 / "\x1b]0;data\x07.csv").touch()
+    for name in BESIDE:
+        (root / "course" / "submitted" / "zoe" / P3 / name).touch()
     graded = ours(root, "grade", P3, "--jobs", "2", status=1)
     reported = ours(root, "report", P3)
     before = courses.rows(courses.database(root))
@@ -81,8 +84,10 @@ def test_a_fit_name_is_graded(course):
         assert re.search(rf"^{re.escape(name)} +10 of 15  6 correct", course.graded, re.MULTILINE)
     students = {dict(row)["id"] for row in course.before["student"]}
     assert students == {*FIT, "zoe"}
+    done = course.root / "course" / "autograded"
     for name in [*FIT, "zoe"]:
-        assert (course.root / "course" / "autograded" / name / P3 / NOTEBOOK).is_file()
+        assert (done / name / P3 / NOTEBOOK).is_file()
+    assert {path.name for path in (done / "zoe" / P3).iterdir()} >= {*BESIDE}
 
 
 @pytest.mark.parametrize("name", UNFIT, ids=ascii)

@@ -66,6 +66,9 @@ def test_outside_a_ready_course_one_line_says_what_to_do(course, monkeypatch, ca
     (course / "course" / "gradebook.db").unlink()
     assert main(["grade", P3, "--jobs", "1"]) == 2
     assert f"run `nbgrader generate_assignment {P3}` first" in capsys.readouterr().err
+    (course / "course" / "seed").write_text("\n")
+    assert main(["grade", P3, "--jobs", "1"]) == 2
+    assert "seed is empty: put the course's seed back" in capsys.readouterr().err
     assert main(["grade", P3, "--jobs", "0"]) == 2
     assert "jobs is 0" in capsys.readouterr().err
 
