@@ -4,14 +4,15 @@ import hashlib
 import json
 import logging
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from nbformat import NotebookNode
 
 from autograder import outputs
-from autograder.blame import Ran, explained, ran
-from autograder.judge import HIDDEN_CASES, CannotRunError
+from autograder.blame import Ran, explained, ran, stale
+from autograder.faults import said_of
+from autograder.judge import HIDDEN_CASES, CannotRunError, Check
 from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
 from autograder.sandbox import Room, RoomLostError
@@ -70,6 +71,7 @@ def _graded(submission, source, seed) -> Graded:
             name = grade_id(cell)
             if name in CHECKS:
                 verdict = CHECKS[name].run(sitting.ask, stream(seed, name), HIDDEN_CASES)
+                verdict = sitting.told(CHECKS[name], verdict)
             else:
                 problem = f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
@@ -151,6 +153,14 @@ class Sitting:
         if last:
             replies[-1] = Reply(fault=explained(calls[0].name, last, self._cells))
         return replies
+
+    def told(self, check: Check, verdict: Verdict) -> Verdict:
+        """The verdict, which says so where it is of an earlier function than the notebook's last."""
+        earlier = stale(check.name, self._cells)
+        if verdict.state not in (State.INCORRECT, State.PARTLY_CORRECT) or earlier is None:
+            return verdict
+        said = said_of(earlier, check.name, check.signature)
+        return replace(verdict, next_step=f"{said} {verdict.next_step}".strip())
 
     def _missing(self) -> list[str]:
         """What no answer in this language can be run without, by a room that has met no student."""

@@ -273,6 +273,11 @@ class TestKernel:
         )
         assert printed(room, "print(await asyncio.sleep(0, 8))") == "8"
 
+    def test_a_loop_that_a_call_closed_is_made_again(self, room):
+        room.run("import asyncio\ndef f():\n    asyncio.get_event_loop().close()\n    return 1")
+        assert room.ask([Call("f", ())])[0].value == 1
+        assert printed(room, "print(await asyncio.sleep(0, 9))") == "9"
+
     def test_the_error_state_of_numpy_lasts(self, room):
         try:
             room.run("import numpy as np\nnp.seterr(divide='raise')")
