@@ -58,19 +58,27 @@ def ran(source: str, shown: list[dict]) -> Ran:
 
 def explained(name: str, fault: Fault, cells: list[Ran]) -> Fault:
     """The fault of a call of `name`, or that of the cell that should have defined it."""
-    defining = [cell for cell in cells if next(_lines_that_define(name, cell.source), 0)]
     if fault.kind is not FaultKind.MISSING:
-        if defining and _stopped_before(name, defining[-1]):
-            last = defining[-1]
-            return Fault(FaultKind.STALE, last.error, last.line)
-        return fault
-    failed = [cell for cell in defining if cell.error]
+        return stale(name, cells) or fault
+    failed = [cell for cell in _defining(name, cells) if cell.error]
     if not failed and not fault.message:
         failed = [cell for cell in cells if cell.error and _may_define_any(cell.source)]
     if failed:
         return Fault(FaultKind.CELL_FAILED, failed[-1].error, failed[-1].line)
     said = [text for cell in cells for text in cell.left_out]
     return replace(fault, line=said[-1]) if said and not fault.message else fault
+
+
+def stale(name: str, cells: list[Ran]) -> Fault | None:
+    """The fault of an earlier `name`, where the last cell that defines it stopped before it did."""
+    *_, last = [None, *_defining(name, cells)]
+    if last is None or not _stopped_before(name, last):
+        return None
+    return Fault(FaultKind.STALE, last.error, last.line)
+
+
+def _defining(name, cells):
+    return [cell for cell in cells if next(_lines_that_define(name, cell.source), 0)]
 
 
 def _stopped_before(name, cell: Ran) -> bool:

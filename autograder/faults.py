@@ -14,8 +14,8 @@ def said_of(fault: Fault, name: str, signature: str) -> str:
         FaultKind.CELL_FAILED: f"The notebook defines no {name}: the cell that should "
         f"define it stopped with {fault.message}{where}. Mend that line; what stands below it in "
         "the cell runs then.",
-        FaultKind.STALE: f"An earlier {name} was called, and gave no numbers: the cell that defines "
-        f"it again stopped with {fault.message}{where}. Mend that line.",
+        FaultKind.STALE: f"An earlier {name} was judged: the cell that defines it again "
+        f"stopped with {fault.message}{where}. Mend that line.",
         FaultKind.NOT_CALLABLE: f"{name} is a {fault.message}, not a function that can "
         f"be called as {signature}; was the name used again further down?",
         FaultKind.RAISED: f"{signature} raised {fault.message}{where}.",

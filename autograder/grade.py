@@ -4,7 +4,7 @@ import hashlib
 import json
 import logging
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -12,9 +12,10 @@ from nbformat import NotebookNode
 
 from autograder import outputs
 from autograder.beside import Beside
-from autograder.blame import Ran, explained, ran
+from autograder.blame import Ran, explained, ran, stale
 from autograder.cache import digest
-from autograder.judge import HIDDEN_CASES, CannotRunError
+from autograder.faults import said_of
+from autograder.judge import HIDDEN_CASES, CannotRunError, Check
 from autograder.problems import CHECKS
 from autograder.recognise import grade_id
 from autograder.repair import repair
@@ -72,7 +73,7 @@ def grade(
 
 def _graded(submission, source, seed, beside, said) -> Graded:
     notebook, notes = repair(submission, source, said, beside.documents)
-    verdicts, seed = {}, of_content(seed, notebook)
+    verdicts, seed = {}, of_content(seed, notebook, beside)
     with Sitting(partial(Room, files=beside.laid)) as sitting:
 
         def ask(calls):
@@ -90,6 +91,7 @@ def _graded(submission, source, seed, beside, said) -> Graded:
             name = grade_id(cell)
             if name in CHECKS:
                 verdict = CHECKS[name].run(ask, stream(seed, name), HIDDEN_CASES)
+                verdict = sitting.told(CHECKS[name], verdict)
             else:
                 problem = f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
@@ -112,9 +114,12 @@ def is_judged(cell: NotebookNode) -> bool:
     return cell.cell_type == "code" and bool(claims.get("grade")) and not claims.get("solution")
 
 
-def of_content(seed: str, notebook: NotebookNode) -> str:
-    """The seed of this very code's cases: other code meets others, and no text around it counts."""
-    return digest(seed, *(cell.source for cell in notebook.cells if cell.cell_type == "code"))
+def of_content(seed: str, notebook: NotebookNode, beside: Beside = NOTHING) -> str:
+    """The seed of this very code's cases: other code, or another file beside it, meets others, and no
+    text around it counts.
+    """
+    code = (cell.source for cell in notebook.cells if cell.cell_type == "code")
+    return digest(seed, beside.digest(), *code)
 
 
 def stream(seed: str, name: str) -> np.random.Generator:
@@ -182,6 +187,14 @@ class Sitting:
         if last:
             replies[-1] = Reply(fault=explained(calls[0].name, last, self._cells))
         return replies
+
+    def told(self, check: Check, verdict: Verdict) -> Verdict:
+        """The verdict, which says so where it is of an earlier function than the notebook's last."""
+        earlier = stale(check.name, self._cells)
+        if verdict.state not in (State.INCORRECT, State.PARTLY_CORRECT) or earlier is None:
+            return verdict
+        said = said_of(earlier, check.name, check.signature)
+        return replace(verdict, next_step=f"{said} {verdict.next_step}".strip())
 
     def _missing(self) -> list[str]:
         """What no answer in this language can be run without, by a room that has met no student."""

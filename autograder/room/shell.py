@@ -190,7 +190,7 @@ class RoomShell(InteractiveShell):
         """As `%autoawait` sets it, which changes nothing in a kernel either."""
 
     def _in_loop(self, cell):
-        if self._loop is None:
+        if self._loop is None or self._loop.is_closed():
             self._loop = asyncio.new_event_loop()
             asyncio.set_event_loop(self._loop)
         task = self._loop.create_task(cell, context=self.context)

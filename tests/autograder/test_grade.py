@@ -209,8 +209,8 @@ SIX_WAYS_TO_STOP = {
     ),
     "small_angle_frequency": (
         "def small_angle_frequency(pend):\n    raise NotImplementedError",
-        "An earlier small_angle_frequency was called, and gave no numbers: the cell that defines it "
-        "again stopped with SyntaxError: expected ':', line 1: def small_angle_frequency(pend).",
+        "An earlier small_angle_frequency was judged: the cell that defines it again "
+        "stopped with SyntaxError: expected ':', line 1: def small_angle_frequency(pend).",
     ),
 }
 
@@ -224,6 +224,18 @@ def test_a_card_names_the_error_that_stopped_the_cell(release):
     graded = grade(submission, SOURCE, "seed")
     for name, (_, sentence) in SIX_WAYS_TO_STOP.items():
         assert sentence in graded.verdicts[f"p3-{name}"].problem
+
+
+def test_a_verdict_on_an_earlier_function_says_so(release):
+    wrong = p3_pendulum.right_but(release, M=function("M", "2 * pend.I"))
+    at = wrong.cells.index(cell_of(wrong, "answer-M"))
+    wrong.cells.insert(at + 1, nbformat.v4.new_code_cell("x = pend\n" + function("M", "pend.I")))
+    verdict = grade(wrong, SOURCE, "seed").verdicts["p3-M"]
+    assert verdict.state is State.INCORRECT
+    assert verdict.next_step.startswith(
+        "An earlier M was judged: the cell that defines it again stopped with NameError: "
+        "name 'pend' is not defined (line 1: x = pend). Mend that line."
+    )
 
 
 def test_what_a_student_writes_can_always_be_saved(release):
