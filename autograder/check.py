@@ -12,7 +12,7 @@ from autograder.definitions import watched
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
 from autograder.problems import CHECKS, known_check
 from autograder.verdict import State, Verdict
-from autograder.wall import answer_all
+from autograder.wall import Call, Fault, FaultKind, Reply, answer_all
 
 # A visible check tries the same cases each time, so that a student can see an error change.
 VISIBLE_SEED = 20260101
@@ -40,8 +40,7 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     does. Raises NotCorrectError after showing a verdict that is not "correct", and UnknownCheckError
     for what is no check's id.
     """
-    namespace = sys._getframe(1).f_globals
-    verdict = _with_word_of_old(verdict_on(known_check(id), namespace, fresh), namespace)
+    verdict = _with_word_of_old(verdict_on(known_check(id), sys._getframe(1).f_globals, fresh))
     _show(verdict)
     if verdict.state is not State.CORRECT:
         raise NotCorrectError(verdict)
@@ -51,13 +50,22 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
     """The verdict on the function in a namespace that a known check asks for."""
     rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
     count = HIDDEN_CASES if fresh else VISIBLE_CASES
-    return CHECKS[id].run(lambda calls: answer_all(calls, namespace), rng, count)
+    name = CHECKS[id].name
+
+    def ask(calls: list[Call]) -> list[Reply]:
+        replies = answer_all(calls, namespace)
+        error = _definitions.missing(name) if _definitions else ""
+        if error and replies[0].fault and replies[0].fault.kind is FaultKind.MISSING:
+            return [Reply(fault=Fault(FaultKind.CELL_FAILED, f"{error}."))]
+        return replies
+
+    return CHECKS[id].run(ask, rng, count)
 
 
-def _with_word_of_old(verdict: Verdict, namespace: Mapping) -> Verdict:
+def _with_word_of_old(verdict: Verdict) -> Verdict:
     """The verdict, and first of all that the function is an old one, where it is."""
     name = CHECKS[verdict.check].name
-    error = _definitions.old(name, namespace.get(name)) if _definitions else ""
+    error = _definitions.old(name) if _definitions else ""
     if not error:
         return verdict
     said = f"This is your old {name}: the cell that was to define it anew stopped with {error}."

@@ -1,4 +1,4 @@
-"""A function that is still the old one, as the cell that should replace it failed.
+"""A function that is missing, or still the old one, as the cell that should define it failed.
 
 Python keeps what a name stood for when a cell stops before its `def`: at a SyntaxError, or at an error
 further up. A check then judges a function that is no longer on the screen, and has to say so.
@@ -18,14 +18,22 @@ class Definitions:
         self._namespace = shell.user_ns
         self._names = names
         self._before: dict[str, object] = {}
-        self._old: dict[str, tuple[object, str]] = {}  # what a name still stands for, and the error
+        # What a name stood for, or None, when a cell failed to define it, and the error.
+        self._failed: dict[str, tuple[object, str]] = {}
         shell.events.register("pre_run_cell", self._starts)
         shell.events.register("post_run_cell", self._ended)
 
-    def old(self, name: str, function: object) -> str:
-        """The error that kept the function of this name from being replaced; "" where none did."""
-        kept, error = self._old.get(name, (None, ""))
-        return error if kept is function else ""
+    def old(self, name: str) -> str:
+        """The error that kept what the name stands for from being replaced; "" where none did."""
+        return self._kept(name) if name in self._namespace else ""
+
+    def missing(self, name: str) -> str:
+        """The error that kept the name, which stands for nothing, from being defined, or ""."""
+        return "" if name in self._namespace else self._kept(name)
+
+    def _kept(self, name: str) -> str:
+        before, error = self._failed.get(name, (None, ""))
+        return error if self._namespace.get(name) is before else ""
 
     def _starts(self, info) -> None:
         self._before = {name: self._namespace.get(name) for name in self._names}
@@ -34,11 +42,10 @@ class Definitions:
         error = result.error_before_exec or result.error_in_exec
         for name, before in self._before.items():
             if _defines(result.info.raw_cell, name):
-                same = before is not None and self._namespace.get(name) is before
-                if error is not None and same:
-                    self._old[name] = before, _said_of(error)
+                if error is not None and self._namespace.get(name) is before:
+                    self._failed[name] = before, _said_of(error)
                 else:
-                    self._old.pop(name, None)
+                    self._failed.pop(name, None)
 
 
 def watched(names: Collection[str]) -> Definitions | None:

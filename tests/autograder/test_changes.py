@@ -89,6 +89,12 @@ def test_the_second_call_gets_what_the_first_left():
     np.testing.assert_array_equal(reply.again.value, [2.0, 2.0])
 
 
+def test_arguments_that_cannot_be_made_are_a_fault_of_the_call(monkeypatch):
+    monkeypatch.setattr("sympy.Symbol", None)  # as a student's cell may do
+    reply = wall.answer(Call("g", (Symbol("q"),)), {"g": lambda q: 1.0})
+    assert reply.fault.kind is FaultKind.RAISED
+
+
 def test_a_long_second_answer_is_left_out():
     namespace = {"__name__": "__main__", "np": np}
     exec("def g(q):\n    q += 1\n    return np.zeros(40_000)", namespace)

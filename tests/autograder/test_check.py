@@ -43,6 +43,9 @@ CELLS = [
     f"{defined(State.CORRECT)}\ncheck('{START}', fresh=True)",
     "def kinetic_energy(I, qd):\n    return I +",
     f"check('{START}')",
+    "del kinetic_energy",
+    "def kinetic_energy(I, qd):\n    return I +",
+    f"check('{START}')",
 ]
 
 
@@ -57,7 +60,11 @@ def kernel(request):
         first, *outputs = executed(["from autograder import check, hint", *CELLS])
     assert first == []
     return request.param, dict(
-        zip([*BODIES, *ASKED, "fresh", "broken", "old"], outputs, strict=True)
+        zip(
+            [*BODIES, *ASKED, "fresh", "broken", "old", "deleted", "again", "missing"],
+            outputs,
+            strict=True,
+        )
     )
 
 
@@ -150,6 +157,16 @@ def test_an_old_definition_is_said_to_be_one(kernel):
     assert said in " ".join(card.data["text/plain"].split())
     assert said in card.data["text/html"]
     assert "old" not in kernel[1]["fresh"][0].data["text/plain"]
+
+
+def test_a_missing_function_is_blamed_on_the_cell_that_failed(kernel):
+    card, error = kernel[1]["missing"]
+    assert error.evalue == f"{START}: error in your code"
+    said = (
+        "The notebook defines no kinetic_energy: the cell that should define it stopped with "
+        "SyntaxError: invalid syntax, line 2."
+    )
+    assert said in " ".join(card.data["text/plain"].split())
 
 
 def called(state: State, **how):

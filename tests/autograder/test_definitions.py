@@ -19,14 +19,14 @@ def shell(monkeypatch):
 
 @pytest.fixture
 def old(shell):
-    """Runs cells one after the other; gives what is said of M after the last."""
+    """Runs cells one after the other; gives the errors that keep M old, or missing."""
     definitions = Definitions(shell, {"M", "C"})
 
     def run(*cells: str) -> str:
         for cell in cells:
             with capture_output():
                 shell.run_cell(cell)
-        return definitions.old("M", shell.user_ns.get("M"))
+        return definitions.old("M"), definitions.missing("M")
 
     return run
 
@@ -49,7 +49,9 @@ SYNTAX = "def M(q, pend):\n    return 2 +"
     ],
 )
 def test_a_function_that_was_not_replaced_is_old(old, cells, said):
-    assert old(*cells).startswith(said)
+    error, missing = old(*cells)
+    assert error.startswith(said)
+    assert missing == ""
 
 
 @pytest.mark.parametrize(
@@ -71,7 +73,23 @@ def test_a_function_that_was_not_replaced_is_old(old, cells, said):
     ],
 )
 def test_there_is_no_false_alarm(old, cells):
-    assert old(*cells) == ""
+    assert old(*cells)[0] == ""
+
+
+@pytest.mark.parametrize(
+    ("cells", "said"),
+    [
+        ([SYNTAX], "SyntaxError: invalid syntax, line 2"),
+        (["x = cos\n" + GOOD], "NameError: name 'cos' is not defined"),
+        ([GOOD, "del M", SYNTAX], "SyntaxError: invalid syntax, line 2"),
+        ([SYNTAX, GOOD, "del M"], ""),
+        ([SYNTAX, GOOD], ""),
+        (["1 / 0"], ""),
+        ([], ""),
+    ],
+)
+def test_what_keeps_a_function_missing_is_known(old, cells, said):
+    assert old(*cells)[1] == said
 
 
 def test_outside_ipython_nothing_is_watched(monkeypatch):
