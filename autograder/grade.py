@@ -5,6 +5,7 @@ import json
 import logging
 import re
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,13 +15,14 @@ from autograder import outputs
 from autograder.judge import HIDDEN_CASES, CannotRunError
 from autograder.problems import CHECKS
 from autograder.repair import grade_id, repair
-from autograder.sandbox import Room, RoomLostError
+from autograder.sandbox import Room, RoomLostError, StarvedError, TooLongError
 from autograder.verdict import State, Verdict
-from autograder.wall import Call, Fault, FaultKind, Reply, shortened
+from autograder.wall import CALL_SECONDS, PATIENCE, Call, Fault, FaultKind, Reply, shortened
 
 log = logging.getLogger(__name__)
 
-# A notebook in which everything takes as long as it may must not hold up a batch.
+# A notebook in which everything takes as long as it may must not hold up a batch. Of the processor's
+# time, and PATIENCE times as long on the clock.
 NOTEBOOK_SECONDS = 60.0
 MISSING = """
 import json
@@ -57,15 +59,14 @@ def grade(submission: NotebookNode, source: NotebookNode, seed: str) -> Graded:
 
 def _graded(submission, source, seed) -> Graded:
     notebook, notes = repair(submission, source)
-    verdicts = {}
+    verdicts, allowance = {}, outputs.Allowance()
     with Sitting() as sitting:
         for cell in notebook.cells:
             if cell.cell_type != "code":
                 continue
             cell.outputs, cell.execution_count = [], None
             if not is_judged(cell):
-                shown = map(outputs.of_student, sitting.run(cell.source))
-                cell.outputs = [output for output in shown if output]
+                cell.outputs = allowance.shown(sitting.run(cell.source))
                 continue
             name = grade_id(cell)
             if name in CHECKS:
@@ -96,13 +97,14 @@ class Sitting:
     """A student's notebook in a room, cell by cell; when the room is lost, a new one takes over.
 
     A new room runs the earlier cells again, but not the one, or the call, that ended the last. After
-    NOTEBOOK_SECONDS nothing more is run.
+    NOTEBOOK_SECONDS nothing more is run; starting a room does not count. A call that the processor
+    had no time for is tried once more before it costs anything.
     """
 
-    def __init__(self, room=Room):
+    def __init__(self, room=Room.loaded):
         self._new_room = room
         self._room = None
-        self._ends = time.monotonic() + NOTEBOOK_SECONDS
+        self._used = self._clock = 0.0  # s, in earlier rooms, and while student code ran
         self._ran: list[str] = []
         self._failed: list[tuple[str, str]] = []  # source of a cell, and its error
 
@@ -110,18 +112,19 @@ class Sitting:
         return self
 
     def __exit__(self, *exception):
-        if self._room is not None:
-            self._room.close()
+        self._leave()
 
     def run(self, source: str) -> list[dict]:
         """The outputs of a cell; an error output where it ends its process."""
         if self._is_over():
-            text = f"not run: the notebook took {NOTEBOOK_SECONDS:g} s before it came to this cell"
+            text = f"not run: the notebook took {self._limit():g} s before it came to this cell"
             return [outputs.error("TimeoutError", text, [text])]
         try:
-            shown = self._current().run(source)
+            room = self._current()
+            with self._timed():
+                shown = room.run(source)
         except RoomLostError as error:
-            self._room = None
+            self._leave()
             text = f"this cell ended Python itself: {error}"
             shown = [outputs.error("RoomLostError", text, [text])]
         else:
@@ -134,21 +137,33 @@ class Sitting:
 
     def ask(self, calls: list[Call]) -> list[Reply]:
         """The replies to calls of the student's functions."""
-        limit = Fault(
-            FaultKind.TIMED_OUT, f"the {NOTEBOOK_SECONDS:g} s that the whole notebook has"
-        )
-        if self._is_over():
-            return [Reply(fault=limit)]
-        try:
-            room = self._current()
-            replies = room.ask(calls, self._ends - time.monotonic())
-        except RoomLostError:
-            self._room = None
-            return [Reply(fault=limit if self._is_over() else Fault(FaultKind.DIED))]
+        replies = self._asked(calls)
+        if (fault := replies[-1].fault) and fault.kind is FaultKind.STARVED:
+            replies[-1:] = self._asked(calls[len(replies) - 1 :])
         last = replies[-1].fault
         if last and last.kind is FaultKind.NO_TOOLS and last.message in self._missing():
             raise CannotRunError(last.message)
         return [self._explained(calls[0].name, reply) for reply in replies]
+
+    def _asked(self, calls: list[Call]) -> list[Reply]:
+        try:
+            room = None if self._is_over() else self._current()
+            if room is not None:
+                seconds = NOTEBOOK_SECONDS - self._spent()
+                with self._timed():
+                    return room.ask(calls, seconds, PATIENCE * NOTEBOOK_SECONDS - self._clock)
+            fault = Fault(FaultKind.DIED)
+        except TooLongError:
+            fault = Fault(FaultKind.TIMED_OUT, f"{CALL_SECONDS:g} s")
+        except StarvedError:
+            fault = Fault(FaultKind.STARVED, f"{PATIENCE * CALL_SECONDS:g} s")
+        except RoomLostError:
+            fault = Fault(FaultKind.DIED)
+        self._leave()
+        if self._is_over():
+            text = f"the {self._limit():g} s that the whole notebook has"
+            fault = Fault(FaultKind.TIMED_OUT, text)
+        return [Reply(fault=fault)]
 
     def _missing(self) -> list[str]:
         """What no answer in this language can be run without, by a room that has met no student."""
@@ -161,11 +176,34 @@ class Sitting:
             self._room = self._new_room()
             for source in self._ran:
                 if not self._is_over():
-                    self._room.run(source)
+                    with self._timed():
+                        self._room.run(source)
         return self._room
 
+    def _leave(self) -> None:
+        if self._room is not None:
+            self._room.close()
+            self._used += self._room.used
+            self._room = None
+
+    @contextmanager
+    def _timed(self):
+        start = time.monotonic()
+        try:
+            yield
+        finally:
+            self._clock += time.monotonic() - start
+
+    def _spent(self) -> float:
+        return self._used + (self._room.used if self._room is not None else 0.0)
+
     def _is_over(self) -> bool:
-        return time.monotonic() > self._ends
+        return self._spent() >= NOTEBOOK_SECONDS or self._clock >= PATIENCE * NOTEBOOK_SECONDS
+
+    def _limit(self) -> float:
+        """The one that the notebook is over: the processor's or the clock's, s."""
+        of_processor = self._spent() >= NOTEBOOK_SECONDS
+        return NOTEBOOK_SECONDS if of_processor else PATIENCE * NOTEBOOK_SECONDS
 
     def _explained(self, name: str, reply: Reply) -> Reply:
         """A missing name is blamed on the cell that should have defined it, where that failed."""

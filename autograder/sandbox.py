@@ -4,6 +4,9 @@ With bubblewrap the process has no network, no home directory, no course folder,
 project's files but the runner, and a read-only system. Such a room is a fork of a warm process
 where the kernel allows it, and a process of its own where not. Without bubblewrap (macOS, some
 containers) there are limits on time, memory and file size only, and `Room` says so once.
+
+Time is the processor's, of all processes of a room together: on a busy machine an honest answer takes
+longer, and no more of that. Beside each such limit is one of the clock, PATIENCE times as long.
 """
 
 import json
@@ -25,16 +28,30 @@ from pathlib import Path
 
 from autograder import warm
 from autograder.bubblewrap import ENVIRONMENT, INSIDE, bubblewrapped, has_bubblewrap
-from autograder.wall import CALL_SECONDS, MOST_NUMBERS, Call, Reply, decode_reply, encode_call
+from autograder.wall import (
+    CALL_SECONDS,
+    MOST_NUMBERS,
+    PATIENCE,
+    Call,
+    Reply,
+    decode_reply,
+    encode_call,
+)
 
 log = logging.getLogger(__name__)
 
 START_SECONDS = 60.0
 CELL_SECONDS = 10.0
-# Of a cell that has a program compiled: Eigen's headers alone take seconds of a busy machine.
-BUILD_SECONDS = 30.0
+# What a cell starts may take so many times as long: compiling Eigen's headers alone takes seconds.
+STARTED = 3.0
 # Over the limit inside by this much, the process is taken to be out of its own control.
 GRACE_SECONDS = 3.0
+# For a room's watch to answer.
+WATCH_SECONDS = 10.0
+# How often a room that is silent is asked what it has used.
+LOOK_SECONDS = 0.25
+# What most notebooks import: its first cell must not pay for it where the room's process is new.
+LOAD = "import matplotlib.pyplot, sympy\ndel matplotlib, sympy"
 # What a cell may show, and what one call may answer: more than the runner ever sends.
 MOST_BYTES = 32 << 20
 MOST_VALUES = 1 << 20
@@ -54,11 +71,20 @@ class RoomLostError(Exception):
     """The process ended, fell silent, or wrote what is no reply; it is gone now."""
 
 
+class TooLongError(RoomLostError):
+    """It used more of the processor's time than it had, out of its own control."""
+
+
+class StarvedError(RoomLostError):
+    """It was silent till the clock's limit, and had used less than it had of the processor's time."""
+
+
 class Room:
     """A running sandbox. Use as a context manager; `close` leaves no process behind.
 
     run(source) gives a cell's outputs, ask(calls) the replies to calls. Both raise RoomLostError
-    when the process does not survive them. OSError where the sandbox does not start.
+    when the process does not survive them, and leave none behind that the student's code started.
+    OSError where the sandbox does not start.
     """
 
     def __init__(self, way: Way | None = None):
@@ -66,13 +92,24 @@ class Room:
         self._buffer = bytearray()
         self._process = _start_warm() if self.way is Way.WARM else ColdProcess(self.way)
         os.set_blocking(self._process.requests, False)
+        self._before = self._used = 0.0
         try:
-            hello = self._receive(START_SECONDS, MOST_BYTES, MOST_VALUES)
+            hello = self._receive(math.inf, START_SECONDS, MOST_BYTES, MOST_VALUES)
             if not hello.get("ready"):
                 self._lost(str(hello.get("refused")))
         except RoomLostError as error:
             # Nothing of the student's has run yet.
             raise OSError(f"the sandbox did not start: {error}") from None
+        self._forget_time()
+
+    @classmethod
+    def loaded(cls) -> "Room":
+        """A room in which what notebooks import is there already, at nobody's expense."""
+        room = cls()
+        if room.way is not Way.WARM:
+            room.run(LOAD, START_SECONDS)
+            room._forget_time()
+        return room
 
     def __enter__(self):
         return self
@@ -80,32 +117,47 @@ class Room:
     def __exit__(self, *exception):
         self.close()
 
+    @property
+    def used(self) -> float:
+        """The processor time of all processes of the room, s, when it was last asked for."""
+        return self._used - self._before
+
     def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
-        if "from_file(" in source:
-            seconds = max(seconds, BUILD_SECONDS)
+        """seconds: of the processor's time, for the cell; STARTED times that with all it starts."""
         self._send({"run": source, "seconds": seconds})
-        message = self._receive(seconds + GRACE_SECONDS, MOST_BYTES, MOST_VALUES)
+        clock = PATIENCE * seconds + GRACE_SECONDS
+        most = STARTED * seconds + GRACE_SECONDS
+        message = self._receive(most, clock, MOST_BYTES, MOST_VALUES)
         outputs = message.get("outputs")
         if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
             self._lost("it sent no outputs")
+        self._sweep()
         return outputs[:MOST_OUTPUTS]
 
-    def ask(self, calls: list[Call], seconds: float = math.inf) -> list[Reply]:
-        """The replies to calls, up to the first fault. seconds: what they have all together.
+    def ask(
+        self, calls: list[Call], seconds: float = math.inf, clock: float = math.inf
+    ) -> list[Reply]:
+        """The replies to calls, up to the first fault.
 
-        Each call has its own limit, inside and, for code that ignores that, from here.
+        seconds, clock: what they have all together, of the processor's time and of the clock's. Each
+        call has its own limits, inside and, for code that ignores those, from here.
         """
-        ends = time.monotonic() + seconds
+        ends, most = time.monotonic() + clock, self._used + seconds
         self._send({"ask": [encode_call(call) for call in calls]})
         replies = []
         while len(replies) < len(calls):
-            left = min(CALL_SECONDS + GRACE_SECONDS, ends - time.monotonic())
-            message = self._receive(left, BYTES_A_NUMBER * MOST_NUMBERS, 4 * MOST_NUMBERS)
+            message = self._receive(
+                min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
+                min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - time.monotonic()),
+                BYTES_A_NUMBER * MOST_NUMBERS,
+                4 * MOST_NUMBERS,
+            )
             if "reply" not in message:
                 self._lost("it sent no reply")
             replies.append(decode_reply(message["reply"]))
             if replies[-1].fault:
                 break
+        self._sweep()
         return replies
 
     @property
@@ -128,8 +180,24 @@ class Room:
         except OSError:
             self._lost("it has ended")
 
-    def _receive(self, seconds: float, most_bytes: int, most_values: int) -> dict:
-        line = self._read_line(seconds, most_bytes)
+    def _sweep(self) -> None:
+        """End what the student's code started. What it could not end, the room ends with."""
+        used = self._process.told("sweep", WATCH_SECONDS)
+        if used is None:
+            self._lost("it left processes behind")
+        self._used = used
+
+    def _look(self) -> None:
+        used = self._process.told("used", WATCH_SECONDS)
+        self._used = self._used if used is None else used
+
+    def _forget_time(self) -> None:
+        """What the room has used so far is nobody's."""
+        self._look()
+        self._before = self._used
+
+    def _receive(self, seconds: float, clock: float, most_bytes: int, most_values: int) -> dict:
+        line = self._read_line(seconds, clock, most_bytes)
         # An empty list is two bytes there and fifty here. Commas in texts count along.
         if line.count(b",") + line.count(b"[") + line.count(b"{") > most_values:
             self._lost("it wrote too much")
@@ -145,17 +213,24 @@ class Room:
             self._lost("it wrote what is no reply")
         return message
 
-    def _read_line(self, seconds: float, most_bytes: int) -> bytes:
-        deadline = time.monotonic() + seconds
+    def _read_line(self, seconds: float, clock: float, most_bytes: int) -> bytes:
+        deadline = time.monotonic() + clock
         stdout = self._process.replies
-        searched = 0
+        searched, most = 0, None
         while (end := self._buffer.find(b"\n", searched)) < 0:
             searched = len(self._buffer)
             if searched > most_bytes:
                 self._lost("it wrote too much")
             left = deadline - time.monotonic()
-            if left <= 0 or not select.select([stdout], [], [], left)[0]:
-                self._lost(f"no reply within {seconds:g} s")
+            if left <= 0:
+                self._lost(f"no reply within {clock:g} s", StarvedError)
+            if not select.select([stdout], [], [], min(left, LOOK_SECONDS))[0]:
+                self._look()
+                # Of calls, what the last reply left was not asked for: it is taken as of now.
+                most = self._used + seconds if most is None else most
+                if self._used > most:
+                    self._lost(f"no reply within {seconds:g} s of processor time", TooLongError)
+                continue
             chunk = os.read(stdout, 1 << 16)
             if not chunk:
                 self._lost("it ended")
@@ -166,31 +241,36 @@ class Room:
             self._lost("it wrote too much")
         return line
 
-    def _lost(self, why: str):
+    def _lost(self, why: str, kind: type[RoomLostError] = RoomLostError):
         said = self._process.said()
         innocent = self._process.outlived_its_keeper()
         self.close()
         if innocent:
             raise OSError("the process that keeps the sandboxes ended, and this one with it")
-        raise RoomLostError(f"{why}: {said}" if said else why)
+        raise kind(f"{why}: {said}" if said else why)
 
 
 class ColdProcess:
     """A room's process, started for it alone. requests, replies: descriptors of its pipes."""
 
     def __init__(self, way: Way):
+        self._way = way
         self._folder = tempfile.TemporaryDirectory(prefix="room-")
         start = bubblewrapped("runner.py") if way is Way.COLD else _unwalled(self.folder)
         command, environment = start
-        self._process = subprocess.Popen(
-            command,
-            env=environment,
-            cwd=self.folder,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            start_new_session=True,
-        )
+        mine, watchs = socket.socketpair()
+        with watchs:
+            self._process = subprocess.Popen(
+                [*command, str(watchs.fileno())],
+                env=environment,
+                cwd=self.folder,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                start_new_session=True,
+                pass_fds=[watchs.fileno()],
+            )
+        self._watch = warm.WatchLine(mine)
         self.requests = self._process.stdin.fileno()
         self.replies = self._process.stdout.fileno()
 
@@ -202,16 +282,23 @@ class ColdProcess:
     def ended(self) -> bool:
         return self._process.returncode is not None
 
+    def told(self, request: str, seconds: float) -> float | None:
+        return self._watch.told(request, seconds)
+
     def said(self) -> str:
         stderr = self._process.stderr
         ready, _, _ = select.select([stderr], [], [], 0)
-        return os.read(stderr.fileno(), 4096).decode(errors="replace").strip() if ready else ""
+        text = os.read(stderr.fileno(), 4096).decode(errors="replace").strip() if ready else ""
+        return self._watch.reason() or text
 
     def outlived_its_keeper(self) -> bool:
         return False
 
     def end(self) -> None:
+        self._watch.close()
         if not self.ended:
+            if self._way is Way.NONE and hasattr(os, "pidfd_open"):
+                self._await_watch()
             # Without bubblewrap there is no process namespace to take the children along, and they
             # may be there when their parent has ended. The group's number is free only after wait.
             with suppress(ProcessLookupError):
@@ -220,6 +307,15 @@ class ColdProcess:
         for pipe in (self._process.stdin, self._process.stdout, self._process.stderr):
             pipe.close()
         self._folder.cleanup()
+
+    def _await_watch(self) -> None:
+        """It ends itself, after what is in no group of its own."""
+        try:
+            process = os.pidfd_open(self._process.pid)
+        except OSError:
+            return
+        select.select([process], [], [], WATCH_SECONDS)
+        os.close(process)
 
 
 def _unwalled(folder: Path):
