@@ -3,7 +3,7 @@
 With bubblewrap the process has no network, no home directory, no course folder, none of this
 project's files but the runner, and a read-only system. Such a room is a fork of a warm process
 where the kernel allows it, and a process of its own where not. Without bubblewrap (macOS, some
-containers) there are limits on time, memory and file size only, and `Room` says so once.
+containers) there are limits on time, memory, processes and file size only, and `Room` says so once.
 
 Time is the processor's, of all processes of a room together: on a busy machine an honest answer takes
 longer, and no more of that. Beside each such limit is one of the clock, PATIENCE times as long.

@@ -20,6 +20,9 @@ from contextlib import suppress
 # A room has no more processes and threads than this, its keeper among them. The kernel holds it
 # where the room's user is not root.
 MOST_PROCESSES = 64
+# And starts no more: those that live for less than a look, and whose parent does not wait for them,
+# are seen by their number alone.
+MOST_STARTED = 5000
 ROOM_BYTES = 4 << 30
 LOOK_SECONDS = 0.1
 SWEEP_SECONDS = 2.0
@@ -118,6 +121,8 @@ class Watch:
         self._time.look(processes)
         if sum(map(_threads, processes)) > MOST_PROCESSES:
             return f"it had more than {MOST_PROCESSES} processes and threads"
+        if self._walled and _last_number() > MOST_STARTED:
+            return f"it started more than {MOST_STARTED} processes and threads"
         segments = _segments() if self._walled else 0
         if (
             sum(map(_mapped, processes)) + segments > ROOM_BYTES
@@ -225,6 +230,13 @@ def _lives(process) -> bool:
     """Whether any thread of it does: the first may have ended before the others."""
     stat = _stat(process)
     return stat is not None and not (stat[0] in ZOMBIE and int(stat[17]) <= 1)
+
+
+def _last_number() -> int:
+    """Of the process or thread that was started last in this namespace: they are counted up."""
+    with suppress(OSError), open("/proc/loadavg") as file:
+        return int(file.read().split()[-1])
+    return 0
 
 
 def _threads(process):

@@ -89,7 +89,7 @@ def spin(count):
             os.setsid()
             while True:
                 sum(())
-spin(40)
+spin(20)
 """
     return cheat(release, spin, g_vec="def g_vec(q, pend):\n    spin(1)\n    return 1 + 0 * q")
 
@@ -200,7 +200,7 @@ while True:
     )
 
 
-@attack(says="g_vec(q, pend) did not return within 2 s")
+@attack(says="g_vec(q, pend) did not return within")
 def deaf_loop_in_a_call(release):
     """Ignores both alarms while it is judged, and loops for ever."""
     return cheat(
