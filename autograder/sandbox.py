@@ -14,20 +14,14 @@ import logging
 import math
 import os
 import select
-import shutil
-import signal
 import socket
-import subprocess
-import sys
-import tempfile
 import time
-from contextlib import suppress
 from enum import Enum
 from functools import cache
-from pathlib import Path
 
 from autograder import warm
-from autograder.bubblewrap import ENVIRONMENT, INSIDE, bubblewrapped, has_bubblewrap
+from autograder.bubblewrap import bubblewrapped, has_bubblewrap
+from autograder.cold import ColdProcess
 from autograder.wall import (
     CALL_SECONDS,
     MOST_NUMBERS,
@@ -90,7 +84,7 @@ class Room:
     def __init__(self, way: Way | None = None):
         self.way = way or _best_way()
         self._buffer = bytearray()
-        self._process = _start_warm() if self.way is Way.WARM else ColdProcess(self.way)
+        self._process = _start_warm() if self.way is Way.WARM else ColdProcess(self.way is Way.COLD)
         os.set_blocking(self._process.requests, False)
         self._before = self._used = 0.0
         try:
@@ -248,84 +242,6 @@ class Room:
         if innocent:
             raise OSError("the process that keeps the sandboxes ended, and this one with it")
         raise kind(f"{why}: {said}" if said else why)
-
-
-class ColdProcess:
-    """A room's process, started for it alone. requests, replies: descriptors of its pipes."""
-
-    def __init__(self, way: Way):
-        self._way = way
-        self._folder = tempfile.TemporaryDirectory(prefix="room-")
-        start = bubblewrapped("runner.py") if way is Way.COLD else _unwalled(self.folder)
-        command, environment = start
-        mine, watchs = socket.socketpair()
-        with watchs:
-            self._process = subprocess.Popen(
-                [*command, str(watchs.fileno())],
-                env=environment,
-                cwd=self.folder,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                start_new_session=True,
-                pass_fds=[watchs.fileno()],
-            )
-        self._watch = warm.WatchLine(mine)
-        self.requests = self._process.stdin.fileno()
-        self.replies = self._process.stdout.fileno()
-
-    @property
-    def folder(self) -> Path:
-        return Path(self._folder.name)
-
-    @property
-    def ended(self) -> bool:
-        return self._process.returncode is not None
-
-    def told(self, request: str, seconds: float) -> float | None:
-        return self._watch.told(request, seconds)
-
-    def said(self) -> str:
-        stderr = self._process.stderr
-        ready, _, _ = select.select([stderr], [], [], 0)
-        text = os.read(stderr.fileno(), 4096).decode(errors="replace").strip() if ready else ""
-        return self._watch.reason() or text
-
-    def outlived_its_keeper(self) -> bool:
-        return False
-
-    def end(self) -> None:
-        self._watch.close()
-        if not self.ended:
-            if self._way is Way.NONE and hasattr(os, "pidfd_open"):
-                self._await_watch()
-            # Without bubblewrap there is no process namespace to take the children along, and they
-            # may be there when their parent has ended. The group's number is free only after wait.
-            with suppress(ProcessLookupError):
-                os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.wait()
-        for pipe in (self._process.stdin, self._process.stdout, self._process.stderr):
-            pipe.close()
-        self._folder.cleanup()
-
-    def _await_watch(self) -> None:
-        """It ends itself, after what is in no group of its own."""
-        try:
-            process = os.pidfd_open(self._process.pid)
-        except OSError:
-            return
-        select.select([process], [], [], WATCH_SECONDS)
-        os.close(process)
-
-
-def _unwalled(folder: Path):
-    for path, name in INSIDE.items():
-        (folder / name).parent.mkdir(exist_ok=True, parents=True)
-        shutil.copy(path, folder / name)
-    environment = ENVIRONMENT | {
-        name: str(folder) for name in ("HOME", "IPYTHONDIR", "MPLCONFIGDIR", "TMPDIR")
-    }
-    return [sys.executable, "-I", "-u", str(folder / "runner.py")], environment
 
 
 def _best_way() -> Way:
