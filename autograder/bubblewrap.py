@@ -117,9 +117,9 @@ def has_bubblewrap() -> bool:
     if _runs("--unshare-all"):
         return True
     log.warning(
-        "bubblewrap does not work here: student code runs with limits on the time, and on the "
-        "memory and files of each process, but is NOT shut off from files and network, and may "
-        "start any number of processes. On Debian: apt-get install bubblewrap"
+        "bubblewrap does not work here: student code runs with limits on time, memory, files and "
+        "the number of processes, but is NOT shut off from files and network, nor from your other "
+        "processes. On Debian: apt-get install bubblewrap"
     )
     return False
 

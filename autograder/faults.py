@@ -21,6 +21,8 @@ def said_of(fault: Fault, name: str, signature: str) -> str:
         FaultKind.RAISED: f"{signature} raised {fault.message}{where}.",
         FaultKind.TIMED_OUT: f"{signature} did not return within {fault.message}; "
         "is there a loop that never ends?",
+        FaultKind.STARVED: f"{signature} did not return within {fault.message}, and was mostly "
+        "asleep; does it wait for something?",
         FaultKind.NO_TOOLS: f"{name} is written in a language that cannot be run here. "
         f"{fault.message} An answer in Python is always possible.",
         FaultKind.DIED: f"Python itself stopped while {signature} was running; "

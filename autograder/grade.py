@@ -4,6 +4,7 @@ import hashlib
 import json
 import logging
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -19,14 +20,24 @@ from autograder.judge import HIDDEN_CASES, CannotRunError, Check
 from autograder.problems import CHECKS
 from autograder.recognise import grade_id
 from autograder.repair import repair
-from autograder.sandbox import Room, RoomLostError
+from autograder.sandbox import Room, RoomLostError, StarvedError, TooLongError
 from autograder.terminal import shown_name, shown_note
 from autograder.verdict import State, Verdict
-from autograder.wall import Call, Fault, FaultKind, Reply, one_line, shortened
+from autograder.wall import (
+    CALL_SECONDS,
+    PATIENCE,
+    Call,
+    Fault,
+    FaultKind,
+    Reply,
+    one_line,
+    shortened,
+)
 
 log = logging.getLogger(__name__)
 
-# A notebook in which everything takes as long as it may must not hold up a batch.
+# A notebook in which everything takes as long as it may must not hold up a batch. Of the processor's
+# time, and PATIENCE times as long on the clock.
 NOTEBOOK_SECONDS = 60.0
 NOTHING = Beside()
 MISSING = """
@@ -74,7 +85,8 @@ def grade(
 def _graded(submission, source, seed, beside, said) -> Graded:
     notebook, notes = repair(submission, source, said, beside.documents)
     verdicts, seed = {}, of_content(seed, notebook, beside)
-    with Sitting(partial(Room, files=beside.laid)) as sitting:
+    allowance = outputs.Allowance()
+    with Sitting(partial(Room.loaded, files=beside.laid)) as sitting:
 
         def ask(calls):
             return [beside.explained(reply) for reply in sitting.ask(calls)]
@@ -84,8 +96,7 @@ def _graded(submission, source, seed, beside, said) -> Graded:
                 continue
             cell.outputs, cell.execution_count = [], None
             if not is_judged(cell):
-                shown = map(outputs.of_student, sitting.run(cell.source))
-                cell.outputs = [output for output in shown if output]
+                cell.outputs = allowance.shown(sitting.run(cell.source))
                 cell.outputs += _explanations(cell.outputs, beside)
                 continue
             name = grade_id(cell)
@@ -132,13 +143,14 @@ class Sitting:
     """A student's notebook in a room, cell by cell; when the room is lost, a new one takes over.
 
     A new room runs the earlier cells again, but not the one, or the call, that ended the last. After
-    NOTEBOOK_SECONDS nothing more is run.
+    NOTEBOOK_SECONDS nothing more is run; starting a room does not count. A call that the processor
+    had no time for is tried once more before it costs anything.
     """
 
-    def __init__(self, room=Room):
+    def __init__(self, room=Room.loaded):
         self._new_room = room
         self._room = None
-        self._ends = time.monotonic() + NOTEBOOK_SECONDS
+        self._used = self._clock = 0.0  # s, in earlier rooms, and while student code ran
         self._ran: list[str] = []
         self._cells: list[Ran] = []  # all of them, those that ended a room too
 
@@ -146,19 +158,20 @@ class Sitting:
         return self
 
     def __exit__(self, *exception):
-        if self._room is not None:
-            self._room.close()
+        self._leave()
 
     def run(self, source: str) -> list[dict]:
         """The outputs of a cell; an error output where it ends its process."""
         if self._is_over():
-            text = f"not run: the notebook took {NOTEBOOK_SECONDS:g} s before it came to this cell"
+            text = f"not run: the notebook took {self._limit():g} s before it came to this cell"
             self._cells.append(Ran(source, f"TimeoutError: {text}", stopped=True))
             return [outputs.error("TimeoutError", text, [text])]
         try:
-            shown = self._current().run(source)
+            room = self._current()
+            with self._timed():
+                shown = room.run(source)
         except RoomLostError as error:
-            self._room = None
+            self._leave()
             text = f"this cell ended Python itself: {error}"
             shown = [outputs.error("RoomLostError", text, [text])]
             said = f"the end of Python itself ({one_line(str(error))})"
@@ -170,17 +183,9 @@ class Sitting:
 
     def ask(self, calls: list[Call]) -> list[Reply]:
         """The replies to calls of the student's functions."""
-        limit = Fault(
-            FaultKind.TIMED_OUT, f"the {NOTEBOOK_SECONDS:g} s that the whole notebook has"
-        )
-        if self._is_over():
-            return [Reply(fault=limit)]
-        try:
-            room = self._current()
-            replies = room.ask(calls, self._ends - time.monotonic())
-        except RoomLostError:
-            self._room = None
-            return [Reply(fault=limit if self._is_over() else Fault(FaultKind.DIED))]
+        replies = self._asked(calls)
+        if (fault := replies[-1].fault) and fault.kind is FaultKind.STARVED:
+            replies[-1:] = self._asked(calls[len(replies) - 1 :])
         last = replies[-1].fault
         if last and last.kind is FaultKind.NO_TOOLS and last.message in self._missing():
             raise CannotRunError(last.message)
@@ -196,6 +201,26 @@ class Sitting:
         said = said_of(earlier, check.name, check.signature)
         return replace(verdict, next_step=f"{said} {verdict.next_step}".strip())
 
+    def _asked(self, calls: list[Call]) -> list[Reply]:
+        try:
+            room = None if self._is_over() else self._current()
+            if room is not None:
+                seconds = NOTEBOOK_SECONDS - self._spent()
+                with self._timed():
+                    return room.ask(calls, seconds, PATIENCE * NOTEBOOK_SECONDS - self._clock)
+            fault = Fault(FaultKind.DIED)
+        except TooLongError:
+            fault = Fault(FaultKind.TIMED_OUT, f"{CALL_SECONDS:g} s")
+        except StarvedError:
+            fault = Fault(FaultKind.STARVED, f"{PATIENCE * CALL_SECONDS:g} s")
+        except RoomLostError:
+            fault = Fault(FaultKind.DIED)
+        self._leave()
+        if self._is_over():
+            text = f"the {self._limit():g} s that the whole notebook has"
+            fault = Fault(FaultKind.TIMED_OUT, text)
+        return [Reply(fault=fault)]
+
     def _missing(self) -> list[str]:
         """What no answer in this language can be run without, by a room that has met no student."""
         with self._new_room() as room:
@@ -207,8 +232,31 @@ class Sitting:
             self._room = self._new_room()
             for source in self._ran:
                 if not self._is_over():
-                    self._room.run(source)
+                    with self._timed():
+                        self._room.run(source)
         return self._room
 
+    def _leave(self) -> None:
+        if self._room is not None:
+            self._room.close()
+            self._used += self._room.used
+            self._room = None
+
+    @contextmanager
+    def _timed(self):
+        start = time.monotonic()
+        try:
+            yield
+        finally:
+            self._clock += time.monotonic() - start
+
+    def _spent(self) -> float:
+        return self._used + (self._room.used if self._room is not None else 0.0)
+
     def _is_over(self) -> bool:
-        return time.monotonic() > self._ends
+        return self._spent() >= NOTEBOOK_SECONDS or self._clock >= PATIENCE * NOTEBOOK_SECONDS
+
+    def _limit(self) -> float:
+        """The one that the notebook is over: the processor's or the clock's, s."""
+        of_processor = self._spent() >= NOTEBOOK_SECONDS
+        return NOTEBOOK_SECONDS if of_processor else PATIENCE * NOTEBOOK_SECONDS

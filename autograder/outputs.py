@@ -4,6 +4,7 @@ nbformat's own makers check each output against its schema, which takes longer t
 notebook is checked once, as a whole.
 """
 
+import json
 import re
 
 from nbformat import NotebookNode
@@ -16,6 +17,14 @@ SHOWN = ("text/plain", "text/latex", "image/png")
 # The runner sends no more; a forged reply may.
 MOST_TEXT = 200_000
 MOST_PICTURE = 4 << 20
+# Of a whole notebook, in bytes as it is saved. A page of 2 MB of text is more than anybody reads, and
+# a browser still opens it; the figures of the course's own problems come to less than 1 MB each.
+NOTEBOOK_TEXT = 2 << 20
+NOTEBOOK_PICTURES = 16 << 20
+TOO_MUCH = (
+    f"a notebook's outputs may take {NOTEBOOK_TEXT >> 20} MB of text and "
+    f"{NOTEBOOK_PICTURES >> 20} MB of pictures in all"
+)
 # Under this key the output that shows a verdict carries it for programs, too.
 VERDICT = "armdyn"
 
@@ -69,6 +78,33 @@ def of_student(output: dict) -> NotebookNode | None:
             lines = shortened(text, MOST_TEXT).split("\n") if text else []
             return error(shortened(name), shortened(value), lines)
     return stream("stderr", "(an output that could not be read)")
+
+
+class Allowance:
+    """What the outputs of a notebook may take together; in each cell a sentence stands for the rest."""
+
+    def __init__(self):
+        self._text, self._pictures = NOTEBOOK_TEXT, NOTEBOOK_PICTURES
+
+    def shown(self, outputs: list[dict]) -> list[NotebookNode]:
+        """The outputs of one cell, as many as there is room for."""
+        written = [output for output in map(of_student, outputs) if output]
+        kept = [output for output in written if self._has_room_for(output)]
+        if len(kept) < len(written):
+            left_out = len(written) - len(kept)
+            kept.append(
+                stream("stderr", f"({left_out} of this cell's outputs left out: {TOO_MUCH})")
+            )
+        return kept
+
+    def _has_room_for(self, output: NotebookNode) -> bool:
+        size = len(json.dumps(output, ensure_ascii=False).encode(errors="replace"))
+        pictures = len(output.get("data", {}).get("image/png", ""))
+        if size - pictures > self._text or pictures > self._pictures:
+            return False
+        self._text -= size - pictures
+        self._pictures -= pictures
+        return True
 
 
 def _is_shown(kind: str, data) -> bool:

@@ -3,7 +3,10 @@
 With bubblewrap the process has no network, no home directory, no course folder, none of this
 project's files but the runner, and a read-only system. Such a room is a fork of a warm process
 where the kernel allows it, and a process of its own where not. Without bubblewrap (macOS, some
-containers) there are limits on time, memory and file size only, and `Room` says so once.
+containers) there are limits on time, memory, processes and file size only, and `Room` says so once.
+
+Time is the processor's, of all processes of a room together: on a busy machine an honest answer takes
+longer, and no more of that. Beside each such limit is one of the clock, PATIENCE times as long.
 """
 
 import base64
@@ -12,24 +15,19 @@ import logging
 import math
 import os
 import select
-import shutil
-import signal
 import socket
-import subprocess
-import sys
-import tempfile
 import time
 from collections.abc import Mapping
-from contextlib import suppress
 from enum import Enum
 from functools import cache
-from pathlib import Path
 
 from autograder import warm
-from autograder.bubblewrap import ENVIRONMENT, INSIDE, bubblewrapped, has_bubblewrap
+from autograder.bubblewrap import bubblewrapped, has_bubblewrap
+from autograder.cold import ColdProcess
 from autograder.wall import (
     CALL_SECONDS,
     MOST_NUMBERS,
+    PATIENCE,
     Call,
     Reply,
     decode_reply,
@@ -41,10 +39,16 @@ log = logging.getLogger(__name__)
 
 START_SECONDS = 60.0
 CELL_SECONDS = 10.0
-# Of a cell that has a program compiled: Eigen's headers alone take seconds of a busy machine.
-BUILD_SECONDS = 30.0
+# What a cell starts may take so many times as long: compiling Eigen's headers alone takes seconds.
+STARTED = 3.0
 # Over the limit inside by this much, the process is taken to be out of its own control.
 GRACE_SECONDS = 3.0
+# For a room's watch to answer.
+WATCH_SECONDS = 10.0
+# How often a room that is silent is asked what it has used.
+LOOK_SECONDS = 0.25
+# What most notebooks import: its first cell must not pay for it where the room's process is new.
+LOAD = "import matplotlib.pyplot, sympy\ndel matplotlib, sympy"
 # What a cell may show, and what one call may answer: more than the runner ever sends.
 MOST_BYTES = 32 << 20
 MOST_VALUES = 1 << 20
@@ -64,11 +68,20 @@ class RoomLostError(Exception):
     """The process ended, fell silent, or wrote what is no reply; it is gone now."""
 
 
+class TooLongError(RoomLostError):
+    """It used more of the processor's time than it had, out of its own control."""
+
+
+class StarvedError(RoomLostError):
+    """It was silent till the clock's limit, and had used less than it had of the processor's time."""
+
+
 class Room:
     """A running sandbox. Use as a context manager; `close` leaves no process behind.
 
     run(source) gives a cell's outputs, ask(calls) the replies to calls. Both raise RoomLostError
-    when the process does not survive them. OSError where the sandbox does not start.
+    when the process does not survive them, and leave none behind that the student's code started.
+    OSError where the sandbox does not start.
 
     files: what is laid into the folder in which cells run, by the path in it.
     """
@@ -76,10 +89,11 @@ class Room:
     def __init__(self, way: Way | None = None, files: Mapping[str, bytes] | None = None):
         self.way = way or _best_way()
         self._buffer = bytearray()
-        self._process = _start_warm() if self.way is Way.WARM else ColdProcess(self.way)
+        self._process = _start_warm() if self.way is Way.WARM else ColdProcess(self.way is Way.COLD)
         os.set_blocking(self._process.requests, False)
+        self._before = self._used = 0.0
         try:
-            hello = self._receive(START_SECONDS, MOST_BYTES, MOST_VALUES)
+            hello = self._receive(math.inf, START_SECONDS, MOST_BYTES, MOST_VALUES)
             if not hello.get("ready"):
                 self._lost(str(hello.get("refused")))
             if files:
@@ -87,6 +101,21 @@ class Room:
         except RoomLostError as error:
             # Nothing of the student's has run yet.
             raise OSError(f"the sandbox did not start: {error}") from None
+        self._forget_time()
+
+    @classmethod
+    def loaded(cls, files: Mapping[str, bytes] | None = None) -> "Room":
+        """A room in which what notebooks import is there already, at nobody's expense."""
+        room = cls()
+        try:
+            if room.way is not Way.WARM:
+                room.run(LOAD, START_SECONDS)
+            if files:
+                room._lay(files)
+        except RoomLostError as error:
+            raise OSError(f"the sandbox did not start: {error}") from None
+        room._forget_time()
+        return room
 
     def __enter__(self):
         return self
@@ -94,32 +123,47 @@ class Room:
     def __exit__(self, *exception):
         self.close()
 
+    @property
+    def used(self) -> float:
+        """The processor time of all processes of the room, s, when it was last asked for."""
+        return self._used - self._before
+
     def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
-        if "from_file(" in source:
-            seconds = max(seconds, BUILD_SECONDS)
+        """seconds: of the processor's time, for the cell; STARTED times that with all it starts."""
         self._send({"run": source, "seconds": seconds})
-        message = self._receive(seconds + GRACE_SECONDS, MOST_BYTES, MOST_VALUES)
+        clock = PATIENCE * seconds + GRACE_SECONDS
+        most = STARTED * seconds + GRACE_SECONDS
+        message = self._receive(most, clock, MOST_BYTES, MOST_VALUES)
         outputs = message.get("outputs")
         if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
             self._lost("it sent no outputs")
+        self._sweep()
         return outputs[:MOST_OUTPUTS]
 
-    def ask(self, calls: list[Call], seconds: float = math.inf) -> list[Reply]:
-        """The replies to calls, up to the first fault. seconds: what they have all together.
+    def ask(
+        self, calls: list[Call], seconds: float = math.inf, clock: float = math.inf
+    ) -> list[Reply]:
+        """The replies to calls, up to the first fault.
 
-        Each call has its own limit, inside and, for code that ignores that, from here.
+        seconds, clock: what they have all together, of the processor's time and of the clock's. Each
+        call has its own limits, inside and, for code that ignores those, from here.
         """
-        ends = time.monotonic() + seconds
+        ends, most = time.monotonic() + clock, self._used + seconds
         self._send({"ask": [encode_call(call) for call in calls]})
         replies = []
         while len(replies) < len(calls):
-            left = min(CALL_SECONDS + GRACE_SECONDS, ends - time.monotonic())
-            message = self._receive(left, BYTES_A_NUMBER * MOST_NUMBERS, 4 * MOST_NUMBERS)
+            message = self._receive(
+                min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
+                min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - time.monotonic()),
+                BYTES_A_NUMBER * MOST_NUMBERS,
+                4 * MOST_NUMBERS,
+            )
             if "reply" not in message:
                 self._lost("it sent no reply")
             replies.append(decode_reply(message["reply"]))
             if replies[-1].fault:
                 break
+        self._sweep()
         return replies
 
     @property
@@ -133,7 +177,7 @@ class Room:
     def _lay(self, files: Mapping[str, bytes]) -> None:
         coded = {name: base64.b64encode(content).decode() for name, content in files.items()}
         self._send({"files": coded})
-        failed = self._receive(START_SECONDS, MOST_BYTES, MOST_VALUES).get("failed")
+        failed = self._receive(math.inf, START_SECONDS, MOST_BYTES, MOST_VALUES).get("failed")
         if failed:
             log.warning("no place in the sandbox for %s", ", ".join(map(one_line, failed)))
 
@@ -149,8 +193,24 @@ class Room:
         except OSError:
             self._lost("it has ended")
 
-    def _receive(self, seconds: float, most_bytes: int, most_values: int) -> dict:
-        line = self._read_line(seconds, most_bytes)
+    def _sweep(self) -> None:
+        """End what the student's code started. What it could not end, the room ends with."""
+        used = self._process.told("sweep", WATCH_SECONDS)
+        if used is None:
+            self._lost("it left processes behind")
+        self._used = used
+
+    def _look(self) -> None:
+        used = self._process.told("used", WATCH_SECONDS)
+        self._used = self._used if used is None else used
+
+    def _forget_time(self) -> None:
+        """What the room has used so far is nobody's."""
+        self._look()
+        self._before = self._used
+
+    def _receive(self, seconds: float, clock: float, most_bytes: int, most_values: int) -> dict:
+        line = self._read_line(seconds, clock, most_bytes)
         # An empty list is two bytes there and fifty here. Commas in texts count along.
         if line.count(b",") + line.count(b"[") + line.count(b"{") > most_values:
             self._lost("it wrote too much")
@@ -166,17 +226,24 @@ class Room:
             self._lost("it wrote what is no reply")
         return message
 
-    def _read_line(self, seconds: float, most_bytes: int) -> bytes:
-        deadline = time.monotonic() + seconds
+    def _read_line(self, seconds: float, clock: float, most_bytes: int) -> bytes:
+        deadline = time.monotonic() + clock
         stdout = self._process.replies
-        searched = 0
+        searched, most = 0, None
         while (end := self._buffer.find(b"\n", searched)) < 0:
             searched = len(self._buffer)
             if searched > most_bytes:
                 self._lost("it wrote too much")
             left = deadline - time.monotonic()
-            if left <= 0 or not select.select([stdout], [], [], left)[0]:
-                self._lost(f"no reply within {seconds:g} s")
+            if left <= 0:
+                self._lost(f"no reply within {clock:g} s", StarvedError)
+            if not select.select([stdout], [], [], min(left, LOOK_SECONDS))[0]:
+                self._look()
+                # Of calls, what the last reply left was not asked for: it is taken as of now.
+                most = self._used + seconds if most is None else most
+                if self._used > most:
+                    self._lost(f"no reply within {seconds:g} s of processor time", TooLongError)
+                continue
             chunk = os.read(stdout, 1 << 16)
             if not chunk:
                 self._lost("it ended")
@@ -187,71 +254,12 @@ class Room:
             self._lost("it wrote too much")
         return line
 
-    def _lost(self, why: str):
+    def _lost(self, why: str, kind: type[RoomLostError] = RoomLostError):
         said = self._process.said()
         innocent = self._process.outlived_its_keeper()
         self.close()
         if innocent:
             raise OSError("the process that keeps the sandboxes ended, and this one with it")
-        raise RoomLostError(f"{why}: {said}" if said else why)
-
-
-class ColdProcess:
-    """A room's process, started for it alone. requests, replies: descriptors of its pipes."""
-
-    def __init__(self, way: Way):
-        self._folder = tempfile.TemporaryDirectory(prefix="room-")
-        start = bubblewrapped("runner.py") if way is Way.COLD else _unwalled(self.folder)
-        command, environment = start
-        self._process = subprocess.Popen(
-            command,
-            env=environment,
-            cwd=self.folder,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            start_new_session=True,
-        )
-        self.requests = self._process.stdin.fileno()
-        self.replies = self._process.stdout.fileno()
-
-    @property
-    def folder(self) -> Path:
-        return Path(self._folder.name)
-
-    @property
-    def ended(self) -> bool:
-        return self._process.returncode is not None
-
-    def said(self) -> str:
-        stderr = self._process.stderr
-        ready, _, _ = select.select([stderr], [], [], 0)
-        return os.read(stderr.fileno(), 4096).decode(errors="replace").strip() if ready else ""
-
-    def outlived_its_keeper(self) -> bool:
-        return False
-
-    def end(self) -> None:
-        if not self.ended:
-            # Without bubblewrap there is no process namespace to take the children along, and they
-            # may be there when their parent has ended. The group's number is free only after wait.
-            with suppress(ProcessLookupError):
-                os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.wait()
-        for pipe in (self._process.stdin, self._process.stdout, self._process.stderr):
-            pipe.close()
-        self._folder.cleanup()
-
-
-def _unwalled(folder: Path):
-    room = folder / ".room"  # apart from what cells write, and what was handed in
-    for path, name in INSIDE.items():
-        (room / name).parent.mkdir(exist_ok=True, parents=True)
-        shutil.copy(path, room / name)
-    environment = ENVIRONMENT | {
-        name: str(folder) for name in ("HOME", "IPYTHONDIR", "MPLCONFIGDIR", "TMPDIR")
-    }
-    return [sys.executable, "-I", "-u", str(room / "runner.py")], environment
 
 
 def _best_way() -> Way:

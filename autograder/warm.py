@@ -13,7 +13,10 @@ import socket
 import subprocess
 import tempfile
 import threading
+import time
+import weakref
 from contextlib import suppress
+from typing import ClassVar
 
 START_SECONDS = 60.0
 END_SECONDS = 10.0
@@ -124,22 +127,79 @@ class LentNursery(Nursery):
         self.close()
 
 
+class WatchLine:
+    """The judge's end of the line to a room's watch, which is open as long as the room shall live.
+
+    A fork of the judge lets go of its copy, so that the room ends with the judge alone.
+    """
+
+    _open: ClassVar[weakref.WeakSet] = weakref.WeakSet()
+
+    def __init__(self, line: socket.socket):
+        self._line, self._received, self._reason = line, b"", ""
+        WatchLine._open.add(self)
+
+    def told(self, request: str, seconds: float) -> float | None:
+        """The processor time that the watch answers with, s; None where it has ended or is silent."""
+        with suppress(OSError):
+            self._line.sendall(request.encode() + b"\n")
+        deadline = time.monotonic() + seconds
+        while (line := self._read_line(deadline - time.monotonic())) is not None:
+            word, _, number = line.partition(" ")
+            if word == request:  # no late answer to another
+                return float(number)
+        return None
+
+    def reason(self) -> str:
+        """Why the watch has ended the room; "" where it has not."""
+        while not self._reason and self._read_line(0) is not None:
+            pass
+        return self._reason
+
+    def close(self) -> None:
+        self._line.close()
+
+    def _read_line(self, seconds: float) -> str | None:
+        deadline = time.monotonic() + seconds
+        while b"\n" not in self._received:
+            left = max(0.0, deadline - time.monotonic())
+            if self._line.fileno() < 0 or not select.select([self._line], [], [], left)[0]:
+                return None
+            received = b""
+            with suppress(OSError):
+                received = self._line.recv(1 << 12)
+            if not received:
+                return None
+            self._received += received
+        line, _, self._received = self._received.partition(b"\n")
+        text = line.decode(errors="replace")
+        if text.startswith("! "):
+            self._reason = text[2:302]
+        return text
+
+    @classmethod
+    def let_go(cls) -> None:
+        for line in list(cls._open):
+            line.close()
+
+
 class WarmProcess:
     """One room's processes. requests, replies: descriptors, as of a subprocess's pipes.
 
-    line: brings a handle on process 1 of the room, and why that ends the room where it does.
+    line: brings a handle on process 1 of the room, which is its watch, and leads to it.
     """
 
     def __init__(self, nursery: Nursery, requests: int, replies: int, line: socket.socket):
-        self._nursery, self._line, self._handle = nursery, line, _receive_handle(line)
+        self._nursery, self._handle = nursery, _receive_handle(line)
+        self._watch = WatchLine(line)
         self.requests, self.replies = requests, replies
         self.ended = False
 
+    def told(self, request: str, seconds: float) -> float | None:
+        return self._watch.told(request, seconds)
+
     def said(self) -> str:
-        self._line.setblocking(False)
-        with suppress(OSError):
-            return self._line.recv(300).decode(errors="replace")
-        return ""
+        return self._watch.reason()
 
     def outlived_its_keeper(self) -> bool:
         """Whether the warm process ended, so that the end of this room is not the room's doing."""
@@ -156,7 +216,7 @@ class WarmProcess:
             # Readable when the last process of the namespace is gone.
             select.select([self._handle], [], [], START_SECONDS)
             os.close(self._handle)
-        self._line.close()
+        self._watch.close()
         os.close(self.requests)
         os.close(self.replies)
 
@@ -196,6 +256,7 @@ def borrow(channel: socket.socket) -> None:
 
 def _forget():
     global _nursery, _starting
+    WatchLine.let_go()
     _starting = threading.Lock()
     if _nursery is not None:
         _nursery.forget()

@@ -1,7 +1,7 @@
 """Process 1 of a room: it furnishes the namespaces, reaps, and watches what the room uses.
 
-When it ends, the kernel ends every process in the room. It does so when the runner has ended, and
-when the room uses too much.
+When it ends, the kernel ends every process in the room. It does so when the runner has ended, when
+the judge has gone, and when the room uses too much.
 """
 
 import json
@@ -35,11 +35,13 @@ def furnish_and_wait(requests, replies, handles, to_warm, user):
         here, judge = socket.socket(fileno=0), socket.socket(fileno=1)
         # Process 1 gets no signal from within but those it handles.
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-        _, runner, *_ = socket.recv_fds(here, 16, 1)
+        # The warm process's neglect of its children is inherited.
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        number, runner, *_ = socket.recv_fds(here, 16, 1)
         if runner:
             namespaces.close_to_tracing()
             here.send(b"go")
-            judge.send(watch.until_ended(runner[0]).encode())
+            watch.Watch(judge, int(number), walled=True).until_pidfd(runner[0])
     except BaseException as error:
         refuse(replies, error)
     finally:
@@ -49,7 +51,8 @@ def furnish_and_wait(requests, replies, handles, to_warm, user):
 def join(line):
     """In the runner: let process 1 end with this one, and wait until it is out of reach."""
     with socket.socket(fileno=line) as channel:
-        socket.send_fds(channel, [b"runner"], [os.pidfd_open(os.getpid())])
+        number = str(os.getpid()).encode()
+        socket.send_fds(channel, [number], [os.pidfd_open(os.getpid())])
         if channel.recv(16) != b"go":
             raise RuntimeError("the room ended before it began")
 

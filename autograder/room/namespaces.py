@@ -17,7 +17,8 @@ EVERY_KIND = (
     0x00020000 | 0x02000000 | 0x04000000 | 0x08000000 | CLONE_NEWUSER | CLONE_NEWPID | 0x40000000
 )
 MS_NOSUID, MS_NODEV, MS_NOEXEC, MS_BIND, MS_REC, MS_PRIVATE = 2, 4, 8, 1 << 12, 1 << 14, 1 << 18
-PR_SET_DUMPABLE, PR_CAPBSET_DROP, PR_SET_NO_NEW_PRIVS = 4, 24, 38
+PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_CAPBSET_DROP, PR_SET_NO_NEW_PRIVS = 1, 4, 24, 38
+PR_SET_CHILD_SUBREAPER = 36
 CAPABILITY_VERSION = 0x20080522
 CLONE = {"x86_64": 56, "aarch64": 220}
 KEYCTL = {"x86_64": 250, "aarch64": 219}
@@ -140,6 +141,16 @@ def drop_privileges() -> None:
 def close_to_tracing() -> None:
     """No process of the same user may read or steer this one."""
     _libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0)
+
+
+def adopt_orphans() -> None:
+    """Be the parent of all that descends from this process, when its own has ended."""
+    _checked("prctl", _libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0))
+
+
+def end_with_parent() -> None:
+    """Be killed when the parent ends."""
+    _checked("prctl", _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0))
 
 
 def _mount(source, target, kind, flags, options=None):

@@ -11,12 +11,17 @@ import json
 import os
 import random
 import resource
+import signal
+import socket
 import sys
 import time
 from contextlib import suppress
 
 MEMORY_BYTES = 4 << 30
 FILE_BYTES = 64 << 20
+# No process needs more of the processor's time than a whole notebook may have: what hides from the
+# watch ends by this.
+PROCESS_SECONDS = 120
 MOST_TEXT = 200_000
 MOST_OUTPUTS = 50
 MOST_SAID = 500  # of a line that was left out
@@ -28,26 +33,40 @@ SHOWN = ("text/plain", "text/latex", "image/png")
 
 
 def main():
+    """runner.py [walled] DESCRIPTOR: of the socket on which the judge talks to the watch."""
     walled = "walled" in sys.argv
+    judge = socket.socket(fileno=int(sys.argv[-1]))
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
     if walled and os.getuid() == 0:
         import namespaces
 
         namespaces.become_nobody()
-    if walled:
-        _leave_to_watch()
+    _leave_to_watch(judge, walled)
     serve(walled=walled)
 
 
-def _leave_to_watch():
-    """Go on as a child of this process, which ends the room when it uses too much."""
+def _leave_to_watch(judge, walled):
+    """Go on as a child of this process, which ends the room with the judge, or for using too much."""
     import watch
 
+    linux = sys.platform == "linux"
+    if linux:
+        import namespaces
+    if linux and not walled:
+        namespaces.adopt_orphans()
     child = os.fork()
     if child == 0:
+        judge.close()
+        if linux and not walled:
+            namespaces.end_with_parent()
         return
-    os.closerange(0, 2)
-    os.write(2, watch.until_ended(os.pidfd_open(child)).encode())
+    os.closerange(0, 3)
+    if linux:
+        namespaces.close_to_tracing()
+    watch.Watch(judge, child, walled, reaper=1 if walled else None).until_child_ended()
+    if not walled:
+        watch.sweep(watch.descendants)
+        os.killpg(0, signal.SIGKILL)
     os._exit(0)
 
 
@@ -95,6 +114,7 @@ def _private_channel():
 def _limit_resources(walled):
     resource.setrlimit(resource.RLIMIT_FSIZE, (FILE_BYTES, FILE_BYTES))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_CPU, (PROCESS_SECONDS, PROCESS_SECONDS))
     if sys.platform == "linux":  # macOS refuses a limit on the address space
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
         # When the machine's memory runs out, it is this process that ends.
@@ -139,12 +159,11 @@ def _run(shell, source, seconds, wall):
     # After an error that was only shown, as a magic's, the cell may go on to one that stops it.
     told = [*errors[:1], *(error for error in errors[1:] if error[1] is stopped)]
     return outputs + [
-        _error(shell, source, *error, seconds, wall) | {"stopped": error[1] is stopped}
-        for error in told
+        _error(shell, source, *error, wall) | {"stopped": error[1] is stopped} for error in told
     ]
 
 
-def _error(shell, source, kind, value, lines, seconds, wall):
+def _error(shell, source, kind, value, lines, wall):
     from shell import needed_network
 
     at, line, is_offline = 0, "", False
@@ -152,7 +171,7 @@ def _error(shell, source, kind, value, lines, seconds, wall):
         at, line = shell.typed_lines(value, source)
         is_offline = needed_network(value)
     if kind is wall.TimeLimitError:
-        kind, value, lines = TimeoutError, f"this cell ran longer than {seconds:g} s", []
+        kind, value, lines = TimeoutError, f"this cell ran longer than {value.seconds:g} s", []
     elif isinstance(value, SyntaxError):
         at, line = 0, ""
         value, lines = f"{value.msg}, line {value.lineno}: {(value.text or '').strip()}", []

@@ -9,6 +9,7 @@ name there.
 from .arguments import Expressions, Function, Symbol, real
 from .calls import (
     CALL_SECONDS,
+    PATIENCE,
     Call,
     Fault,
     Reply,
@@ -29,6 +30,7 @@ from .readings import MOST_NUMBERS, FaultKind, NotNumbersError, one_line, shorte
 __all__ = [
     "CALL_SECONDS",
     "MOST_NUMBERS",
+    "PATIENCE",
     "Call",
     "Expressions",
     "Fault",

@@ -26,7 +26,10 @@ from .readings import (
     shortened,
 )
 
-CALL_SECONDS = 2.0
+CALL_SECONDS = 2.0  # of the processor's time
+# Code that sleeps for ever uses no processor time, and on a busy machine honest code gets little: a
+# limit is one of the clock, too, so many times as long.
+PATIENCE = 5.0
 # More than any answer has; two answers must fit where one of the largest does.
 MOST_TWICE = MOST_NUMBERS // 10
 MOST_CHANGES = 50
@@ -73,7 +76,14 @@ class Reply:
 
 
 class TimeLimitError(BaseException):
-    """Raised in the student's code at its time limit; no `except Exception` swallows it."""
+    """Raised in the student's code at its time limit; no `except Exception` swallows it.
+
+    seconds: the limit. starved: whether it is the clock's, reached while the processor was elsewhere.
+    """
+
+    def __init__(self, seconds: float, starved: bool):
+        super().__init__(seconds, starved)
+        self.seconds, self.starved = seconds, starved
 
 
 def answer(call: Call, namespace: Mapping) -> Reply:
@@ -86,17 +96,17 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     if not callable(function):
         return Reply(fault=Fault(FaultKind.NOT_CALLABLE, type(function).__name__))
     given = []
-    started = time.monotonic()
+    started, clock = time.process_time(), time.monotonic()
     reply = _called(call, function, given, CALL_SECONDS)
     changes = () if reply.fault else _changes(call.args, given)
     if not changes:
         return reply
     # Both calls together have the time of one: whoever waits for the reply waits no longer.
-    left = max(CALL_SECONDS - (time.monotonic() - started), 0.01)
-    again = _called(call, function, given, left)
+    took = max(time.process_time() - started, (time.monotonic() - clock) / PATIENCE)
+    again = _called(call, function, given, max(CALL_SECONDS - took, 0.01))
     if max(_size(reply.value), _size(again.value)) > MOST_TWICE:
         again = None
-    elif again.fault and again.fault.kind is FaultKind.TIMED_OUT:
+    elif again.fault and again.fault.kind in (FaultKind.TIMED_OUT, FaultKind.STARVED):
         again = None  # nobody asked for two calls in that time
     return replace(reply, changed=changes, again=again)
 
@@ -112,8 +122,9 @@ def _called(call: Call, function: Callable, given: list, seconds: float) -> Repl
         return Reply(fault=Fault(error.kind, shortened(str(error))))
     except NotImplementedError:
         return Reply(fault=Fault(FaultKind.NOT_IMPLEMENTED))
-    except TimeLimitError:
-        return Reply(fault=Fault(FaultKind.TIMED_OUT, f"{CALL_SECONDS:g} s"))
+    except TimeLimitError as limit:
+        kind = FaultKind.STARVED if limit.starved else FaultKind.TIMED_OUT
+        return Reply(fault=Fault(kind, f"{limit.seconds:g} s"))
     except (Exception, SystemExit) as error:
         message = shortened(f"{type(error).__name__}: {said_by(error)}")
         return Reply(fault=Fault(FaultKind.RAISED, message, _failing_line(error)))
@@ -183,22 +194,35 @@ def said_by(error: BaseException) -> str:
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
-    """Raise TimeLimitError in the block after `seconds`, where the system can (not on Windows)."""
+    """Raise TimeLimitError in the block where the system can (not on Windows).
+
+    That is when this process has used `seconds` of the processor's time in it, and after PATIENCE
+    times as long on the clock.
+    """
     if os.name != "posix" or threading.current_thread() is not threading.main_thread():
         yield
         return
 
-    def stop(signum, frame):
-        raise TimeLimitError
+    begin = time.process_time()
 
-    before = signal.signal(signal.SIGALRM, stop)
+    def stop(signum, frame):
+        # What swallowed the processor's limit may meet the clock's.
+        if signum == signal.SIGPROF or time.process_time() - begin >= seconds:
+            raise TimeLimitError(seconds, starved=False)
+        raise TimeLimitError(PATIENCE * seconds, starved=True)
+
+    of_processor = signal.signal(signal.SIGPROF, stop)
+    of_clock = signal.signal(signal.SIGALRM, stop)
     # Again every half second: student code may catch the first one.
-    signal.setitimer(signal.ITIMER_REAL, seconds, 0.5)
+    signal.setitimer(signal.ITIMER_PROF, seconds, 0.5)
+    signal.setitimer(signal.ITIMER_REAL, PATIENCE * seconds, 0.5)
     try:
         yield
     finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
         signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        signal.signal(signal.SIGPROF, of_processor)
+        signal.signal(signal.SIGALRM, of_clock)
 
 
 def encode_call(call: Call) -> dict:

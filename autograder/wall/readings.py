@@ -26,6 +26,7 @@ class FaultKind(StrEnum):
     NOT_IMPLEMENTED = "not implemented"  # the stub is still there
     RAISED = "raised"
     TIMED_OUT = "timed out"
+    STARVED = "starved"  # the clock's limit came before the processor's: asleep, or a busy machine
     NO_TOOLS = "no tools"  # another language's, whose compiler is not installed
     DIED = "died"  # the process ended during the call
     NOTHING = "nothing"  # returned None

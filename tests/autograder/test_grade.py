@@ -2,6 +2,7 @@
 
 import ast
 import copy
+import json
 from types import SimpleNamespace
 from typing import ClassVar
 
@@ -21,7 +22,7 @@ from autograder.grade import Sitting, grade, is_judged, of_content, stream
 from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
 from autograder.nbgrader_glue import outputs_for
 from autograder.problems import CHECKS
-from autograder.sandbox import RoomLostError
+from autograder.sandbox import RoomLostError, StarvedError, TooLongError
 from autograder.verdict import State, Verdict, Witness
 from autograder.wall import Call, Fault, FaultKind, Reply
 from tests.autograder.problems import problem, states, without_plots
@@ -283,6 +284,7 @@ class Script:
     """A room that follows a script: sources in `deadly` end it, and every start is counted."""
 
     deadly: tuple[str, ...] = ()
+    used = 0.0
     ran: ClassVar[list[str]] = []
 
     def __init__(self):
@@ -294,7 +296,7 @@ class Script:
             raise RoomLostError("it ended")
         return []
 
-    def ask(self, calls, seconds):
+    def ask(self, calls, seconds, clock):
         if calls[0].name in self.deadly:
             raise RoomLostError("it ended")
         return [Reply(fault=Fault(FaultKind.MISSING, "near"))]
@@ -342,7 +344,98 @@ def test_a_new_room_runs_the_earlier_cells_but_not_the_one_that_ended_the_last()
             sitting.run(source)
         assert sitting.ask([Call("f", ())]) == [Reply(fault=Fault(FaultKind.DIED))]
         sitting.run("d")
-    assert Room.ran == ["start", "a", "b", "start", "a", "c", "start", "a", "c", "d", "close"]
+    assert Room.ran == [
+        "start",
+        "a",
+        "b",
+        "close",
+        "start",
+        "a",
+        "c",
+        "close",
+        "start",
+        "a",
+        "c",
+        "d",
+        "close",
+    ]
+
+
+STARVED = [Reply(fault=Fault(FaultKind.STARVED, "10 s"))]
+ONE = [Reply(value=np.array(1.0))]
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "last"),
+    [
+        (ONE + STARVED, ONE, ONE + ONE),
+        (STARVED, ONE + ONE, ONE + ONE),
+        (StarvedError(), ONE + ONE, ONE + ONE),
+        (ONE + STARVED, STARVED, ONE + STARVED),
+        (StarvedError(), StarvedError(), STARVED),
+    ],
+)
+def test_a_call_that_starved_is_tried_once_more(first, second, last):
+    class Room(Script):
+        answers: ClassVar[list] = [first, second]
+
+        def ask(self, calls, seconds, clock):
+            answer = self.answers.pop(0)
+            if isinstance(answer, Exception):
+                raise answer
+            assert len(calls) >= len(answer)
+            return list(answer)
+
+    with Sitting(Room) as sitting:
+        assert sitting.ask([Call("f", (n,)) for n in (1.0, 2.0)]) == last
+    assert Room.answers == []
+
+
+def test_a_call_that_is_out_of_its_own_control_did_not_return_in_time():
+    class Room(Script):
+        def ask(self, calls, seconds, clock):
+            raise TooLongError
+
+    with Sitting(Room) as sitting:
+        assert sitting.ask([Call("f", ())]) == [Reply(fault=Fault(FaultKind.TIMED_OUT, "2 s"))]
+
+
+class Clock:
+    """Time that passes where a test says so."""
+
+    def __init__(self, monkeypatch):
+        self.now = 0.0
+        monkeypatch.setattr(grading, "time", SimpleNamespace(monotonic=lambda: self.now))
+
+
+@pytest.mark.parametrize(
+    ("used", "clock", "limit"), [(30.0, 0.0, "60 s"), (0.0, 150.0, "300 s"), (29.9, 149.9, None)]
+)
+def test_a_notebook_has_limits_of_the_processor_and_of_the_clock(monkeypatch, used, clock, limit):
+    time = Clock(monkeypatch)
+
+    class Room(Script):
+        def __init__(self):
+            super().__init__()
+            time.now += 1000  # to start one is nobody's time
+
+        def run(self, source):
+            self.used += used
+            time.now += clock
+            raise RoomLostError
+
+    with Sitting(Room) as sitting:
+        for _ in range(2):
+            assert sitting.run("f = 1")[0]["ename"] == "RoomLostError"
+        (shown,) = sitting.run("g = 1")
+        (reply,) = sitting.ask([Call("f", ())])
+    if limit is None:
+        assert shown["ename"] == "RoomLostError"
+        assert reply.fault == Fault(FaultKind.TIMED_OUT, "the 60 s that the whole notebook has")
+    else:
+        said = f"not run: the notebook took {limit} before it came to this cell"
+        assert (shown["ename"], shown["evalue"]) == ("TimeoutError", said)
+        assert reply.fault.message == f"the {limit} that the whole notebook has"
 
 
 def test_a_missing_name_is_blamed_on_the_cell_that_failed_to_define_it():
@@ -380,6 +473,36 @@ def test_no_forged_output_reaches_the_notebook(output):
     nbformat.validate(notebook)
     assert "script" not in str(notebook)
     assert "execute_result" not in str(notebook)
+
+
+def text_of(size):
+    return {"output_type": "stream", "name": "stdout", "text": "x" * size}
+
+
+def picture_of(size):
+    return {"output_type": "display_data", "data": {"image/png": "A" * size, "text/plain": "p"}}
+
+
+@pytest.mark.parametrize(
+    ("output", "most"),
+    [(text_of(150_000), outputs.NOTEBOOK_TEXT), (picture_of(4 << 20), outputs.NOTEBOOK_PICTURES)],
+)
+def test_all_cells_share_what_a_notebook_may_show(output, most):
+    """Whatever a room replies, forged or not."""
+    allowance = outputs.Allowance()
+    shown = [allowance.shown([output] * 5) for _ in range(20)]
+    assert 0.8 * most < len(str(shown)) < 1.1 * most
+    assert "(5 of this cell's outputs left out: a notebook's outputs may take 2 MB" in str(
+        shown[-1]
+    )
+    assert "left out" not in str(shown[0][:-1])
+
+
+def test_what_grows_as_it_is_saved_counts_as_it_is_saved():
+    allowance = outputs.Allowance()
+    bells = text_of(1) | {"text": "\a" * 199_000}
+    shown = [output for _ in range(5) for output in allowance.shown([bells])]
+    assert len(json.dumps(shown)) < outputs.NOTEBOOK_TEXT + 2000
 
 
 def test_an_output_of_which_nothing_can_be_shown_leaves_none():

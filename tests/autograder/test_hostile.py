@@ -44,8 +44,7 @@ WORDS_OF_THE_GUIDE = {
     "leaves_notes": "notes for the next",
     "reads_proc": "see your other processes",
     "kills_its_parent": "kill the grader",
-    "outlives_all": "live on",
-    "fork_bomb": "as many processes",
+    "fork_bomb": "more processes",
     "reaches_the_network": "the network",
 }
 
@@ -84,6 +83,7 @@ def orphans_come_here():
 @pytest.fixture
 def short_limits(monkeypatch):
     """A second for what takes ten: the limits are what is tested, not how long they are."""
+    monkeypatch.setattr(sandbox, "STARTED", 1.0)
     monkeypatch.setattr(Room.run, "__defaults__", (1.0,))
     monkeypatch.setattr(sandbox, "GRACE_SECONDS", 1.0)
 
@@ -226,19 +226,21 @@ def test_the_guide_names_what_the_fallback_does_not_stop():
 
 
 def test_many_loops_cost_one_limit_of_the_whole_notebook(release, short_limits, monkeypatch):
-    monkeypatch.setattr(grading, "NOTEBOOK_SECONDS", 1.5)
+    monkeypatch.setattr(grading, "NOTEBOOK_SECONDS", 2.5)
     monkeypatch.setattr(Room.run, "__defaults__", (0.5,))
+    # On a busy machine a loop may meet the clock first: the notebook's own must not.
+    monkeypatch.setattr(grading, "PATIENCE", 1000.0)
     notebook = p3_pendulum.right(release)
-    loops = [nbformat.v4.new_code_cell("while True: sum(())") for _ in range(9)]
+    loops = [nbformat.v4.new_code_cell("while True: sum(())") for _ in range(30)]
     after = notebook.cells.index(cell_of(notebook, "p3-M"))
     notebook.cells[after + 1 : after + 1] = loops
     graded = grade(notebook, SOURCE, "seed")
     earned = ("p3-lagrangian", "p3-M")
     assert points(graded) == {name: POINTS[name] * (name in earned) for name in POINTS}
     told = said(graded)
-    assert 1 <= told.count("TimeoutError: this cell ran longer than 0.5 s") <= 4
-    assert "not run: the notebook took 1.5 s before it came to this cell" in told
-    assert "g_vec(q, pend) did not return within the 1.5 s that the whole notebook has" in told
+    assert 1 <= told.count("TimeoutError: this cell ran longer than") < 30
+    assert "not run: the notebook took 2.5 s before it came to this cell" in told
+    assert "g_vec(q, pend) did not return within the 2.5 s that the whole notebook has" in told
 
 
 def test_the_zoo_is_large_and_each_says_what_it_tries():

@@ -271,9 +271,31 @@ class TestMissing:
         assert verdict.state is State.ERROR
 
 
-def test_a_cell_that_builds_has_its_own_limit(warm):
-    assert warm.run("import time\n# from_file(\ntime.sleep(1.5)", 0.5) == []
-    assert failed(warm, "time.sleep(1.5)", 0.5).startswith("TimeoutError")
+@pytest.mark.parametrize("suffix", [".cpp"])
+def test_what_a_compiler_takes_is_not_the_cells_own_time(warm, suffix):
+    text = answers.right("M", suffix) + "\n// built here, and nowhere else"
+    warm.run(f"%%writefile M{suffix}\n{text}")
+    before = warm.used
+    build = f'from autograder import from_file\nM = from_file("M{suffix}")'
+    assert warm.run(build, 0.7) == []
+    assert warm.used - before > 0.7
+
+
+@pytest.mark.parametrize("suffix", [".cpp"])
+def test_no_word_in_a_cell_buys_it_time(warm, suffix):
+    said = failed(warm, "# from_file(\nwhile True: pass", 0.2)
+    assert said == "TimeoutError: this cell ran longer than 0.2 s"
+
+
+@pytest.mark.parametrize("suffix", LANGUAGES)
+def test_a_program_that_its_cell_left_is_started_again(warm, suffix):
+    """A room ends all that a cell started, and a program serves the cells below."""
+    assert put(warm, "M", suffix, answers.ENDS[suffix]) == []
+    for _ in range(2):
+        assert printed(warm, "print(M._program.ended)") == "True"
+        assert printed(warm, "print(M([1.0, 2.0], ARM).tolist())".replace(
+            "ARM", f"__import__('types').SimpleNamespace(**{vars(ARM)!r})"
+        )) == "[[1.0, 0.0], [0.0, 2.0]]"  # fmt: skip
 
 
 def test_no_answer_is_in_the_room(warm):

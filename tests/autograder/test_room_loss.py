@@ -4,13 +4,20 @@ import os
 import shutil
 import sys
 import time
+from textwrap import indent
 
 import pytest
 
 from autograder import bubblewrap, sandbox
-from autograder.sandbox import Room, RoomLostError, Way
+from autograder.sandbox import Room, RoomLostError, StarvedError, TooLongError, Way
 from autograder.wall import Call
-from tests.autograder.rooms import EVERY_WAY, appears, failed, gone, printed, sleeper
+from tests.autograder.rooms import EVERY_WAY, failed, gone, printed, processes_with, sleeper
+
+# What stops a loop, ignored.
+DEAF = (
+    "import signal\n"
+    "for number in (signal.SIGALRM, signal.SIGPROF): signal.signal(number, signal.SIG_IGN)\n"
+)
 
 
 @EVERY_WAY
@@ -36,36 +43,39 @@ class TestLoss:
 
     def test_silence_is_a_lost_room(self, way, monkeypatch):
         monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.3)
-        deaf = "import signal\nsignal.signal(signal.SIGALRM, signal.SIG_IGN)\nwhile True: pass"
-        with Room(way) as room, pytest.raises(RoomLostError, match="no reply within"):
-            room.run(deaf, seconds=0.2)
+        with Room(way) as room, pytest.raises(StarvedError, match="no reply within"):
+            room.run("import os, signal\nos.kill(os.getpid(), signal.SIGSTOP)", seconds=0.1)
+
+    def test_code_that_ignores_its_limit_is_a_lost_room(self, way, monkeypatch):
+        monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.3)
+        # By the clock it would take far longer.
+        monkeypatch.setattr(sandbox, "PATIENCE", 1000.0)
+        match = r"no reply within 0\.9 s of processor time"
+        with Room(way) as room, pytest.raises(TooLongError, match=match):
+            room.run(f"{DEAF}while True: pass", seconds=0.2)
 
     def test_a_call_that_ignores_its_limit_costs_no_more_than_one(self, way, monkeypatch):
         monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.3)
         monkeypatch.setattr(sandbox, "CALL_SECONDS", 0.2)
+        monkeypatch.setattr(sandbox, "PATIENCE", 1000.0)
         with Room(way) as room:
             room.run(
-                "import signal\n"
-                "def f(n):\n"
-                "    if n < 3: return n\n"
-                "    signal.signal(signal.SIGALRM, signal.SIG_IGN)\n"
-                "    while True: pass"
+                f"def f(n):\n    if n < 3: return n\n{indent(DEAF, '    ')}    while True: pass"
             )
-            with pytest.raises(RoomLostError, match=r"no reply within 0\.5 s"):
+            with pytest.raises(TooLongError, match=r"no reply within 0\.5 s"):
                 room.ask([Call("f", (float(n),)) for n in range(24)])
 
     def test_calls_end_with_the_time_they_have_together(self, way):
         with Room(way) as room:
             room.run("import time\ndef f():\n    time.sleep(0.1)\n    return 1")
             with pytest.raises(RoomLostError, match="no reply within 0"):
-                room.ask([Call("f", ())] * 24, seconds=0.35)
+                room.ask([Call("f", ())] * 24, clock=0.35)
 
     def test_a_process_that_does_not_read_is_a_lost_room(self, way, monkeypatch):
         monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.3)
         # Answers by itself, then stays in its cell.
         stop = (
-            "import os, signal, time\n"
-            "signal.signal(signal.SIGALRM, signal.SIG_IGN)\n"
+            f"import os, time\n{DEAF}"
             "for fd in (3, 4):\n"
             "    try: os.write(fd, b'{\"outputs\": []}\\n')\n"
             "    except OSError: pass\n"
@@ -180,12 +190,65 @@ class TestLoss:
 
 
 @EVERY_WAY
-def test_children_end_with_the_room(way):
-    mark = f"mark-{os.urandom(8).hex()}"
-    with Room(way) as room:
-        room.run(f"import subprocess, sys\nsubprocess.Popen({sleeper(mark)})")
-        assert appears(mark)
-    assert gone(mark)
+class TestProcesses:
+    """Of a cell's or a call's own, in whatever session."""
+
+    START = (
+        "import os, subprocess, sys\n"
+        "def start(mark):\n"
+        "    code = 'import time; time.sleep(99)'\n"
+        "    subprocess.Popen([sys.executable, '-c', code, mark], start_new_session=True)\n"
+        "    if os.fork() == 0:\n"
+        "        os.setsid()\n"
+        "        if os.fork() == 0: os.execv(sys.executable, ['python', '-c', code, mark])\n"
+        "        os._exit(0)\n"
+        "    os.wait()\n"
+        "    while len(open(f'/proc/self/task/{os.getpid()}/children').read().split()) > 1: pass\n"
+        "    return 1\n"
+    )
+
+    def test_none_is_left_after_its_cell(self, room):
+        mark = f"mark-{os.urandom(8).hex()}"
+        room.run(f"{self.START}start({mark!r})")
+        assert not processes_with(mark)
+        assert printed(room, "print('alive')") == "alive"
+
+    def test_none_is_left_after_its_call(self, room):
+        mark = f"mark-{os.urandom(8).hex()}"
+        room.run(f"{self.START}def f(): return start({mark!r})")
+        assert room.ask([Call("f", ())])[0].value == 1.0
+        assert not processes_with(mark)
+
+    def test_their_time_is_the_rooms_also_when_they_have_ended(self, room):
+        before = room.used
+        # Waited for by their parent, by nobody, and left as orphans.
+        room.run(
+            "import os, time\n"
+            "running, end = os.pipe()\n"
+            "def spin(seconds):\n"
+            "    while time.process_time() < seconds: pass\n"
+            "    os._exit(0)\n"
+            "if os.fork() == 0: spin(0.4)\n"
+            "os.wait()\n"
+            "if os.fork() == 0: spin(0.4)\n"
+            "if os.fork() == 0:\n"
+            "    if os.fork() == 0: spin(0.4)\n"
+            "    os._exit(0)\n"
+            "os.close(end)\n"
+            "os.read(running, 1)"
+        )
+        assert 1.0 < room.used - before < 2.0
+
+    def test_those_that_spin_end_their_cell_together(self, way, monkeypatch):
+        monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.5)
+        monkeypatch.setattr(sandbox, "PATIENCE", 1000.0)
+        forks = (
+            f"{DEAF}import os, time\nfor _ in range(9):\n    if os.fork() == 0: break\nwhile True: "
+        )
+        with Room(way) as room:
+            with pytest.raises(TooLongError, match=r"no reply within 1\.1 s of processor time"):
+                room.run(f"{forks}time.sleep(1) if _ == 8 else None", seconds=0.2)
+            assert room.used < 4
 
 
 @EVERY_WAY

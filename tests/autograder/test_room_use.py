@@ -31,6 +31,19 @@ def test_processes_that_share_out_a_memory_bomb_end_with_their_room(way):
 
 
 @WALLED_WAYS
+def test_processes_that_nobody_sees_end_with_their_room(way):
+    # Threads count as processes do, and are quicker.
+    bomb = (
+        "import threading, time\n"
+        "for _ in range(6000):\n"
+        "    thread = threading.Thread(target=int); thread.start(); thread.join()\n"
+        "time.sleep(9)"
+    )
+    with Room(way) as room, pytest.raises(RoomLostError, match="started more than 5000 processes"):
+        room.run(bomb, seconds=60)
+
+
+@WALLED_WAYS
 def test_pages_that_processes_share_count_once(way):
     shared = FILL + (
         "memory = fill()\n"

@@ -18,14 +18,19 @@ SAFE_WITHOUT_WALLS = (
     "reads_the_solution",
     "writes_the_gradebook",
     "writes_outside",
-    "outlives_all",
     "hunts_modules",
     "follows_symlinks",
     "reads_proc",
     "reaches_the_network",
 )
 # Some that it stops, one of each kind.
-STOPPED_WITHOUT_WALLS = ("forged_replies", "searches_memory", "replaced_builtins")
+STOPPED_WITHOUT_WALLS = (
+    "forged_replies",
+    "searches_memory",
+    "replaced_builtins",
+    "outlives_all",
+    "spins_after_its_cell",
+)
 
 
 def unstopped() -> dict[str, str]:

@@ -42,7 +42,7 @@ def g_vec(q, pend):
     )
 
 
-@attack(fallback="there is no limit on processes, but they end with the room")
+@attack(fallback="its room ends, but a moment after it had more than 64 processes")
 def fork_bomb(release):
     """Forks 200 processes that sleep."""
     return cheat(
@@ -60,13 +60,47 @@ for _ in range(200):
     )
 
 
+@attack(says="this cell ended Python itself: no reply within")
+def spins_in_many_processes(release):
+    """Forks as many processes as a room may have, each of which spins."""
+    return cheat(
+        release,
+        g_vec="""
+import os, signal
+for number in (signal.SIGALRM, signal.SIGPROF):
+    signal.signal(number, signal.SIG_IGN)
+for _ in range(58):
+    if os.fork() == 0:
+        break
+while True:
+    sum(())
+""",
+    )
+
+
+@attack()
+def spins_after_its_cell(release):
+    """Leaves processes that spin, in sessions of their own, after its cell and during the calls."""
+    spin = """
+import os
+def spin(count):
+    for _ in range(count):
+        if os.fork() == 0:
+            os.setsid()
+            while True:
+                sum(())
+spin(20)
+"""
+    return cheat(release, spin, g_vec="def g_vec(q, pend):\n    spin(1)\n    return 1 + 0 * q")
+
+
 @attack(lost=LAST, says="p3-small_angle_frequency: ")
 def two_runners(release):
     """Forks the runner, so that two processes read requests and write replies."""
     return last(release, "import os\nos.fork()")
 
 
-@attack(fallback="a process in a session of its own outlives the grading")
+@attack()
 def outlives_all(release):
     """Starts a subprocess in a session of its own, that outlives the cell and the notebook."""
     return cheat(
@@ -151,28 +185,31 @@ def loops_in_a_call(release):
 
 @attack(says="this cell ended Python itself: no reply within")
 def deaf_loop_in_a_cell(release):
-    """Ignores the alarm, and loops for ever."""
+    """Ignores both alarms, and loops for ever."""
     return cheat(
         release,
         g_vec="""
 import signal
-signal.signal(signal.SIGALRM, signal.SIG_IGN)
+for number in (signal.SIGALRM, signal.SIGPROF):
+    signal.signal(number, signal.SIG_IGN)
 signal.setitimer(signal.ITIMER_REAL, 0)
+signal.setitimer(signal.ITIMER_PROF, 0)
 while True:
     sum(())
 """,
     )
 
 
-@attack(says="Python itself stopped while g_vec(q, pend) was running")
+@attack(says="g_vec(q, pend) did not return within")
 def deaf_loop_in_a_call(release):
-    """Ignores the alarm while it is judged, and loops for ever."""
+    """Ignores both alarms while it is judged, and loops for ever."""
     return cheat(
         release,
         g_vec="""
 import signal
 def g_vec(q, pend):
-    signal.signal(signal.SIGALRM, signal.SIG_IGN)
+    for number in (signal.SIGALRM, signal.SIGPROF):
+        signal.signal(number, signal.SIG_IGN)
     while True:
         sum(())
 """,

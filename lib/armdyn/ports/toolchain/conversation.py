@@ -11,6 +11,7 @@ import signal
 import subprocess
 import tempfile
 import threading
+import time
 
 import numpy as np
 
@@ -31,12 +32,17 @@ class Conversation:
     """A program, started once, that is asked and answers; a context manager that ends it.
 
     command: its words. folder: where it runs; by default here. seconds: for each answer, and for
-    the start with the first. environment: by default this process's own.
+    the start with the first. environment: by default this process's own. patience: with more than 1,
+    the seconds are the processor's where the system counts them, and so many times as many the clock's.
+
+    late: whether an answer took too long. starved: whether that was by the clock alone.
     """
 
-    def __init__(self, command, folder=None, seconds: float = 60, environment=None):
-        self.seconds = seconds
-        self._late = False
+    def __init__(
+        self, command, folder=None, seconds: float = 60, environment=None, patience: float = 1.0
+    ):
+        self.seconds, self.patience = seconds, patience
+        self.late = self.starved = False
         self._printed = bytearray()
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the conversation
         pipe = subprocess.PIPE
@@ -58,8 +64,9 @@ class Conversation:
             raise ProgramError("the program has ended")
         numbers = np.asarray(numbers, DOUBLE).ravel()
         del self._printed[:-SHOWN]  # what is said before this answer is all that may be too much
-        watch = threading.Timer(self.seconds, self._give_up)
-        watch.start()
+        answered = threading.Event()
+        arguments = (answered, processes.processor_seconds(self._process))
+        threading.Thread(target=self._watch, args=arguments, daemon=True).start()
         try:
             with contextlib.suppress(OSError):  # its end is seen where it is read
                 self._process.stdin.write(np.array([numbers.size], DOUBLE).tobytes())
@@ -70,8 +77,13 @@ class Conversation:
             self.close()
             raise
         finally:
-            watch.cancel()
+            answered.set()
         return answer
+
+    @property
+    def ended(self) -> bool:
+        """Whether the program has ended, by itself or not."""
+        return self._process.poll() is not None
 
     def said(self) -> str:
         """The text that the program has written so far, to its output and then its errors."""
@@ -94,9 +106,21 @@ class Conversation:
         self.close()
         self._errors.close()
 
-    def _give_up(self):
-        self._late = True
-        processes.end(self._process)
+    def _watch(self, answered, used_before):
+        """End the program where its answer takes too long."""
+        seconds, deadline = self.seconds, time.monotonic() + self.patience * self.seconds
+        wait = seconds
+        while not answered.wait(wait):
+            used = processes.processor_seconds(self._process)
+            left = deadline - time.monotonic()
+            wait = left
+            if used is not None and used_before is not None:
+                wait = min(left, used_before + seconds - used)
+            if wait <= 0:
+                self.late, self.starved = True, self.patience > 1 and left <= 0
+                processes.end(self._process)
+                return
+            wait = max(wait, 0.01)
 
     def _answer(self, at_most):
         mark = bytearray(self._read(len(MARK)))
@@ -116,7 +140,7 @@ class Conversation:
             return found
         self._printed += found
         processes.end(self._process, grace=1)
-        if self._late:
+        if self.late:
             raise ProgramError(f"no answer within {self.seconds:g} s{self._quoted()}")
         raise ProgramError(f"the program ended with {self._status()}{self._quoted()}")
 

@@ -4,11 +4,22 @@ import contextlib
 import os
 import signal
 import subprocess
+from pathlib import Path
 
 
 def start(command, **options) -> subprocess.Popen:
     """The command as a process at the head of a group of its own."""
     return subprocess.Popen([str(part) for part in command], start_new_session=True, **options)
+
+
+def processor_seconds(process: subprocess.Popen) -> float | None:
+    """What the processor has spent on the process, s; None where the system does not say."""
+    try:
+        stat = Path(f"/proc/{process.pid}/stat").read_text()
+    except OSError:
+        return None
+    user, system = stat.rpartition(")")[2].split()[11:13]  # the name before may hold anything
+    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
 def end(process: subprocess.Popen, grace: float = 0) -> None:
