@@ -102,6 +102,21 @@ def problems(root: Path) -> int:
 
         write_problem(root, source.parent.name, folder)
         print(f"{shown}: written")
+    return _tell_jupyter()
+
+
+def _tell_jupyter() -> int:
+    """Have plain `jupyter lab` know the course too; 0 also where it can't."""
+    from autograder import lab_server  # imports Jupyter
+
+    try:
+        lab_server.enable()
+    except OSError as error:
+        print(
+            f"autograder: plain `jupyter lab` will not know the course ({error}); "
+            "start `autograder lab` in its place",
+            file=sys.stderr,
+        )
     return 0
 
 
