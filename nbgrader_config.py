@@ -8,6 +8,8 @@ import os
 import sys
 from pathlib import Path
 
+import zmq
+
 from autograder import nbgrader_glue
 
 # nbgrader starts `alembic` by its bare name, which is found only where the environment is activated.
@@ -45,6 +47,9 @@ c.Autograde.sanitize_preprocessors = nbgrader_glue.sanitize_preprocessors()
 c.Autograde.autograde_preprocessors = nbgrader_glue.autograde_preprocessors()
 c.Autograde.exporter_class = nbgrader_glue.SUBMISSION_EXPORTER
 c.HTMLExporter.filters = nbgrader_glue.PAGE_FILTERS
+
+# Without, each kernel that Validate starts warns that others could read its traffic.
+c.KernelManager.transport_encryption = "auto" if zmq.has("curve") else "disabled"
 
 c.ClearSolutions.code_stub = {"python": "raise NotImplementedError  # your answer goes here"}
 c.ClearSolutions.text_stub = "*(your answer goes here)*"
