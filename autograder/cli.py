@@ -14,7 +14,8 @@ def main(arguments: list[str] | None = None) -> int:
     commands.add_parser("problems", help="write the student notebooks to problems/")
     commands.add_parser(
         "lab",
-        help="open JupyterLab on the first lesson; further arguments go to JupyterLab",
+        help="open JupyterLab on the first lesson, or with --instructor on all of the course; "
+        "further arguments go to JupyterLab",
         add_help=False,
     )
     grading = commands.add_parser(
