@@ -1,6 +1,7 @@
 """JupyterLab, as `make lab` and `autograder lab` start it: for a student, or for an instructor."""
 
 import json
+import logging
 import os
 import socket
 import sys
@@ -59,11 +60,19 @@ def lab(arguments: list[str]) -> int:
     if student:
         settings.append("--CourseContents.for_student=True")
     server = LabApp.initialize_server([*settings, *arguments])
+    logging.getLogger("asyncio").addFilter(_is_an_error)
     print(f"\n    Open {_address(server)}\n    Stop with Ctrl-C\n", flush=True)
     # Jupyter would print the address again, five times over.
     server.identity_provider.token_generated = False
     server.start()
     return 0
+
+
+def _is_an_error(record: logging.LogRecord) -> bool:
+    """False where a browser's page was closed or loaded again while a kernel wrote to it."""
+    from tornado.websocket import WebSocketClosedError
+
+    return not (record.exc_info and isinstance(record.exc_info[1], WebSocketClosedError))
 
 
 def _write_settings(folder: Path, student: bool) -> None:
