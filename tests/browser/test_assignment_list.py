@@ -73,8 +73,8 @@ def listed(page, menu, course, nbgrader):
     work = course / "problems" / MINE / f"{MINE}.ipynb"
     nbformat.write(p2_energy_skew.right(nbformat.read(work, as_version=4)), work)
     shutil.rmtree(course / "problems" / LOST)
-    for assignment in (MINE, LOST):
-        nbgrader(f"generate_assignment {assignment}", f"release_assignment {assignment}")
+    steps = ("generate_assignment", "release_assignment")
+    nbgrader(*(f"{step} {assignment}" for assignment in (MINE, LOST) for step in steps))
     return AssignmentList(page)
 
 
