@@ -8,6 +8,8 @@ import os
 import sys
 from pathlib import Path
 
+import zmq
+
 from autograder import nbgrader_glue
 
 # nbgrader starts `alembic` by its bare name, which is found only where the environment is activated.
@@ -15,7 +17,9 @@ os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.envir
 
 root = Path(__file__).resolve().parent
 course = root / "course"
+problems = root / "problems"
 (course / "exchange").mkdir(parents=True, exist_ok=True)
+problems.mkdir(exist_ok=True)
 
 c = get_config()  # noqa: F821  (nbgrader defines it)
 
@@ -33,7 +37,10 @@ c.CourseDirectory.db_url = f"sqlite:///{course / 'gradebook.db'}"
 # point it at a folder that everybody can write to.
 c.Exchange.root = str(course / "exchange")
 c.Exchange.cache = str(course / "cache")
-c.Exchange.assignment_dir = "problems"
+# Fetch writes into problems/, and only what is not there yet; Submit hands in from there. An absolute
+# path, because Assignment List works in that folder.
+c.Exchange.assignment_dir = str(problems)
+c.ExchangeFetchAssignment.replace_missing_files = True
 
 c.GenerateAssignment.preprocessors = nbgrader_glue.generate_preprocessors()
 c.Autograde.sanitize_preprocessors = nbgrader_glue.sanitize_preprocessors()
@@ -43,6 +50,8 @@ c.GenerateFeedback.exporter_class = nbgrader_glue.FEEDBACK_EXPORTER
 c.HTMLExporter.filters = nbgrader_glue.PAGE_FILTERS
 
 c.Application.logging_config = {"formatters": {"console": {"class": nbgrader_glue.LOG_FORMATTER}}}
+# Without, each kernel that Validate starts warns that others could read its traffic.
+c.KernelManager.transport_encryption = "auto" if zmq.has("curve") else "disabled"
 
 c.ClearSolutions.code_stub = {"python": nbgrader_glue.CODE_STUB}
 c.ClearSolutions.text_stub = nbgrader_glue.TEXT_STUB

@@ -16,7 +16,8 @@ def main(arguments: list[str] | None = None) -> int:
     commands.add_parser("problems", help="write the student notebooks to problems/")
     commands.add_parser(
         "lab",
-        help="open JupyterLab on the first lesson; further arguments go to JupyterLab",
+        help="open JupyterLab on the first lesson, or with --instructor on all of the course; "
+        "further arguments go to JupyterLab",
         add_help=False,
     )
     grading = commands.add_parser(
@@ -105,6 +106,20 @@ def problems(root: Path) -> int:
 
         write_problem(root, source.parent.name, folder)
         say(f"{shown}: written")
+    return _tell_jupyter()
+
+
+def _tell_jupyter() -> int:
+    """Have plain `jupyter lab` know the course too; 0 also where it can't."""
+    from autograder import lab_server  # imports Jupyter
+
+    try:
+        lab_server.enable()
+    except OSError as error:
+        _complain(
+            f"plain `jupyter lab` will not know the course ({error}); "
+            "start `autograder lab` in its place"
+        )
     return 0
 
 

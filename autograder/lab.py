@@ -1,6 +1,7 @@
-"""JupyterLab, as `make lab` and `autograder lab` start it."""
+"""JupyterLab, as `make lab` and `autograder lab` start it: for a student, or for an instructor."""
 
 import json
+import logging
 import os
 import socket
 import sys
@@ -13,13 +14,20 @@ if TYPE_CHECKING:
 
 FIRST_LESSON = "lessons/00-start-here.ipynb"
 FIRST_PROBLEM = "problems/p3-pendulum/p3-pendulum.ipynb"
+INSTRUCTORS_EXTENSIONS = (
+    "@jupyter/nbgrader:course-list",
+    "@jupyter/nbgrader:create-assignment",
+    "@jupyter/nbgrader:formgrader",
+)
 
 
 def lab(arguments: list[str]) -> int:
     """Serve JupyterLab from the course's folder until it is stopped; its exit status.
 
-    `arguments` go to JupyterLab and win over what is set here. One line on stdout says which
-    address to open; where the server cannot start, one line on stderr says what to do.
+    With `--instructor`, it shows all of the course, and nbgrader's Formgrader and Create Assignment;
+    without, what a student needs. The other `arguments` go to JupyterLab and win over what is set
+    here. One line on stdout says which address to open; where the server cannot start, one line on
+    stderr says what to do.
     """
     root = Path.cwd()
     if not (root / "lessons").is_dir():
@@ -36,20 +44,23 @@ def lab(arguments: list[str]) -> int:
 
     from jupyterlab.labapp import LabApp  # takes a second
 
+    student = "--instructor" not in arguments
+    arguments = [argument for argument in arguments if argument != "--instructor"]
     # JupyterLab's state lives beside the environment, so that this course and a student's other
     # projects do not open each other's notebooks.
-    state = root / ".venv" / "lab"
+    state = root / ".venv" / ("lab" if student else "lab-of-instructor")
+    _write_settings(state / "settings", student)
     opens = "/lab"
     first = [path for path in (FIRST_LESSON, FIRST_PROBLEM) if (root / path).exists()]
-    if first and not any((state / "workspaces").glob("*")):
+    if student and first and not any((state / "workspaces").glob("*")):
         _lay_out(state / "workspaces", first)
         opens = f"/lab/tree/{first[0]}?file-browser-path=/"
-    # Unasked, it would ask a student first of all whether to fetch Jupyter's news.
-    news = {"@jupyterlab/apputils-extension:notification": {"fetchNews": "false"}}
-    (state / "settings").mkdir(parents=True, exist_ok=True)
-    (state / "settings" / "overrides.json").write_text(json.dumps(news), encoding="utf-8")
 
-    server = LabApp.initialize_server([*_settings(root, state, opens), *arguments])
+    settings = _settings(root, state, opens)
+    if student:
+        settings.append("--CourseContents.for_student=True")
+    server = LabApp.initialize_server([*settings, *arguments])
+    logging.getLogger("asyncio").addFilter(_is_an_error)
     print(f"\n    Open {_address(server)}\n    Stop with Ctrl-C\n", flush=True)
     # Jupyter would print the address again, five times over.
     server.identity_provider.token_generated = False
@@ -57,10 +68,28 @@ def lab(arguments: list[str]) -> int:
     return 0
 
 
+def _is_an_error(record: logging.LogRecord) -> bool:
+    """False where a browser's page was closed or loaded again while a kernel wrote to it."""
+    from tornado.websocket import WebSocketClosedError
+
+    return not (record.exc_info and isinstance(record.exc_info[1], WebSocketClosedError))
+
+
+def _write_settings(folder: Path, student: bool) -> None:
+    """JupyterLab's own settings: which of its parts are there, and what they ask for."""
+    # Unasked, it would ask a student first of all whether to fetch Jupyter's news.
+    overrides = {"@jupyterlab/apputils-extension:notification": {"fetchNews": "false"}}
+    page = {"disabledExtensions": list(INSTRUCTORS_EXTENSIONS) if student else []}
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "overrides.json").write_text(json.dumps(overrides), encoding="utf-8")
+    (folder / "page_config.json").write_text(json.dumps(page), encoding="utf-8")
+
+
 def _settings(root: Path, state: Path, opens: str) -> list[str]:
     """What JupyterLab is started with: quiet, and asking nothing of any host."""
     settings = [
         f"--ServerApp.root_dir={root}",
+        "--ServerApp.jpserver_extensions={'autograder.lab_server': True}",
         f"--LabApp.default_url={opens}",
         f"--LabApp.workspaces_dir={state / 'workspaces'}",
         f"--LabApp.app_settings_dir={state / 'settings'}",
@@ -117,26 +146,18 @@ def _is_free(port: int) -> bool:
 
 
 def _lay_out(workspaces: Path, notebooks: list[str]) -> None:
-    """Write the layout of the first start: the notebooks side by side, the file browser open."""
+    """Write the layout of the first start: a tab a notebook, the first shown; the file browser."""
     from jupyterlab_server.workspaces_handler import WorkspacesManager
 
-    areas = [
-        {"type": "tab-area", "currentIndex": 0, "widgets": [f"notebook:{path}"]}
-        for path in notebooks
-    ]
+    widgets = [f"notebook:{path}" for path in notebooks]
     data = {
         f"notebook:{path}": {"data": {"path": path, "factory": "Notebook"}} for path in notebooks
     }
     data["file-browser-filebrowser:cwd"] = {"path": ""}
     data["layout-restorer:data"] = {
         "main": {
-            "dock": {
-                "type": "split-area",
-                "orientation": "horizontal",
-                "sizes": [1 / len(areas)] * len(areas),
-                "children": areas,
-            },
-            "current": f"notebook:{notebooks[0]}",
+            "dock": {"type": "tab-area", "currentIndex": 0, "widgets": widgets},
+            "current": widgets[0],
         },
         "left": {"collapsed": False, "visible": True, "current": "filebrowser"},
         "right": {"collapsed": True, "visible": True},

@@ -260,6 +260,7 @@ class Room:
         self.close()
         if innocent:
             raise OSError("the process that keeps the sandboxes ended, and this one with it")
+        raise kind(f"{why}: {said}" if said else why)
 
 
 def _best_way() -> Way:

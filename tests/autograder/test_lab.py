@@ -1,10 +1,12 @@
 """What `autograder lab` says when it cannot start; that it starts is tested in the browser."""
 
+import logging
 import socket
 
 import pytest
+from tornado.websocket import WebSocketClosedError
 
-from autograder.lab import lab
+from autograder.lab import _is_an_error, lab
 
 
 @pytest.fixture
@@ -45,3 +47,11 @@ def test_port_without_a_number(course, capsys):
 def test_wrong_folder(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert "change to the folder of the course" in refusal(capsys)
+
+
+@pytest.mark.parametrize(("error", "shown"), [(WebSocketClosedError(), False), (OSError(), True)])
+def test_a_page_that_is_closed_is_no_error(caplog, monkeypatch, error, shown):
+    log = logging.getLogger("asyncio")
+    monkeypatch.setattr(log, "filters", [_is_an_error])
+    log.error("Task exception was never retrieved", exc_info=error)
+    assert bool(caplog.records) == shown

@@ -25,7 +25,7 @@ CHROMIUM = (
 PATIENCE = 120_000  # ms
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def course(tmp_path_factory):
     """A student's copy of the course, in a path with a space and letters beyond ASCII."""
     root = tmp_path_factory.mktemp("browser") / "Räume und Momente"
@@ -37,7 +37,7 @@ def course(tmp_path_factory):
     return root
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def address(course):
     """What `autograder lab` says to open, while it runs."""
     log = course / "jupyter.log"
@@ -63,17 +63,34 @@ def address(course):
             server.terminate()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def page(needs, address):
-    """The address opened in Chromium, as a student first sees it."""
+    """The address opened in Chromium, on a small laptop, as a student first sees it."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=needs("chromium"), headless=True, args=CHROMIUM
         )
-        page = browser.new_page(viewport={"width": 1600, "height": 1000})
+        page = browser.new_page(viewport={"width": 1366, "height": 768})
         # Generous, for a machine that is busy with other things; what is there sooner is seen sooner.
         page.set_default_timeout(PATIENCE)
         expect.set_options(timeout=PATIENCE)
         page.goto(address)
         yield page
         browser.close()
+
+
+@pytest.fixture
+def opened(page, address):
+    """Opens a notebook, or none, beside no other: the layout of the first start stays as it is."""
+
+    def open_alone(path: str = "") -> None:
+        there = f"/lab/workspaces/other/tree/{path}" if path else "/lab/workspaces/other"
+        page.goto(re.sub(r"/lab[^?]*", there, address) + "&reset")
+
+    return open_alone
+
+
+@pytest.fixture
+def terminal(course):
+    """What JupyterLab and its kernels have printed so far, beside the address."""
+    return lambda: (course / "jupyter.log").read_text()

@@ -174,9 +174,8 @@ def stored(course, made):
     return path
 
 
-def test_in_jupyterlab_untrusted_then_run_then_as_stored_output(page, address, stored, tmp_path):
-    there = re.sub(r"/lab[^?]*", f"/lab/tree/{stored.name}", address)
-    page.goto(there)
+def test_in_jupyterlab_untrusted_then_run_then_as_stored_output(page, opened, stored, tmp_path):
+    opened(stored.name)
     panel = page.locator(".jp-NotebookPanel", has_text="Animation(arm, t, q")
     output = panel.locator(".jp-OutputArea-output")
     figure = output.get_by_role("img", name="A free arm falls and swings.").last
@@ -214,7 +213,7 @@ def test_in_jupyterlab_untrusted_then_run_then_as_stored_output(page, address, s
     saved = nbformat.read(stored, nbformat.NO_CONVERT)
     assert saved.cells[0].execution_count == 1
     assert len(stored.read_bytes()) < 50_000
-    page.goto(there)
+    opened(stored.name)
     expect(output.locator("canvas")).to_be_visible(timeout=60_000)
     player.move_to(1.0)
     assert player.time == 1.0

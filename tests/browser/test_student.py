@@ -84,18 +84,39 @@ def problem(page, tmp_path):
     return Problem(page, tmp_path)
 
 
-def test_lesson_and_problem_stand_side_by_side(page, problem):
-    panels = page.locator(".jp-NotebookPanel:visible")
-    expect(panels).to_have_count(2)
-    expect(problem.panel).to_be_visible()
-    lesson, other = panels.nth(0).bounding_box(), panels.nth(1).bounding_box()
-    assert lesson["x"] + lesson["width"] <= other["x"]
-    for folder in ("lessons", "problems"):
-        expect(page.locator(".jp-DirListing-itemName", has_text=folder)).to_be_visible()
+def test_first_lesson_is_open_alone_and_the_problem_is_its_second_tab(page, address, problem):
+    page.goto(address)
+    tabs = page.locator(".lm-DockPanel-tabBar .lm-TabBar-tab")
+    expect(tabs).to_have_text(["00-start-here.ipynb", "p3-pendulum.ipynb"])
+    lesson = page.locator(".jp-NotebookPanel:visible")
+    expect(lesson).to_have_count(1)
+    expect(lesson).to_contain_text("Start here")
+    table, room = (
+        lesson.locator(where).first.evaluate("e => [e.scrollWidth, e.parentElement.clientWidth]")
+        for where in (".jp-RenderedMarkdown table", ".jp-WindowedPanel-outer")
+    )
+    assert table[0] <= table[1]
+    assert room[1] > 900
+    for name in ("lessons", "problems"):
+        expect(page.locator(".jp-DirListing-itemName", has_text=name)).to_be_visible()
+    for name in ("solutions", "course", "nbgrader_config.py"):
+        expect(page.locator(".jp-DirListing-itemName", has_text=name)).to_have_count(0)
     problem.picture("first view")
 
 
-def test_problem_from_blank_to_validated(page, problem):
+def test_notebooks_that_are_only_opened_stay_unchanged(page, problem, terminal):
+    tabs = page.locator(".lm-DockPanel-tabBar .lm-TabBar-tab")
+    for name in ("00-start-here", "p3-pendulum"):
+        tabs.filter(has_text=name).click()
+        expect(tabs.filter(has_text=name)).to_have_class(re.compile("lm-mod-current"))
+        expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle")
+    expect(problem.panel).to_be_visible()
+    page.wait_for_timeout(1000)  # the kernels have said which language they speak
+    assert page.locator(".jp-mod-dirty").count() == 0
+    assert terminal() == ""
+
+
+def test_problem_from_blank_to_validated(page, problem, terminal):
     problem.run("from autograder import check")
 
     problem.run("def M(")
@@ -132,12 +153,13 @@ def test_problem_from_blank_to_validated(page, problem):
 
     # Nothing has come in between: no offer of news, no other notice. One would still be there.
     assert page.locator(".Toastify__toast").count() == 0
+    assert terminal() == ""
 
 
 @pytest.fixture
-def inertia(page, address, tmp_path):
+def inertia(page, opened, tmp_path):
     """p1-inertia, opened."""
-    page.goto(re.sub(r"/lab[^?]*", "/lab/tree/problems/p1-inertia/p1-inertia.ipynb", address))
+    opened("problems/p1-inertia/p1-inertia.ipynb")
     inertia = Problem(page, tmp_path, "Problem 1: the inertia matrix")
     expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle")
     return inertia

@@ -1,0 +1,101 @@
+"""What every Jupyter server of the course's environment does for a course, however it was started.
+
+`make lab`, `autograder lab` and plain `jupyter lab` all load this server extension. A server that
+is started outside a course is left as it is.
+"""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import zmq
+from jupyter_server.extension.serverextension import toggle_server_extension_python
+from jupyter_server.serverapp import ServerApp
+from jupyter_server.services.contents.largefilemanager import AsyncLargeFileManager
+from traitlets import Bool
+
+# What a student has no use for. What a student adds to the course's folder is shown.
+NOT_FOR_STUDENTS = (
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "LICENSE",
+    "Makefile",
+    "README.md",
+    "armdyn.egg-info",
+    "autograder",
+    "build",
+    "constraints.txt",
+    "course",
+    "docs",
+    "lib",
+    "nbgrader_config.py",
+    "pyproject.toml",
+    "solutions",
+    "tests",
+)
+
+
+class CourseContents(AsyncLargeFileManager):
+    """The course's files; a notebook that is only opened stays unchanged."""
+
+    for_student = Bool(False, help="Show only what a student has a use for.").tag(config=True)
+
+    async def get(self, path: str, *arguments: Any, **options: Any) -> dict[str, Any]:
+        """The model of a file or a folder; as AsyncLargeFileManager says."""
+        model = await super().get(path, *arguments, **options)
+        if model["content"] is None:
+            return model
+        if model["type"] == "directory" and self.for_student and not path.strip("/"):
+            model["content"] = [e for e in model["content"] if e["name"] not in NOT_FOR_STUDENTS]
+        elif model["type"] == "notebook":
+            _know_language(model["content"]["metadata"])
+        return model
+
+
+def _know_language(metadata: dict[str, Any]) -> None:
+    """Say which Python will run the notebook, if it is this one.
+
+    JupyterLab writes it into each notebook it opens, and takes a notebook where it was not there,
+    or was another version, for changed.
+    """
+    from ipykernel.ipkernel import IPythonKernel  # takes half a second
+
+    if metadata.get("kernelspec", {}).get("name") == "python3":
+        metadata["language_info"] = dict(IPythonKernel.language_info)
+
+
+def course_of(folder: Path) -> Path | None:
+    """The course that the folder is, or is in."""
+    for candidate in (folder, *folder.parents):
+        if (candidate / "nbgrader_config.py").is_file() and (candidate / "lessons").is_dir():
+            return candidate
+    return None
+
+
+def enable() -> None:
+    """Have every Jupyter server of this environment load this; OSError where it can't be written."""
+    toggle_server_extension_python(__name__, enabled=True)
+
+
+def _jupyter_server_extension_points() -> list[dict[str, str]]:
+    return [{"module": __name__}]
+
+
+def _link_jupyter_server_extension(server: ServerApp) -> None:
+    course = course_of(Path(server.root_dir).resolve())
+    if course is None:
+        return
+    # `jupyter lab lessons/…` would show lessons/ alone, where no link to a problem leads anywhere.
+    server.root_dir = str(course)
+    # Assignment List looks for nbgrader_config.py in problems/, and here.
+    paths = [str(course), *filter(None, [os.environ.get("JUPYTER_CONFIG_PATH")])]
+    os.environ["JUPYTER_CONFIG_PATH"] = os.pathsep.join(paths)
+    if "contents_manager_class" not in server.config.ServerApp:
+        server.contents_manager_class = CourseContents
+    if zmq.has("curve"):
+        # Without, each kernel warns in the terminal that others could read its traffic.
+        server.config.MappingKernelManager.setdefault("transport_encryption", "auto")
+
+
+def _load_jupyter_server_extension(server: ServerApp) -> None:
+    """Nothing is served beside what Jupyter serves."""
