@@ -189,7 +189,7 @@ class Sitting:
         last = replies[-1].fault
         if last and last.kind is FaultKind.NO_TOOLS and last.message in self._missing():
             raise CannotRunError(last.message)
-        if last:
+        if last and not self._is_over():
             replies[-1] = Reply(fault=explained(calls[0].name, last, self._cells))
         return replies
 

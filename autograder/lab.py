@@ -69,10 +69,12 @@ def lab(arguments: list[str]) -> int:
 
 
 def _is_an_error(record: logging.LogRecord) -> bool:
-    """False where a browser's page was closed or loaded again while a kernel wrote to it."""
+    """False where a browser's page was closed or loaded again while something was written to it."""
+    from tornado.iostream import StreamClosedError
     from tornado.websocket import WebSocketClosedError
 
-    return not (record.exc_info and isinstance(record.exc_info[1], WebSocketClosedError))
+    closed = (StreamClosedError, WebSocketClosedError)
+    return not (record.exc_info and isinstance(record.exc_info[1], closed))
 
 
 def _write_settings(folder: Path, student: bool) -> None:

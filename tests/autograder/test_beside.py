@@ -53,7 +53,8 @@ def test_cells_find_them(furnished, way, cell, expected):
 @EVERY_WAY
 def test_without_any_a_module_that_a_cell_writes_is_found(room):
     room.run("%%writefile written.py\nx = 3")
-    assert printed(room, "import written; print(written.x)") == "3"
+    cell = "import written, os, shutil\nprint(written.x)\nos.remove('written.py')\n"
+    assert printed(room, cell + "shutil.rmtree('__pycache__', ignore_errors=True)") == "3"
 
 
 def test_no_file_takes_the_place_of_the_rooms_own(furnished):

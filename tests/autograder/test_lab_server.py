@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 import urllib.request
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -107,7 +108,7 @@ def contents():
 )
 def test_jupyterlab_finds_nothing_to_add_to_a_notebook(contents, path):
     """It adds what the kernel says of itself and its specification, and ids to cells of nbformat 4.4."""
-    notebook = asyncio.run(contents.get(str(path)))["content"]
+    notebook = awaited(contents.get(str(path)))["content"]
     kernel = KernelSpecManager().get_kernel_spec("python3")
     assert notebook["metadata"]["language_info"] == IPythonKernel.language_info
     assert notebook["metadata"]["kernelspec"] == {
@@ -122,12 +123,18 @@ def test_a_notebook_for_another_kernel_is_left_as_it_is(tmp_path):
     metadata = {"kernelspec": {"name": "octave", "display_name": "Octave"}}
     notebook = {"cells": [], "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
     (tmp_path / "other.ipynb").write_text(json.dumps(notebook))
-    model = asyncio.run(CourseContents(root_dir=str(tmp_path)).get("other.ipynb"))
+    model = awaited(CourseContents(root_dir=str(tmp_path)).get("other.ipynb"))
     assert model["content"]["metadata"] == metadata
 
 
+def awaited(coroutine):
+    """What it gives; in a thread, as this one may have the browser's event loop."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, coroutine).result()
+
+
 def names(contents: CourseContents, folder: str = "") -> set[str]:
-    return {entry["name"] for entry in asyncio.run(contents.get(folder))["content"]}
+    return {entry["name"] for entry in awaited(contents.get(folder))["content"]}
 
 
 def test_a_student_sees_lessons_problems_and_what_is_their_own(tmp_path):

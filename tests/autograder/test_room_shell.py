@@ -13,7 +13,7 @@ from autograder.grade import stream
 from autograder.problems import CHECKS
 from autograder.sandbox import Room, Way
 from autograder.verdict import State
-from autograder.wall import Call
+from autograder.wall import PATIENCE, Call
 from tests.autograder.rooms import failed, printed
 from tests.submissions.p3_pendulum import RIGHT
 
@@ -272,9 +272,9 @@ class TestKernel:
         )
 
     def test_an_await_without_end_costs_its_limit_and_no_later_cell(self, room):
-        source = "import asyncio\nawait asyncio.sleep(0.5)\nwent_on = True"
-        assert failed(room, source, 0.3).startswith("TimeoutError")
-        later = "await asyncio.sleep(0.4)\nprint('went_on' in globals())"
+        source = "import asyncio\nawait asyncio.sleep(0.8)\nwent_on = True"
+        assert failed(room, source, 0.5 / PATIENCE).startswith("TimeoutError")
+        later = "await asyncio.sleep(0.6)\nprint('went_on' in globals())"
         assert printed(room, later) == "False"
 
     def test_a_loop_that_a_call_closed_is_made_again(self, room):

@@ -246,7 +246,7 @@ def test_a_function_that_never_returns_is_stopped_and_named(look_in, monkeypatch
 
 def test_the_limit_of_a_whole_cell_is_not_the_looks(monkeypatch):
     with pytest.raises(TimeLimitError), Look(("p3-M",), {}):
-        raise TimeLimitError
+        raise TimeLimitError(2.0, starved=False)
 
 
 def test_an_unknown_id_is_refused(look_in):
