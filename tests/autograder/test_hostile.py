@@ -204,7 +204,7 @@ def test_what_the_fallback_does_not_stop_is_so(name, release, before, outside, m
 
 
 @pytest.mark.parametrize("name", STOPPED_WITHOUT_WALLS)
-def test_what_the_fallback_stops_too(name, release, before, outside, monkeypatch):
+def test_what_the_fallback_stops_too(name, release, before, outside, short_limits, monkeypatch):
     monkeypatch.setattr(sandbox, "_best_way", lambda: Way.NONE)
     attack = ATTACKS[name]
     graded = grade(attack.edit(release), SOURCE, "seed")
