@@ -59,7 +59,7 @@ def bubblewrapped(script: str) -> tuple[list[str], dict[str, str]]:
             command += ["--ro-bind", folder, folder]
     for folder in python_folders():
         command += [*_parents(folder), "--ro-bind", folder, folder]
-    for link, target in alternatives().items():
+    for link, target in (python_links(sys.executable, python_folders()) | alternatives()).items():
         command += [*_parents(link), "--symlink", target, link]
     for path in java_settings():
         command += [*_parents(path), "--ro-bind", path, path]
@@ -141,6 +141,20 @@ def python_folders() -> list[str]:
         if not any(Path(folder).is_relative_to(outer) for outer in ["/usr", *kept]):
             kept.append(folder)
     return kept
+
+
+def python_links(executable: str, bound: list[str]) -> dict[str, str]:
+    """Links on the way from an environment's Python to the real one, and where they point.
+
+    Such as one in somebody's own folder of programs; those in `bound` folders and in /usr come along.
+    """
+    links, path = {}, Path(executable)
+    while path.is_symlink():
+        target = path.parent / path.readlink()
+        if not any(path.is_relative_to(folder) for folder in ["/usr", "/bin", *bound]):
+            links[str(path)] = str(target)
+        path = Path(os.path.normpath(target))
+    return links
 
 
 # What Debian's compilers and Octave go through /etc for: two programs, and two libraries.

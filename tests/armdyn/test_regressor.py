@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from armdyn import Link, Manipulator, Pendulum, Planar2R, PlanarChain, SerialChain
@@ -226,6 +226,9 @@ def test_a_planar_chain_has_three_per_link(chain):
 def test_base_parameters_are_all_that_the_torque_shows(arm):
     base = base_parameters(arm)
     Y = stacked(arm)
+    shown = np.linalg.svd(Y / np.maximum(np.linalg.norm(Y, axis=0), 1e-12), compute_uv=False)
+    # Of axes that are parallel but for rounding, nobody can say which parameters show.
+    assume(not np.any((shown > 1e-14 * shown[0]) & (shown < 1e-6 * shown[0])))
     kept = Y[:, list(base.independent)]
     assert_close(kept @ base.combination, Y, tolerance=1e-6)
     # Independent: no base parameter can be changed without a trace.

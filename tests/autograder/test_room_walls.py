@@ -2,6 +2,7 @@
 
 import os
 import socket
+import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from autograder.bubblewrap import (
     alternatives,
     java_settings,
     python_folders,
+    python_links,
 )
 from autograder.sandbox import Room
 from tests.autograder.rooms import WALLED_WAYS, failed, gone, printed, sleeper
@@ -107,9 +109,9 @@ class TestWalls:
             "    found += [os.path.join(at, name) for name in files]\n"
             "print(*sorted(found))",
         )
-        assert found.split() == sorted(
-            [*(f"/room/{name}" for name in INSIDE.values()), *alternatives(), *java_settings()]
-        )
+        links = python_links(sys.executable, python_folders()) | alternatives()
+        runner = [f"/room/{name}" for name in INSIDE.values()]
+        assert found.split() == sorted([*runner, *links, *java_settings()])
 
     def test_the_projects_packages_are_not_importable(self, room):
         found = printed(
@@ -232,3 +234,15 @@ class TestWalls:
             assert printed(other, "import os\nprint(os.system('true'))") == "0"
             with Room(way) as third:
                 assert printed(third, "print('alive')") == "alive"
+
+
+def test_links_to_python_outside_the_environment_are_laid_in_too(tmp_path):
+    """As those of a version manager, or of somebody's own folder of programs."""
+    own, python = tmp_path / "own" / "python3", tmp_path / "environment" / "bin" / "python"
+    for path, target in ((own, "/usr/bin/env"), (python.parent / "python3", own)):
+        path.parent.mkdir(parents=True)
+        path.symlink_to(target)
+    python.symlink_to("python3")
+    environment = str(tmp_path / "environment")
+    assert python_links(str(python), [environment]) == {str(own): "/usr/bin/env"}
+    assert python_links("/usr/bin/env", [environment]) == {}
