@@ -8,7 +8,7 @@ import re
 import sys
 from collections.abc import Collection
 
-from autograder.wall import one_line, said_by
+from autograder.wall import kind_of, one_line, said_by
 
 
 class Definitions:
@@ -65,4 +65,4 @@ def _defines(source: str | None, name: str) -> bool:
 def _said_of(error: BaseException) -> str:
     syntax = isinstance(error, SyntaxError)
     said = f"{error.msg}, line {error.lineno}" if syntax else said_by(error)
-    return one_line(f"{type(error).__name__}: {said}", 150)
+    return one_line(f"{kind_of(error)}: {said}", 150)

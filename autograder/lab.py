@@ -60,7 +60,8 @@ def lab(arguments: list[str]) -> int:
     if student:
         settings.append("--CourseContents.for_student=True")
     server = LabApp.initialize_server([*settings, *arguments])
-    logging.getLogger("asyncio").addFilter(_is_an_error)
+    for log in (logging.getLogger("asyncio"), server.log):
+        log.addFilter(_is_an_error)
     print(f"\n    Open {_address(server)}\n    Stop with Ctrl-C\n", flush=True)
     # Jupyter would print the address again, five times over.
     server.identity_provider.token_generated = False

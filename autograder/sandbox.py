@@ -236,7 +236,7 @@ class Room:
                 self._lost("it wrote too much")
             left = deadline - time.monotonic()
             if left <= 0:
-                self._lost(f"no reply within {clock:g} s", StarvedError)
+                self._lost(f"no reply within {max(clock, 0):g} s", StarvedError)
             if not select.select([stdout], [], [], min(left, LOOK_SECONDS))[0]:
                 self._look()
                 # Of calls, what the last reply left was not asked for: it is taken as of now.

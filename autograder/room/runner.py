@@ -173,6 +173,8 @@ def _error(shell, source, kind, value, lines, wall):
     if kind is wall.TimeLimitError:
         kind, value, lines = TimeoutError, f"this cell ran longer than {value.seconds:g} s", []
     elif isinstance(value, SyntaxError):
+        if wall.kind_of(value) == "SyntaxError":
+            kind = SyntaxError
         at, line = 0, ""
         value, lines = f"{value.msg}, line {value.lineno}: {(value.text or '').strip()}", []
     elif is_offline:

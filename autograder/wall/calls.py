@@ -184,6 +184,12 @@ def _failing_line(error: BaseException) -> str:
     return shortened(f"line {own[-1].lineno}: {own[-1].line}".rstrip(": "))
 
 
+def kind_of(error: BaseException) -> str:
+    """The name of an error's class; of Python's private kinds of SyntaxError, that."""
+    name = type(error).__name__
+    return "SyntaxError" if isinstance(error, SyntaxError) and name.startswith("_") else name
+
+
 def said_by(error: BaseException) -> str:
     """The message of an error, whose class may be a student's own."""
     try:

@@ -5,12 +5,14 @@ from tests.submissions.attack import FORGE, GOT, LAST, attack, cheat, last
 
 @attack()
 def traces_the_caller(release):
-    """Traces every frame, its caller's too, and looks there for right values and for ways out."""
+    """Traces all frames but a library's, its caller's too, for right values and for ways out."""
     return cheat(
         release,
         f"""
 import sys, threading
 def trace(frame, event, argument):
+    if "site-packages" in frame.f_code.co_filename:
+        return None
     if {{"expected", "reference", "verdict"}} & set(frame.f_locals):
         print({GOT!r})
     if event == "return" and frame.f_code.co_name in ("answer", "read_numbers"):
