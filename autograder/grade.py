@@ -68,12 +68,12 @@ def grade(
     """Run the submission's cells in a sandbox and judge its graded functions outside.
 
     beside: files that its cells find. said: notes that come first.
-    seed: decides the random cases, together with the code of the repaired notebook: the same
-    submission gets the same verdicts again, and what one hand-in was shown of its cases is of no use
-    to the next. Each check has its own stream, so that adding a problem changes no other's cases.
-    A grade cell that no check belongs to gets no credit and says so. Where a sandbox is lost through
-    no fault of the notebook's, that is graded once more. OSError where that happens again, or no
-    sandbox starts.
+    seed: decides the random cases, together with the code of the repaired notebook and the files
+    beside it: the same submission gets the same verdicts again, and what one hand-in was shown of
+    its cases is of no use to the next. Each check has its own stream, so that adding a problem
+    changes no other's cases. A grade cell that no check belongs to gets no credit and says so. Where
+    a sandbox is lost through no fault of the notebook's, that is graded once more. OSError where that
+    happens again, or no sandbox starts.
     """
     try:
         return _graded(submission, source, seed, beside, said)

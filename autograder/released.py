@@ -26,10 +26,6 @@ def released(cell: NotebookNode) -> str:
     return stub if is_answer and not solved else "\n".join(lines)
 
 
-def same_text(one: str, other: str) -> bool:
-    """Whether two texts are the same but for white space, which editors change by themselves."""
-    return essence(one) == essence(other)
-
-
 def essence(text: str) -> str:
+    """The text without white space, which editors change by themselves."""
     return "".join(text.split())

@@ -11,7 +11,7 @@ from nbformat import NotebookNode
 
 from autograder.grade import Graded, grade
 from autograder.nbgrader_glue import write_problem
-from autograder.repair import grade_id
+from autograder.recognise import grade_id
 from autograder.verdict import State
 from tests.submissions import answers
 from tests.submissions.dressed import dressed

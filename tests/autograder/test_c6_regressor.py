@@ -15,7 +15,7 @@ from autograder.mistakes import c6_regressor as mistakes
 from autograder.problems import CHECKS
 from autograder.problems.c6_regressor import CHECKS as C6
 from autograder.problems.c6_regressor import LEAST_SHOWN, MOTIONS
-from autograder.repair import grade_id
+from autograder.recognise import grade_id
 from autograder.verdict import State
 from tests.autograder.judging import assert_right, function_of, judged, judged_in, namespace_of
 from tests.autograder.problems import problem, states

@@ -14,7 +14,7 @@ from autograder.judge import HIDDEN_CASES, VISIBLE_CASES
 from autograder.mistakes import p4_gravity as mistakes
 from autograder.problems import CHECKS
 from autograder.problems.p4_gravity import CHECKS as P4
-from autograder.repair import grade_id
+from autograder.recognise import grade_id
 from autograder.verdict import State
 from tests.autograder.judging import (
     assert_right,

@@ -10,7 +10,7 @@ import nbformat
 import pytest
 
 from autograder.problems import CHECKS
-from autograder.repair import grade_id
+from autograder.recognise import grade_id
 from autograder.verdict import State
 from tests.autograder.problems import NAMES, ROOT, problem
 from tests.submissions.answers import cell_of
