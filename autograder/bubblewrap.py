@@ -22,6 +22,8 @@ INSIDE = {
     HERE / "room" / "left_out.py": "left_out.py",
     HERE / "room" / "inline_figures.py": "inline_figures.py",
     HERE / "room" / "forks.py": "forks.py",
+    HERE / "room" / "unwalled_forks.py": "unwalled_forks.py",
+    HERE / "room" / "loaded.py": "loaded.py",
     HERE / "room" / "first.py": "first.py",
     HERE / "room" / "watch.py": "watch.py",
     HERE / "room" / "namespaces.py": "namespaces.py",

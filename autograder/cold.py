@@ -2,20 +2,16 @@
 
 import os
 import select
-import shutil
 import signal
 import socket
 import subprocess
-import sys
 import tempfile
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
-from autograder import warm
-from autograder.bubblewrap import ENVIRONMENT, INSIDE, bubblewrapped
-
-# For what is left without walls to be ended.
-END_SECONDS = 10.0
+from autograder import unwalled, warm
+from autograder.bubblewrap import bubblewrapped
 
 
 class ColdProcess:
@@ -24,8 +20,8 @@ class ColdProcess:
     def __init__(self, walled: bool):
         self._walled = walled
         self._folder = tempfile.TemporaryDirectory(prefix="room-")
-        start = bubblewrapped("runner.py") if walled else _unwalled(self.folder)
-        command, environment = start
+        start = bubblewrapped if walled else partial(unwalled.command, folder=self.folder)
+        command, environment = start("runner.py")
         mine, watchs = socket.socketpair()
         with watchs:
             self._process = subprocess.Popen(
@@ -82,16 +78,5 @@ class ColdProcess:
             process = os.pidfd_open(self._process.pid)
         except OSError:
             return
-        select.select([process], [], [], END_SECONDS)
+        select.select([process], [], [], unwalled.END_SECONDS)
         os.close(process)
-
-
-def _unwalled(folder: Path):
-    room = folder / ".room"  # apart from what cells write, and what was handed in
-    for path, name in INSIDE.items():
-        (room / name).parent.mkdir(exist_ok=True, parents=True)
-        shutil.copy(path, room / name)
-    environment = ENVIRONMENT | {
-        name: str(folder) for name in ("HOME", "IPYTHONDIR", "MPLCONFIGDIR", "TMPDIR")
-    }
-    return [sys.executable, "-I", "-u", str(room / "runner.py")], environment

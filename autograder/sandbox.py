@@ -1,9 +1,9 @@
 """A room of its own for a student's code: a process that can reach nothing but its own memory.
 
 With bubblewrap the process has no network, no home directory, no course folder, none of this
-project's files but the runner, and a read-only system. Such a room is a fork of a warm process
-where the kernel allows it, and a process of its own where not. Without bubblewrap (macOS, some
-containers) there are limits on time, memory, processes and file size only, and `Room` says so once.
+project's files but the runner, and a read-only system. Without bubblewrap (macOS, some containers)
+there are limits on time, memory, processes and file size only, and `Room` says so once. Either way a
+room is a fork of a warm process where the system allows it, and a process of its own where not.
 
 Time is the processor's, of all processes of a room together: on a busy machine an honest answer takes
 longer, and no more of that. Beside each such limit is one of the clock, PATIENCE times as long.
@@ -16,14 +16,17 @@ import math
 import os
 import select
 import socket
+import sys
 import time
 from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import Enum
 from functools import cache
 
 from autograder import warm
 from autograder.bubblewrap import bubblewrapped, has_bubblewrap
 from autograder.cold import ColdProcess
+from autograder.unwalled import UnwalledNursery, UnwalledProcess
 from autograder.wall import (
     CALL_SECONDS,
     MOST_NUMBERS,
@@ -61,7 +64,16 @@ class Way(Enum):
 
     WARM = "forked from a warm process, in bubblewrap"
     COLD = "started in bubblewrap"
-    NONE = "started without walls"
+    UNWALLED = "forked from a warm process, without walls"
+    UNWALLED_COLD = "started without walls"
+
+    @property
+    def walled(self) -> bool:
+        return self in (Way.WARM, Way.COLD)
+
+    @property
+    def warm(self) -> bool:
+        return self in (Way.WARM, Way.UNWALLED)
 
 
 class RoomLostError(Exception):
@@ -89,7 +101,7 @@ class Room:
     def __init__(self, way: Way | None = None, files: Mapping[str, bytes] | None = None):
         self.way = way or _best_way()
         self._buffer = bytearray()
-        self._process = _start_warm() if self.way is Way.WARM else ColdProcess(self.way is Way.COLD)
+        self._process = _start(self.way)
         os.set_blocking(self._process.requests, False)
         self._before = self._used = 0.0
         try:
@@ -108,7 +120,7 @@ class Room:
         """A room in which what notebooks import is there already, at nobody's expense."""
         room = cls()
         try:
-            if room.way is not Way.WARM:
+            if not room.way.warm:
                 room.run(LOAD, START_SECONDS)
             if files:
                 room._lay(files)
@@ -264,35 +276,55 @@ class Room:
 
 
 def _best_way() -> Way:
-    if not has_bubblewrap():
-        return Way.NONE
-    return Way.WARM if _warm_works() else Way.COLD
+    warm_way, cold_way = Way.UNWALLED, Way.UNWALLED_COLD
+    if has_bubblewrap():
+        warm_way, cold_way = Way.WARM, Way.COLD
+    return warm_way if _works(warm_way) else cold_way
 
 
 @cache
-def _warm_works() -> bool:
-    """Whether rooms can be forked here; a word in the log where not."""
+def _works(way: Way) -> bool:
+    """Whether rooms can be forked this way here; a word in the log where not."""
+    if sys.platform != "linux":
+        return False
     try:
-        with Room(Way.WARM):
+        with Room(way):
             return True
     except OSError as error:
         log.warning("each notebook starts a Python of its own, which takes longer: %s", error)
         return False
 
 
-def _start_warm() -> warm.WarmProcess:
-    return _nursery().start_room()
+def _start(way: Way):
+    if not way.warm:
+        return ColdProcess(way.walled)
+    nursery = _nursery(way)
+    return warm.WarmProcess(nursery) if way.walled else UnwalledProcess(nursery)
 
 
-def _nursery() -> warm.Nursery:
-    return warm.nursery(lambda: warm.Nursery(*bubblewrapped("forks.py")))
+def _nursery(way: Way) -> warm.Nursery:
+    if way.walled:
+        return warm.nursery(way, lambda: warm.Nursery(*bubblewrapped("forks.py")))
+    return warm.nursery(way, UnwalledNursery)
 
 
-def lend() -> socket.socket | None:
+@dataclass(frozen=True)
+class Lent:
+    """A process's warm process, for the processes that work for it."""
+
+    way: Way
+    channel: socket.socket
+
+    def close(self) -> None:
+        self.channel.close()
+
+
+def lend() -> Lent | None:
     """What lets another process `borrow` this one's warm process; None where rooms are not warm."""
-    return _nursery().lend() if _best_way() is Way.WARM else None
+    way = _best_way()
+    return Lent(way, _nursery(way).lend()) if way.warm else None
 
 
-def borrow(lent: socket.socket | None) -> None:
+def borrow(lent: Lent | None) -> None:
     if lent is not None:
-        warm.borrow(lent)
+        warm.borrow(lent.way, lent.channel)

@@ -15,7 +15,9 @@ import tempfile
 import threading
 import time
 import weakref
+from collections.abc import Callable
 from contextlib import suppress
+from enum import Enum
 from typing import ClassVar
 
 START_SECONDS = 60.0
@@ -23,7 +25,7 @@ END_SECONDS = 10.0
 
 
 class Nursery:
-    """A running warm process. `start_room` gives a fork of it; OSError where it cannot.
+    """A running warm process. `start_room` forks a room of it; OSError where it cannot.
 
     command, environment, more: what starts it, and subprocess.Popen's further arguments.
     """
@@ -66,15 +68,18 @@ class Nursery:
                 return self._channel.recv(16) == b"alive"
         return False
 
-    def start_room(self) -> "WarmProcess":
-        """A fork in namespaces of its own, where the runner starts."""
+    def start_room(self, folder: str = "") -> tuple[int, int, socket.socket]:
+        """Fork a room; what leads to its requests, its replies and its watch.
+
+        folder: where its cells run, for rooms without walls, which have no /tmp of their own.
+        """
         request_end, requests = os.pipe()
         replies, reply_end = os.pipe()
         handles, handle_end = socket.socketpair()
         passed = [request_end, reply_end, handle_end.fileno()]
         try:
             with self._lock:
-                socket.send_fds(self._channel, [b"room"], passed)
+                socket.send_fds(self._channel, [b"room" + os.fsencode(folder)], passed)
         except OSError as error:
             os.close(requests)
             os.close(replies)
@@ -84,7 +89,7 @@ class Nursery:
             os.close(request_end)
             os.close(reply_end)
             handle_end.close()
-        return WarmProcess(self, requests, replies, handles)
+        return requests, replies, handles
 
     def lend(self) -> socket.socket:
         """A copy of this end of the socket, from which another process makes a `LentNursery`."""
@@ -186,13 +191,14 @@ class WatchLine:
 class WarmProcess:
     """One room's processes. requests, replies: descriptors, as of a subprocess's pipes.
 
-    line: brings a handle on process 1 of the room, which is its watch, and leads to it.
+    nursery, folder: whose room it is, and as of its `start_room`.
     """
 
-    def __init__(self, nursery: Nursery, requests: int, replies: int, line: socket.socket):
-        self._nursery, self._handle = nursery, _receive_handle(line)
+    def __init__(self, nursery: Nursery, folder: str = ""):
+        self._nursery = nursery
+        self.requests, self.replies, line = nursery.start_room(folder)
+        self._handle = _receive_handle(line)
         self._watch = WatchLine(line)
-        self.requests, self.replies = requests, replies
         self.ended = False
 
     def told(self, request: str, seconds: float) -> float | None:
@@ -206,7 +212,7 @@ class WarmProcess:
         return not self._nursery.answers()
 
     def end(self) -> None:
-        """Kill process 1 of the room, with which the kernel ends all others; wait for it."""
+        """Kill the room's watch, with which the kernel ends all others behind walls; wait for it."""
         if self.ended:
             return
         self.ended = True
@@ -222,7 +228,7 @@ class WarmProcess:
 
 
 def _receive_handle(handles: socket.socket) -> int | None:
-    """A descriptor of process 1 of the room, or None where it did not come to that."""
+    """A descriptor of the room's watch, or None where it did not come to that."""
     if not select.select([handles], [], [], START_SECONDS)[0]:
         return None
     with suppress(OSError):
@@ -231,46 +237,42 @@ def _receive_handle(handles: socket.socket) -> int | None:
     return None
 
 
-_nursery: Nursery | None = None
+_nurseries: dict[Enum, Nursery] = {}
 _starting = threading.Lock()
 
 
-def nursery(start) -> Nursery:
-    """The one of this process; `start()` makes it, at first and when the last one has ended."""
-    global _nursery
+def nursery(way: Enum, start: Callable[[], Nursery]) -> Nursery:
+    """The one of this process and that way; `start()` makes it, and again when it has ended."""
     with _starting:
-        if _nursery is not None and not _nursery.alive:
-            _nursery.close()
-            _nursery = None
-        if _nursery is None:
-            _nursery = start()
-        return _nursery
+        if way in _nurseries and not _nurseries[way].alive:
+            _nurseries.pop(way).close()
+        if way not in _nurseries:
+            _nurseries[way] = start()
+        return _nurseries[way]
 
 
-def borrow(channel: socket.socket) -> None:
+def borrow(way: Enum, channel: socket.socket) -> None:
     """Use the nursery that `channel` was lent by, as long as it lives."""
-    global _nursery
     with _starting:
-        _nursery = LentNursery(channel)
+        _nurseries[way] = LentNursery(channel)
 
 
 def _forget():
-    global _nursery, _starting
+    global _starting
     WatchLine.let_go()
     _starting = threading.Lock()
-    if _nursery is not None:
-        _nursery.forget()
-        _nursery = None
+    for own in _nurseries.values():
+        own.forget()
+    _nurseries.clear()
 
 
 @atexit.register
 def close() -> None:
-    """End this process's nursery, if it has one."""
-    global _nursery
+    """End this process's nurseries, if it has any."""
     with _starting:
-        if _nursery is not None:
-            _nursery.close()
-            _nursery = None
+        for own in _nurseries.values():
+            own.close()
+        _nurseries.clear()
 
 
 if hasattr(os, "register_at_fork"):

@@ -10,8 +10,6 @@ the memory its parent has, so that all but the student's own process are forks o
     student's code is.
 """
 
-import gc
-import io
 import os
 import select
 import signal
@@ -88,15 +86,12 @@ def _start_room(requests, replies, handles, to_warm, first, namespaces):
 def _serve(channel):
     """Load everything, then fork a runner into each room that its process 1 tells of."""
     import first
+    import loaded
     import namespaces
     from shell import new_shell
 
     shell = new_shell()
-    _warm_up()
-    if len(os.listdir("/proc/self/task")) > 1:
-        raise RuntimeError("a thread was started: no fork of this process would be whole")
-    gc.collect()
-    gc.freeze()  # a collection in a room would copy every page it looks at
+    loaded.load()
     own = os.pidfd_open(os.getpid())
     channel.send(b"ready")
     while True:
@@ -139,29 +134,6 @@ def _run(requests, replies, room, line, shell):
         first.refuse(1, error)
     finally:
         os._exit(0)
-
-
-def _warm_up():
-    """Load what notebooks import, and what loads itself at the first figure."""
-    import matplotlib.pyplot
-    import numpy.linalg
-    import sympy
-    import wall  # noqa: F401
-    from matplotlib.figure import Figure
-    from matplotlib_inline import backend_inline  # noqa: F401
-
-    axes = Figure().subplots()
-    axes.set(title="$q$", xlabel="t")
-    axes.figure.savefig(io.BytesIO())
-    matplotlib.pyplot.switch_backend(os.environ["MPLBACKEND"])
-    q = sympy.Symbol("q", real=True)
-    matrix = sympy.simplify(sympy.Matrix([[1 - sympy.cos(q)]]).diff(q))  # these import on first use
-    for modules in (None, "numpy"):  # a student's own, and the wall's
-        sympy.lambdify(q, matrix, modules)
-    sympy.core.cache.clear_cache()
-    # Drawn anew by each process, and dummy symbols sort by it.
-    sympy.Dummy._base_dummy_index = 10_000_000
-    numpy.linalg.solve([[1.0]], [1.0])
 
 
 if __name__ == "__main__":

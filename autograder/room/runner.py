@@ -41,11 +41,11 @@ def main():
         import namespaces
 
         namespaces.become_nobody()
-    _leave_to_watch(judge, walled)
+    leave_to_watch(judge, walled)
     serve(walled=walled)
 
 
-def _leave_to_watch(judge, walled):
+def leave_to_watch(judge, walled):
     """Go on as a child of this process, which ends the room with the judge, or for using too much."""
     import watch
 

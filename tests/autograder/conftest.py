@@ -15,7 +15,7 @@ def rooms():
 @pytest.fixture
 def way(request, needs) -> Way:
     """How the rooms of this test are made."""
-    if request.param is not Way.NONE:
+    if request.param.walled:
         needs("bubblewrap")
     return request.param
 

@@ -57,9 +57,10 @@ def test_without_any_a_module_that_a_cell_writes_is_found(room):
     assert printed(room, cell + "shutil.rmtree('__pycache__', ignore_errors=True)") == "3"
 
 
-def test_no_file_takes_the_place_of_the_rooms_own(furnished):
+@pytest.mark.parametrize("way", [Way.UNWALLED, Way.UNWALLED_COLD])
+def test_no_file_takes_the_place_of_the_rooms_own(way, furnished):
     """Without walls its own files are beside the student's."""
-    room = furnished(Way.NONE)
+    room = furnished(way)
     listed = printed(room, "import os; print(*sorted(os.listdir()))")
     assert not {"wall", "watch.py", "forks.py", "autograder.py"} & set(listed.split())
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from autograder.sandbox import Way
-from tests.autograder.rooms import EVERY_WAY, appears, gone
+from tests.autograder.rooms import EVERY_WAY, appears, eventually, gone
 
 ROOT = Path(__file__).parents[2]
 DEAF = (
@@ -76,8 +76,10 @@ def test_a_killed_grader_takes_its_room_along(way, busy, tmp_path):
         grader.kill()
         grader.wait()
         assert gone(mark)
-        if way is Way.NONE:
+        if not way.walled:
             assert gone(f"{tmp_path}/room-")
+        if way is Way.UNWALLED:
+            assert eventually(lambda: not list(tmp_path.iterdir()))
 
 
 @pytest.mark.parametrize("victim", ["grader", "worker"])

@@ -57,6 +57,9 @@ def release():
     return without_plots(problem(P3).release)
 
 
+UNWALLED_WAYS = pytest.mark.parametrize(
+    "way", [Way.UNWALLED, Way.UNWALLED_COLD], ids=lambda way: way.name
+)
 # The next submission is a right one, without what takes the longest to judge.
 NEXT = [name for name in POINTS if name != "p3-lagrangian"]
 
@@ -151,6 +154,7 @@ def before(orphans_come_here, release, needs):
     """The processes there are when nothing hostile has run yet."""
     needs("bubblewrap")
     assert points(grade(p3_pendulum.right(release), SOURCE, "seed")) == POINTS
+    Room(Way.UNWALLED).close()
     return descendants()
 
 
@@ -190,9 +194,10 @@ def test_no_attack_earns_a_point(attack, release, before, outside, short_limits)
     assert next_points(release) == {name: POINTS[name] for name in NEXT}
 
 
+@UNWALLED_WAYS
 @pytest.mark.parametrize("name", SAFE_WITHOUT_WALLS)
-def test_what_the_fallback_does_not_stop_is_so(name, release, before, outside, monkeypatch):
-    monkeypatch.setattr(sandbox, "_best_way", lambda: Way.NONE)
+def test_what_the_fallback_does_not_stop_is_so(way, name, release, before, outside, monkeypatch):
+    monkeypatch.setattr(sandbox, "_best_way", lambda: way)
     attack = ATTACKS[name]
     graded = grade(attack.edit(release), SOURCE, "seed")
     assert points(graded) == attack.points
@@ -203,9 +208,12 @@ def test_what_the_fallback_does_not_stop_is_so(name, release, before, outside, m
     assert name in unstopped()
 
 
+@UNWALLED_WAYS
 @pytest.mark.parametrize("name", STOPPED_WITHOUT_WALLS)
-def test_what_the_fallback_stops_too(name, release, before, outside, short_limits, monkeypatch):
-    monkeypatch.setattr(sandbox, "_best_way", lambda: Way.NONE)
+def test_what_the_fallback_stops_too(
+    way, name, release, before, outside, short_limits, monkeypatch
+):
+    monkeypatch.setattr(sandbox, "_best_way", lambda: way)
     attack = ATTACKS[name]
     graded = grade(attack.edit(release), SOURCE, "seed")
     assert points(graded) == attack.points

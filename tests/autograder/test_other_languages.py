@@ -46,7 +46,7 @@ MISTAKES = {
 }
 CASES = [(suffix, *mistake) for mistake, suffixes in MISTAKES.items() for suffix in suffixes]
 OTHER_WAYS = pytest.mark.parametrize(
-    "way", [Way.COLD, Way.NONE], indirect=True, ids=lambda way: way.name
+    "way", [Way.COLD, Way.UNWALLED_COLD], indirect=True, ids=lambda way: way.name
 )
 
 

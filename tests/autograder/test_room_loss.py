@@ -109,7 +109,7 @@ class TestLoss:
             "    except OSError: pass\n"
         ).replace("RUBBISH", rubbish)
         # Without walls these would be every process of this user.
-        source = source.replace("WALLED", str(way is not Way.NONE))
+        source = source.replace("WALLED", str(way.walled))
         with Room(way) as room:
             try:
                 for output in room.run(source):
@@ -270,7 +270,9 @@ def test_closing_twice_does_nothing(way):
     room.close()
 
 
-@pytest.mark.parametrize("way", [Way.COLD, Way.NONE], indirect=True, ids=lambda way: way.name)
+@pytest.mark.parametrize(
+    "way", [Way.COLD, Way.UNWALLED, Way.UNWALLED_COLD], indirect=True, ids=lambda way: way.name
+)
 def test_folder_goes_with_the_room(way):
     with Room(way) as room:
         folder = room._process.folder
@@ -282,7 +284,7 @@ def test_folder_goes_with_the_room(way):
 def test_a_sandbox_that_does_not_start_is_not_blamed_on_the_student(monkeypatch):
     monkeypatch.setattr(sys, "executable", shutil.which("false"))
     with pytest.raises(OSError, match="the sandbox did not start: it ended"):
-        Room(Way.NONE)
+        Room(Way.UNWALLED_COLD)
 
 
 def test_missing_bubblewrap_is_warned_of_once(monkeypatch, caplog):

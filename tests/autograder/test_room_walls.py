@@ -127,7 +127,7 @@ class TestWalls:
             (tmp_path / name).mkdir()
             (tmp_path / name / "judge.py").touch()
         tmp_path.chmod(0o755)  # a grader who is root becomes another user
-        monkeypatch.setattr(warm, "_nursery", None)
+        monkeypatch.setattr(warm, "_nurseries", {})
         monkeypatch.setattr(bubblewrap.sysconfig, "get_path", lambda name: str(tmp_path))
         with Room(way) as room:
             found = printed(

@@ -25,36 +25,38 @@ from tests.autograder.rooms import (
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.fixture(autouse=True)
-def _bubblewrap(needs):
-    needs("bubblewrap")
+WALLED = pytest.mark.parametrize("way", [Way.WARM], indirect=True, ids=["WARM"])
+EITHER = pytest.mark.parametrize(
+    "way", [Way.WARM, Way.UNWALLED], indirect=True, ids=lambda way: way.name
+)
 
 
 @pytest.fixture
-def pair():
+def pair(way):
     """Two rooms at once."""
-    with Room(Way.WARM) as one, Room(Way.WARM) as other:
+    with Room(way) as one, Room(way) as other:
         yield one, other
 
 
 @pytest.fixture
-def own_nursery(monkeypatch):
-    """A warm process for this test alone."""
-    monkeypatch.setattr(warm, "_nursery", None)
-    yield
+def own_nursery(monkeypatch, way):
+    """A warm process for this test alone; what gives it."""
+    monkeypatch.setattr(warm, "_nurseries", {})
+    yield lambda: warm._nurseries[way]
     warm.close()
 
 
+@WALLED
 class TestApart:
     """Nothing of one room is there in another."""
 
     @pytest.mark.parametrize("folder", ["/tmp", "/dev/shm"])
-    def test_files(self, pair, folder):
+    def test_files(self, pair, folder, way):
         one, other = pair
         one.run(f"open('{folder}/mine', 'w').write('42')")
         assert "mine" in printed(one, f"import os\nprint(os.listdir('{folder}'))")
         assert "mine" not in printed(other, f"import os\nprint(os.listdir('{folder}'))")
-        with Room(Way.WARM) as later:
+        with Room(way) as later:
             assert "mine" not in printed(later, f"import os\nprint(os.listdir('{folder}'))")
 
     def test_processes(self, pair):
@@ -81,7 +83,12 @@ class TestApart:
         assert printed(one, ask.format(0)) != "-1"
         assert printed(other, ask.format(0)) == "-1"
 
-    def test_modules_changed_by_one_are_whole_in_the_other(self, pair):
+
+@EITHER
+class TestAlike:
+    """Each room begins as the first did."""
+
+    def test_modules_changed_by_one_are_whole_in_the_other(self, pair, way):
         one, other = pair
         one.run(
             "import builtins, numpy as np, sympy\n"
@@ -89,7 +96,7 @@ class TestApart:
             "np.pi = 3"
         )
         seen = "import numpy as np, sympy\nprint(np.sin(0.0), sympy.sin(0), abs(-1), np.pi > 3)"
-        with Room(Way.WARM) as later:
+        with Room(way) as later:
             for room in (other, later):
                 assert printed(room, seen) == "0.0 0 1 True"
 
@@ -103,12 +110,13 @@ class TestApart:
         assert printed(one, draw) != seen
         assert printed(other, draw) == seen
 
-    def test_a_new_warm_process_draws_the_same_numbers(self, pair, own_nursery):
+    def test_a_new_warm_process_draws_the_same_numbers(self, pair, own_nursery, way):
         draw = "import numpy as np, sympy\nprint(np.random.rand(), sympy.Dummy().dummy_index)"
-        with Room(Way.WARM) as room:
+        with Room(way) as room:
             assert printed(room, draw) == printed(pair[0], draw)
 
 
+@WALLED
 class TestRights:
     def test_no_namespaces_within(self, pair):
         new_user = "import ctypes\nprint(ctypes.CDLL(None).unshare(0x10000000))"
@@ -131,64 +139,61 @@ class TestRights:
         assert printed(pair[0], "print(open('/proc/self/oom_score_adj').read())") == "1000"
 
 
+@EITHER
 class TestLife:
-    def test_rooms_leave_nothing_behind(self, pair):
-        before = _below(warm._nursery._process.pid)
+    def test_rooms_leave_nothing_behind(self, pair, way):
+        before = _below(_own(way)._process.pid)
         for _ in range(5):
-            with Room(Way.WARM) as room:
+            with Room(way) as room:
                 room.run("import os\nif os.fork() == 0:\n    import time; time.sleep(99)")
-        assert eventually(lambda: _below(warm._nursery._process.pid) == before)
+        assert eventually(lambda: _below(_own(way)._process.pid) == before)
 
-    def test_no_descriptor_is_left_open_here(self, pair):
+    def test_no_descriptor_is_left_open_here(self, pair, way):
         before = os.listdir("/proc/self/fd")
         for _ in range(3):
-            Room(Way.WARM).close()
+            Room(way).close()
         assert os.listdir("/proc/self/fd") == before
 
-    def test_a_warm_process_that_died_is_started_again(self, own_nursery):
-        with Room(Way.WARM) as room:
-            first = warm._nursery
+    def test_a_warm_process_that_died_is_started_again(self, own_nursery, way):
+        with Room(way) as room:
+            first = own_nursery()
             assert printed(room, "print('alive')") == "alive"
-            inside = max(_warm_processes(first))
-            os.kill(inside, signal.SIGKILL)
+            _kill(first, way)
             assert eventually(lambda: not first.alive)
-            # Not the student's doing, so not RoomLostError.
-            with pytest.raises(OSError, match="process that keeps the sandboxes"):
-                room.run("1")
-        with Room(Way.WARM) as room:
+            _assert_orphaned(room)
+        with Room(way) as room:
             assert printed(room, "print('alive')") == "alive"
-        assert warm._nursery is not first
+        assert own_nursery() is not first
 
-    def test_a_lent_one_is_used_while_it_lives(self, own_nursery, monkeypatch):
-        Room(Way.WARM).close()
-        owner = warm._nursery
-        monkeypatch.setattr(warm, "_nursery", None)
-        warm.borrow(owner.lend())
-        borrowed = warm._nursery
-        with Room(Way.WARM) as room:
+    def test_a_lent_one_is_used_while_it_lives(self, own_nursery, monkeypatch, way):
+        Room(way).close()
+        owner = own_nursery()
+        monkeypatch.setattr(warm, "_nurseries", {})
+        warm.borrow(way, owner.lend())
+        borrowed = own_nursery()
+        with Room(way) as room:
             assert printed(room, "print('alive')") == "alive"
-            assert warm._nursery is borrowed
-            os.kill(max(_warm_processes(owner)), signal.SIGKILL)
+            assert own_nursery() is borrowed
+            _kill(owner, way)
             assert eventually(lambda: not borrowed.alive)
-            with pytest.raises(OSError, match="process that keeps the sandboxes"):
-                room.run("1")
-        with Room(Way.WARM) as room:
+            _assert_orphaned(room)
+        with Room(way) as room:
             assert printed(room, "print('alive')") == "alive"
-        assert warm._nursery is not borrowed
+        assert own_nursery() is not borrowed
         owner.close()
 
-    def test_it_outlives_the_thread_that_started_it(self, own_nursery):
-        thread = threading.Thread(target=lambda: Room(Way.WARM).close())
+    def test_it_outlives_the_thread_that_started_it(self, own_nursery, way):
+        thread = threading.Thread(target=lambda: Room(way).close())
         thread.start()
         thread.join()
-        first = warm._nursery
-        with Room(Way.WARM) as room:
+        first = own_nursery()
+        with Room(way) as room:
             assert printed(room, "print('alive')") == "alive"
-        assert warm._nursery is first
+        assert own_nursery() is first
 
-    def test_threads_share_it(self):
+    def test_threads_share_it(self, way):
         def answer(number):
-            with Room(Way.WARM) as room:
+            with Room(way) as room:
                 room.run(f"n = {number}")
                 return int(printed(room, "print(n)"))
 
@@ -196,19 +201,19 @@ class TestLife:
             assert list(pool.map(answer, range(8))) == list(range(8))
 
     @pytest.mark.parametrize("end", [signal.SIGKILL, signal.SIGTERM, None])
-    def test_everything_ends_with_the_grader(self, end):
+    def test_everything_ends_with_the_grader(self, end, way):
         mark = f"mark-{os.urandom(8).hex()}"
         code = (
             "import sys\n"
             "from autograder.sandbox import Room, Way\n"
-            "room = Room(Way.WARM)\n"
+            "room = Room(Way[sys.argv[2]])\n"
             "room.run(sys.argv[1])\n"
             "print('ready', flush=True)\n"
             "sys.stdin.read()\n"
         )
         student = f"import subprocess, sys\nsubprocess.Popen({sleeper(mark)})"
         with subprocess.Popen(
-            [sys.executable, "-c", code, student],
+            [sys.executable, "-c", code, student, way.name],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             cwd=ROOT,
@@ -219,41 +224,47 @@ class TestLife:
                 grader.send_signal(end)
         assert gone(mark)
 
-    def test_a_fork_of_the_grader_has_its_own(self):
+    def test_a_fork_of_the_grader_has_its_own(self, way):
         code = (
-            "import os\n"
+            "import os, sys\n"
             "from autograder import warm\n"
             "from autograder.sandbox import Room, Way\n"
-            "with Room(Way.WARM) as room:\n"
+            "way = Way[sys.argv[1]]\n"
+            "with Room(way) as room:\n"
             "    pid = os.fork()\n"
             "    if pid == 0:\n"
-            "        assert warm._nursery is None\n"
-            "        with Room(Way.WARM) as own: own.run('1')\n"
+            "        assert not warm._nurseries\n"
+            "        with Room(way) as own: own.run('1')\n"
             "        warm.close()\n"
             "        os._exit(7)\n"
             "    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 7\n"
             "    assert room.run('print(1)')[0]['text'] == '1\\n'\n"
         )
-        subprocess.run([sys.executable, "-c", code], check=True, timeout=60, cwd=ROOT)
+        subprocess.run([sys.executable, "-c", code, way.name], check=True, timeout=60, cwd=ROOT)
 
 
+@EITHER
 class TestFallback:
-    def test_rooms_are_warm_by_default(self):
-        with Room() as room:
-            assert room.way is Way.WARM
+    @pytest.fixture(autouse=True)
+    def _walls(self, way, monkeypatch):
+        monkeypatch.setattr(sandbox, "has_bubblewrap", lambda: way.walled)
 
-    def test_a_cold_room_takes_over_and_the_log_says_why_once(self, monkeypatch, caplog):
+    def test_rooms_are_warm_by_default(self, way):
+        with Room() as room:
+            assert room.way is way
+
+    def test_a_cold_room_takes_over_and_the_log_says_why_once(self, monkeypatch, caplog, way):
         def refuse(*args):
             raise OSError("no namespaces today")
 
         monkeypatch.setattr(warm, "nursery", refuse)
-        sandbox._warm_works.cache_clear()
+        sandbox._works.cache_clear()
         try:
             for _ in range(2):
                 with Room() as room:
-                    assert room.way is Way.COLD
+                    assert room.way is (Way.COLD if way.walled else Way.UNWALLED_COLD)
         finally:
-            sandbox._warm_works.cache_clear()
+            sandbox._works.cache_clear()
         (record,) = caplog.records
         assert "no namespaces today" in record.getMessage()
 
@@ -261,6 +272,26 @@ class TestFallback:
         command = [sys.executable, "-c", "raise SystemExit('no numpy here')"]
         with pytest.raises(OSError, match="the warm process did not start: no numpy here"):
             warm.Nursery(command, {})
+
+
+def _own(way: Way) -> warm.Nursery:
+    return warm._nurseries[way]
+
+
+def _kill(nursery, way: Way) -> None:
+    """End the process that rooms are forks of."""
+    process = max(_warm_processes(nursery)) if way.walled else nursery._process.pid
+    os.kill(process, signal.SIGKILL)
+
+
+def _assert_orphaned(room) -> None:
+    """A room whose warm process ended: with walls it went along."""
+    if room.way.walled:
+        # Not the student's doing, so not RoomLostError.
+        with pytest.raises(OSError, match="process that keeps the sandboxes"):
+            room.run("1")
+    else:
+        assert printed(room, "print('alive')") == "alive"
 
 
 def _warm_processes(nursery) -> list[int]:

@@ -272,7 +272,7 @@ with look_at("p1-C"):
 
 
 def test_a_feedback_page_gets_the_line_too():
-    with Room(Way.NONE) as room:
+    with Room(Way.UNWALLED) as room:
         (printed,) = room.run(FEEDBACK)
     assert printed["text"].splitlines() == [
         "rk4_step raises TypeError: see the cards of p5-f and p5-rk4_step.",
