@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 FIRST_LESSON = "lessons/00-start-here.ipynb"
 FIRST_PROBLEM = "problems/p3-pendulum/p3-pendulum.ipynb"
+# Where the libraries below the server write, each its own part of one error.
+OTHERS_LOGS = ("asyncio", "tornado.access", "tornado.application", "tornado.general")
 INSTRUCTORS_EXTENSIONS = (
     "@jupyter/nbgrader:course-list",
     "@jupyter/nbgrader:create-assignment",
@@ -60,7 +62,7 @@ def lab(arguments: list[str]) -> int:
     if student:
         settings.append("--CourseContents.for_student=True")
     server = LabApp.initialize_server([*settings, *arguments])
-    for log in (logging.getLogger("asyncio"), server.log):
+    for log in (*map(logging.getLogger, OTHERS_LOGS), server.log):
         log.addFilter(_is_an_error)
     print(f"\n    Open {_address(server)}\n    Stop with Ctrl-C\n", flush=True)
     # Jupyter would print the address again, five times over.

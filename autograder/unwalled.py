@@ -4,6 +4,7 @@ import select
 import shutil
 import sys
 import tempfile
+import weakref
 from pathlib import Path
 
 from autograder import warm
@@ -32,10 +33,17 @@ class UnwalledNursery(warm.Nursery):
     """
 
     def __init__(self):
+        self._rooms = weakref.WeakSet()
         self._folder = tempfile.mkdtemp(prefix="warm-")
         super().__init__(*command("unwalled_forks.py", Path(self._folder)))
 
+    def has_room(self, room: "UnwalledProcess") -> None:
+        """To be ended with this: nothing else ends it."""
+        self._rooms.add(room)
+
     def close(self) -> None:
+        for room in list(self._rooms):
+            room.end()
         super().close()
         shutil.rmtree(self._folder, ignore_errors=True)  # where it could not
 
@@ -50,6 +58,8 @@ class UnwalledProcess(warm.WarmProcess):
         except OSError:
             self._remove_folder()
             raise
+        if isinstance(nursery, UnwalledNursery):
+            nursery.has_room(self)
 
     def end(self) -> None:
         if not self.ended:

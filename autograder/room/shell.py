@@ -107,6 +107,11 @@ class RoomShell(InteractiveShell):
         self.extension_manager.load_extension("storemagic")
         self.set_hook("show_in_pager", lambda *args, **kwargs: None, 0)
 
+    def move_in(self):
+        """Keep what IPython keeps in files where the environment says now."""
+        self.init_ipython_dir(None)
+        self.init_profile_dir(None)
+
     def init_environment(self):
         os.environ.update(PAGER="cat", GIT_PAGER="cat", PIP_NO_INDEX="1")
 

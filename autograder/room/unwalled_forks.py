@@ -30,10 +30,9 @@ def main():
     os.close(nothing)
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
     import loaded
-    from shell import RoomShell, new_shell
+    from shell import new_shell
 
-    new_shell()  # loads what it needs; each room makes its own, for which its folder matters
-    RoomShell.clear_instance()
+    shell = new_shell()
     loaded.load()
     ended, wake = os.pipe()
     os.set_blocking(ended, False)
@@ -54,7 +53,7 @@ def main():
         if message == b"alive?":
             channel.send(b"alive")
         if len(descriptors) == DESCRIPTORS:
-            _start_room(os.fsdecode(message.removeprefix(b"room")), *descriptors, rooms)
+            _start_room(os.fsdecode(message.removeprefix(b"room")), *descriptors, rooms, shell)
         for descriptor in descriptors:
             os.close(descriptor)
     while rooms and select.select([ended], [], [], END_SECONDS)[0]:  # they end with the judge, too
@@ -73,7 +72,7 @@ def _end_groups(ended, rooms):
             shutil.rmtree(rooms.pop(child.si_pid), ignore_errors=True)
 
 
-def _start_room(folder, requests, replies, line, rooms):
+def _start_room(folder, requests, replies, line, rooms, shell):
     import first
 
     try:
@@ -82,7 +81,7 @@ def _start_room(folder, requests, replies, line, rooms):
         first.refuse(replies, error)
         return
     if process == 0:
-        _run(folder, requests, replies, line)
+        _run(folder, requests, replies, line, shell)
     rooms[process] = folder
     with suppress(OSError), socket.socket(fileno=os.dup(line)) as judge:  # it may have ended
         handle = os.pidfd_open(process)
@@ -92,7 +91,7 @@ def _start_room(folder, requests, replies, line, rooms):
             os.close(handle)
 
 
-def _run(folder, requests, replies, line):
+def _run(folder, requests, replies, line, shell):
     """Never returns. What goes wrong is said on the room's own channel."""
     import first
     import runner
@@ -108,8 +107,9 @@ def _run(folder, requests, replies, line):
         for name in ("HOME", "IPYTHONDIR", "MPLCONFIGDIR", "TMPDIR"):
             os.environ[name] = folder
         tempfile.tempdir = None
+        shell.move_in()
         runner.leave_to_watch(socket.socket(fileno=os.dup(2)), walled=False)
-        runner.serve()
+        runner.serve(shell)
     except BaseException as error:
         first.refuse(1, error)
     finally:

@@ -100,6 +100,14 @@ class TestAlike:
             for room in (other, later):
                 assert printed(room, seen) == "0.0 0 1 True"
 
+    def test_what_ipython_stores_is_the_rooms_own(self, pair):
+        one, other = pair
+        one.run("x = 3")
+        one.run("%store x")
+        other.run("%store -r x")
+        assert printed(one, "del x\n%store -r x\nprint(x)") == "3"
+        assert printed(other, "print('x' in globals())") == "False"
+
     def test_random_numbers_are_the_same_in_each(self, pair):
         draw = (
             "import random, numpy as np, sympy\n"

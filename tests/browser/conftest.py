@@ -46,7 +46,8 @@ def address(course):
     with (
         log.open("w") as errors,
         subprocess.Popen(
-            [AUTOGRADER, "lab", "--no-browser", "--port=0"],
+            # Through files: a port that is free when a kernel is given it may be another test's then.
+            [AUTOGRADER, "lab", "--no-browser", "--port=0", "--KernelManager.transport=ipc"],
             cwd=course,
             env=environment,
             stdout=subprocess.PIPE,
