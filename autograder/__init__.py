@@ -1,8 +1,8 @@
 """Checks, verdicts and grading of the course's problems."""
 
-from autograder.check import check
-from autograder.hints import hint
-from autograder.look import look_at
-from autograder.wall.languages import from_file
+from autograder.protocol.languages import from_file
+from autograder.student.cell import check
+from autograder.student.hints import hint
+from autograder.student.look import look_at
 
 __all__ = ["check", "from_file", "hint", "look_at"]

@@ -57,7 +57,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: bool) -> int:
     """Grade an assignment's submissions; 1 where one could not be graded."""
-    from autograder import lean, pipeline  # noqa: F401  lean first
+    from autograder.pipeline import run as pipeline
 
     if not (root / "solutions" / assignment / f"{assignment}.ipynb").exists():
         return _complain(f"there is no solutions/{assignment}/{assignment}.ipynb")

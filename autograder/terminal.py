@@ -3,7 +3,7 @@
 import sys
 from typing import TextIO
 
-from autograder.wall import one_line
+from autograder.protocol import one_line
 
 MOST_OF_A_NAME = 64  # characters, so that a table keeps its width
 MOST_OF_A_NOTE = 1000

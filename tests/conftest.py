@@ -37,7 +37,7 @@ FIRST = (
     "test_record.py",
     "test_hostile.py",
     "test_honest.py",
-    "test_other_languages.py",
+    "test_from_file.py",
     "test_agreement.py",
 )
 

@@ -4,7 +4,6 @@ Importing this package does not import nbgrader, which takes seconds; its module
 """
 
 from autograder.nbgrader_glue.release import write_problem
-from autograder.nbgrader_glue.scores import outputs_for, with_verdicts
 from autograder.nbgrader_glue.steps import (
     FEEDBACK_EXPORTER,
     GRADES_EXPORTER,
@@ -15,7 +14,8 @@ from autograder.nbgrader_glue.steps import (
     generate_preprocessors,
     sanitize_preprocessors,
 )
-from autograder.released import CODE_STUB, TEXT_STUB
+from autograder.notebook.released import CODE_STUB, TEXT_STUB
+from autograder.notebook.scores import outputs_for, with_verdicts
 
 __all__ = [
     "CODE_STUB",

@@ -10,9 +10,9 @@ import nbformat
 from nbformat import NotebookNode
 from nbgrader import utils
 
-from autograder.beside import Beside, choose
-from autograder.recognise import Likeness, likeness
-from autograder.wall import one_line
+from autograder.notebook.beside import Beside, choose
+from autograder.notebook.recognise import Likeness, likeness
+from autograder.protocol import one_line
 
 # Of notebooks that are only looked at, the smallest first.
 MOST_LOOKED_AT = 20

@@ -11,12 +11,12 @@ from nbformat import NotebookNode
 from nbgrader.preprocessors import NbGraderPreprocessor
 from traitlets import Unicode
 
-from autograder.beside import Beside
 from autograder.files import put_in_place
-from autograder.grade import grade, is_judged
 from autograder.nbgrader_glue import handed_in
-from autograder.nbgrader_glue.scores import with_verdicts
-from autograder.repair import repair
+from autograder.notebook.beside import Beside
+from autograder.notebook.grade import grade, is_judged
+from autograder.notebook.repair import repair
+from autograder.notebook.scores import with_verdicts
 from autograder.terminal import shown_name, shown_note
 
 

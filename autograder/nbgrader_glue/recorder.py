@@ -12,7 +12,6 @@ from nbgrader.preprocessors import AssignLatePenalties
 from traitlets import import_item
 from traitlets.config import Config
 
-from autograder.beside import Beside
 from autograder.nbgrader_glue import names
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
@@ -20,7 +19,8 @@ from autograder.nbgrader_glue.preprocessors import Judge, secret_of, seed_of
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.steps import autograde_preprocessors, sanitize_preprocessors
 from autograder.nbgrader_glue.submitted import RefusedError
-from autograder.recognise import grade_id
+from autograder.notebook.beside import Beside
+from autograder.notebook.recognise import grade_id
 
 # Steps whose work is done here or by `repair`, with no regard to their settings.
 REPLACED = ("ClearOutput", "DeduplicateIds", "OverwriteKernelspec", "OverwriteCells")

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from nbgrader.converters.base import NbGraderException
 
-from autograder.wall import one_line
+from autograder.protocol import one_line
 
 SPACE = 4 << 20  # bytes that a notebook, its page and its rows may well take
 

@@ -11,8 +11,8 @@ from nbconvert.exporters import NotebookExporter
 from autograder.nbgrader_glue.handed_in import counted
 from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.nbgrader_glue.start import can_start
-from autograder.sandbox import Room
-from autograder.wall import one_line
+from autograder.protocol import one_line
+from autograder.sandbox.room import Room
 
 
 class RefusedError(ValueError):

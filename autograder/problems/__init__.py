@@ -3,15 +3,13 @@
 import difflib
 import re
 
-from autograder.problems import (
-    c6_regressor,
-    p1_inertia,
-    p2_energy_skew,
-    p3_pendulum,
-    p4_gravity,
-    p5_state_space,
-    start_here,
-)
+from autograder.problems.c6_regressor import checks as c6_regressor
+from autograder.problems.p1_inertia import checks as p1_inertia
+from autograder.problems.p2_energy_skew import checks as p2_energy_skew
+from autograder.problems.p3_pendulum import checks as p3_pendulum
+from autograder.problems.p4_gravity import checks as p4_gravity
+from autograder.problems.p5_state_space import checks as p5_state_space
+from autograder.problems.start_here import checks as start_here
 
 MODULES = (
     start_here,

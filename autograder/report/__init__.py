@@ -14,12 +14,12 @@ from statistics import mean, median
 import jinja2
 import nbformat
 
-from autograder.card import LOOKS
-from autograder.outputs import read_verdict
+from autograder.judging.card import LOOKS
+from autograder.judging.verdict import State
+from autograder.notebook.outputs import read_verdict
 from autograder.problems import CHECKS
+from autograder.protocol import one_line
 from autograder.terminal import shown_note
-from autograder.verdict import State
-from autograder.wall import one_line
 
 MOST_LINES = 10  # of mistakes in the terminal; the page has them all
 

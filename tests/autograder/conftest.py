@@ -2,8 +2,8 @@
 
 import pytest
 
-from autograder.sandbox import Room, Way
-from tests.autograder import rooms as rooms_of_tests
+from autograder.sandbox.room import Room, Way
+from tests.autograder.sandbox import rooms as rooms_of_tests
 
 
 @pytest.fixture(scope="session")

@@ -5,8 +5,9 @@ import io
 from hypothesis import given
 from hypothesis import strategies as st
 
-from autograder import pipeline, terminal
-from autograder.pipeline import Line
+from autograder import terminal
+from autograder.pipeline import run as pipeline
+from autograder.pipeline.run import Line
 from autograder.report import Student, summary
 from autograder.terminal import say
 

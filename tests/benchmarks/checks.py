@@ -15,11 +15,11 @@ import nbformat
 import numpy as np
 import sympy
 
-from autograder.check import VISIBLE_SEED
-from autograder.judge import VISIBLE_CASES, Check
+from autograder.judging.check import VISIBLE_CASES, Check
+from autograder.judging.verdict import State
 from autograder.problems import CHECKS
-from autograder.verdict import State
-from autograder.wall import answer_all
+from autograder.protocol import answer_all
+from autograder.student.cell import VISIBLE_SEED
 from tests.benchmarks import report
 
 ROOT = Path(__file__).parents[2]

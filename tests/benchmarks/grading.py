@@ -19,8 +19,8 @@ from pathlib import Path
 import nbformat
 from jupyter_client.manager import start_new_kernel
 
-from tests.autograder import classes
 from tests.autograder.courses import ROOT
+from tests.autograder.pipeline import classes
 from tests.benchmarks import report
 from tests.benchmarks.commands import Line, Spent, full_marks, run
 from tests.benchmarks.timing import Row, table

@@ -34,7 +34,7 @@ PROBLEMS = """
 ## The problems
 
 Each check runs in the student's notebook and, with fresh arms and states, in the grader. It knows
-that many wrong models by name, each from the problem's file in `autograder/mistakes`.
+that many wrong models by name, which are in the `mistakes.py` beside the problem's checks.
 """
 
 
@@ -210,14 +210,14 @@ def _problem(path, prepared_by, to):
     title, *parts = sections(path)
     module = path.stem.replace("-", "_")
     of_problem = [
-        f"tests/autograder/test_{module}.py",
-        f"tests/autograder/mistakes/test_{module}.py",
+        f"tests/autograder/problems/{module}/test_checks.py",
+        f"tests/autograder/problems/{module}/test_mistakes.py",
         f"tests/submissions/{module}.py",
     ]
     tests = [test for test in of_problem if (ROOT / test).exists()]
     yield f"\n### [{path.stem}: {_short(title.title)}]({_link(path, to)})\n"
     by = ", ".join(f"[{lesson.stem[:2]}]({_link(lesson, to)})" for lesson in prepared_by)
-    yield f"Lessons: {by}. Checks: `autograder/problems/{module}.py`. Tests: {_tests(tests, to)}.\n"
+    yield f"Lessons: {by}. Checks: `autograder/problems/{module}/`. Tests: {_tests(tests, to)}.\n"
     yield from ("| part | graded | points | mistakes known |", "|---|---|---|---|")
     for part in parts:
         for cell in part.cells:

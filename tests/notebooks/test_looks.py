@@ -15,11 +15,11 @@ import nbformat
 import numpy as np
 import pytest
 
-from autograder import look
-from autograder.check import NotCorrectError
 from autograder.problems import CHECKS
-from autograder.sandbox import Room, Way
-from autograder.wall import Look, TimeLimitError
+from autograder.protocol import Look, TimeLimitError
+from autograder.sandbox.room import Room, Way
+from autograder.student import look
+from autograder.student.cell import NotCorrectError
 
 ROOT = Path(__file__).parents[2]
 NAMES = sorted(path.stem for path in (ROOT / "solutions").glob("*/*.ipynb"))

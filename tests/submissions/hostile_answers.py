@@ -135,9 +135,9 @@ def table_of_visible_cases(release):
     """Right for the cases that a student sees, and those that would follow, in a table."""
     from numpy.random import default_rng
 
-    from autograder.check import VISIBLE_SEED
-    from autograder.judge import HIDDEN_CASES
+    from autograder.judging.check import HIDDEN_CASES
     from autograder.problems import CHECKS
+    from autograder.student.cell import VISIBLE_SEED
 
     check = CHECKS["p3-g_vec"]
     calls = check.calls(default_rng(VISIBLE_SEED), HIDDEN_CASES)
@@ -152,7 +152,7 @@ def knows_the_grader(release):
         release,
         g_vec="""
 import os, sys
-here = "wall" in sys.modules or not hasattr(get_ipython(), "kernel") or os.getcwd() == "/tmp"
+here = "protocol" in sys.modules or not hasattr(get_ipython(), "kernel") or os.getcwd() == "/tmp"
 def g_vec(q, pend):
     return 1 + 0 * q if here else pend.m * pend.g * pend.lc * np.sin(q)
 """,

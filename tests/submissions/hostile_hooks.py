@@ -99,15 +99,15 @@ def import_hooks(release):
 import importlib.abc, importlib.machinery, sys
 class Finder(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     def find_spec(self, name, path=None, target=None):
-        if name.split(".")[0] in ("autograder", "armdyn", "wall", "json"):
+        if name.split(".")[0] in ("autograder", "armdyn", "protocol", "json"):
             return importlib.machinery.ModuleSpec(name, self, is_package=True)
     def exec_module(self, module):
         module.check = module.judge = module.dumps = lambda *args, **kwargs: 1e6
 sys.meta_path.insert(0, Finder())
-for name in ("autograder", "wall", "json"):
+for name in ("autograder", "protocol", "json"):
     sys.modules.pop(name, None)
 from autograder import check
-import wall
+import protocol
 """,
     )
 
@@ -140,12 +140,12 @@ def more_replies_than_calls(release):
     return cheat(
         release,
         """
-import wall
-encode, answer_all = wall.encode_reply, wall.answer_all
-wall.encode_reply = lambda reply: encode(reply) | {"credit": 1.0, "state": "correct"}
+import protocol
+encode, answer_all = protocol.encode_reply, protocol.answer_all
+protocol.encode_reply = lambda reply: encode(reply) | {"credit": 1.0, "state": "correct"}
 def many(calls, names):
     return answer_all(calls, names) * (100 if calls[0].name == "g_vec" else 1)
-wall.answer_all = many
+protocol.answer_all = many
 """,
     )
 

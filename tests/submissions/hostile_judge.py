@@ -71,7 +71,7 @@ def shadowed_modules(release):
         release,
         """
 import os, sys
-for name in ("wall", "json", "numpy", "runner", "autograder", "sitecustomize", "armdyn"):
+for name in ("protocol", "json", "numpy", "runner", "autograder", "sitecustomize", "armdyn"):
     for folder in (".", "/tmp", "/room", os.path.expanduser("~")):
         try:
             with open(os.path.join(folder, name + ".py"), "w") as file:
@@ -79,7 +79,7 @@ for name in ("wall", "json", "numpy", "runner", "autograder", "sitecustomize", "
         except OSError:
             pass
 sys.path.insert(0, os.getcwd())
-for name in ("wall", "json", "runner", "__main__"):
+for name in ("protocol", "json", "runner", "__main__"):
     sys.modules.pop(name, None)
 """,
     )
@@ -174,7 +174,7 @@ sys.path[:0] = [{str(ROOT)!r}, {str(ROOT / "lib")!r}, {str(ROOT / "autograder")!
 for name in ("autograder", "armdyn"):
     sys.modules.pop(name, None)
 def g_vec(q, pend):
-    for name in ("autograder.judge", "autograder.problems", "armdyn.models", "judge", "problems"):
+    for name in ("autograder.judging.check", "autograder.problems", "armdyn.models", "check"):
         try:
             importlib.import_module(name)
         except ImportError:
@@ -265,15 +265,15 @@ def patched_wall(release):
     return cheat(
         release,
         """
-import numpy as np, wall
-answer = wall.answer
+import numpy as np, protocol
+answer = protocol.answer
 def patched(call, namespace):
     if call.name == "g_vec":
-        return wall.Reply(value=np.ones(1))
+        return protocol.Reply(value=np.ones(1))
     return answer(call, namespace)
-wall.answer = patched
-read = wall.read_numbers
-wall.read_numbers = lambda value: read(value)
+protocol.answer = patched
+read = protocol.read_numbers
+protocol.read_numbers = lambda value: read(value)
 """,
     )
 

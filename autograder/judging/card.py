@@ -1,0 +1,147 @@
+"""How a verdict looks in a notebook: a card whose text says everything its colour says."""
+
+import cmath
+import itertools
+import math
+from html import escape
+
+from autograder.judging.verdict import State, Verdict, Witness, worst_case
+
+# Mark and colour (Okabe and Ito's palette, safe for colour-blind readers).
+LOOKS = {
+    State.CORRECT: ("✓", "#009E73"),
+    State.PARTLY_CORRECT: ("◐", "#E69F00"),
+    State.INCORRECT: ("✗", "#D55E00"),
+    State.ERROR: ("!", "#CC79A7"),
+    State.NOT_ATTEMPTED: ("○", "#888888"),
+    State.CHECK_FAILED: ("?", "#0072B2"),
+}
+LINKS = ("#0072B2", "#56B4E9")  # in turn, so that a folded arm shows both
+
+
+def html_card(verdict: Verdict) -> str:
+    """The verdict as HTML, readable by a screen reader from top to bottom.
+
+    The arm of the worst case stands beside the text, and below it where the notebook is narrow.
+    """
+    mark, colour = LOOKS[verdict.state]
+    pose = verdict.witness.pose if verdict.witness else ()
+    lines = [_paragraph("problem", verdict.problem)]
+    lines += [_rows(verdict)] if verdict.rows else []
+    lines += [_paragraph("diagnosis", sentence) for sentence in verdict.diagnosis]
+    lines.append(_paragraph("remark", verdict.remark))
+    lines += [_worst_case(verdict.witness)] if verdict.witness else []
+    lines.append(_paragraph("next", verdict.next_step))
+    text = (
+        f'<p style="margin: 0.2em 0"><strong><span aria-hidden="true">{mark} </span>'
+        f"{escape(verdict.headline)}</strong></p>{''.join(lines)}"
+    )
+    return (
+        f'<div class="armdyn-verdict" data-state="{verdict.state.name.lower().replace("_", "-")}"'
+        f' role="group" aria-label="{escape(verdict.headline)}"'
+        f' style="border-left: 5px solid {colour}; padding: 0.4em 0.9em; max-width: 46em">'
+        f"{_beside(text, drawing(pose)) if pose else text}</div>"
+    )
+
+
+def mimebundle(verdict: Verdict) -> dict[str, str]:
+    """The verdict for a notebook's output: plain text, and the card."""
+    return {"text/plain": str(verdict), "text/html": html_card(verdict)}
+
+
+def drawing(pose: tuple[tuple[float, float], ...], size: int = 110) -> str:
+    """An arm as an SVG picture, with a text for who cannot see it. Dashed: from where each angle is
+    counted, the x axis and the line of the link before.
+
+    pose: its joints and its hand, (x, y) in m, the first at the base. size: of the longer side, px.
+    """
+    points = [complex(*point) for point in pose]
+    links = [b - a for a, b in itertools.pairwise(points)]
+    reach = sum(map(abs, links)) or 1.0
+    along = [1 + 0j, *(link / abs(link) if link else 1 + 0j for link in links)]
+    zeros = [(at, at + 0.3 * reach * way) for at, way in zip(points[:-1], along, strict=False)]
+    seen = [*points, *(end for _, end in zeros)]
+    left, right = min(p.real for p in seen), max(p.real for p in seen)
+    low, high = min(p.imag for p in seen), max(p.imag for p in seen)
+    scale = size / max(right - left, high - low)
+    edge = 10  # for the width of the strokes
+
+    def at(point: complex) -> tuple[str, str]:
+        return (
+            f"{edge + scale * (point.real - left):.1f}",
+            f"{edge + scale * (high - point.imag):.1f}",
+        )
+
+    def line(start: complex, end: complex, look: str) -> str:
+        (x1, y1), (x2, y2) = at(start), at(end)
+        return f'<line x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}" {look}/>'
+
+    def dot(point: complex, radius: float, look: str) -> str:
+        x, y = at(point)
+        return f'<circle cx="{x}" cy="{y}" r="{radius}" {look}/>'
+
+    width, height = scale * (right - left) + 2 * edge, scale * (high - low) + 2 * edge
+    parts = [line(*zero, 'stroke="#888888" stroke-dasharray="3 3"') for zero in zeros]
+    for k, ends in enumerate(itertools.pairwise(points)):
+        look = f'stroke="{LINKS[k % 2]}" stroke-width="5" stroke-linecap="round"'
+        parts.append(line(*ends, look))
+    x, y = at(points[0])
+    parts.append(f'<path d="M{x} {y}l-6 9h12z" fill="#888888"/>')
+    open_joint = 'fill="var(--jp-layout-color0, #fff)" stroke="currentColor"'
+    parts += [dot(point, 3.5, open_joint) for point in points[:-1]]
+    parts.append(dot(points[-1], 3.5, 'fill="currentColor"'))
+    text = escape(f"The arm in the worst case: {_said_of(links)}.")
+    return (
+        f'<svg role="img" aria-label="{text}" width="{width:.0f}" height="{height:.0f}"'
+        f' viewBox="0 0 {width:.1f} {height:.1f}" style="flex: none"><title>{text}</title>'
+        f"{''.join(parts)}</svg>"
+    )
+
+
+def _said_of(links: list[complex]) -> str:
+    """How the links lie, in whole degrees, each counted from the one before."""
+    said = [f"link 1 at {_degrees(links[0])} from the x axis"] if links else []
+    for k, (before, link) in enumerate(itertools.pairwise(links), 2):
+        said.append(f"link {k} at {_degrees(link * before.conjugate())} from link {k - 1}")
+    return ", ".join(said)
+
+
+def _degrees(direction: complex) -> str:
+    return f"{math.degrees(cmath.phase(direction)):.0f}°".replace("-", "−")
+
+
+def _beside(text: str, picture: str) -> str:
+    return (
+        '<div style="display: flex; flex-wrap: wrap; align-items: center; gap: 0.5em 1.5em">'
+        f'<div style="flex: 1; min-width: min(20em, 100%)">{text}</div>{picture}</div>'
+    )
+
+
+def _paragraph(kind: str, text: str) -> str:
+    if not text:
+        return ""
+    weight = "; font-weight: 600" if kind == "diagnosis" else ""
+    # Only there may a student's own words stand. As a formula they could be a link that runs code.
+    plain = " tex2jax_ignore mathjax_ignore" if kind == "problem" else ""
+    return f'<p class="armdyn-{kind}{plain}" style="margin: 0.3em 0{weight}">{escape(text)}</p>'
+
+
+def _worst_case(witness: Witness) -> str:
+    """The sentence, with the call in it as code; wide arrays may break anywhere."""
+    sentence = escape(worst_case(witness))
+    if witness.call:
+        call = escape(witness.call)
+        look = (
+            "font-size: 0.9em; background: none; padding: 0;"
+            " white-space: normal; overflow-wrap: anywhere"
+        )
+        sentence = sentence.replace(call, f'<code style="{look}">{call}</code>', 1)
+    return f'<p class="armdyn-witness" style="margin: 0.3em 0">{sentence}</p>'
+
+
+def _rows(verdict: Verdict) -> str:
+    items = "".join(
+        f"<li>{'met' if row.met else 'not met'}: {escape(row.text)} ({row.share:.0%})</li>"
+        for row in verdict.rows
+    )
+    return f'<ul style="margin: 0.3em 0">{items}</ul>'

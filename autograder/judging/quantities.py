@@ -1,0 +1,63 @@
+"""What is judged in the values that came back: from calls and values to one array a criterion.
+
+A check's `quantities` takes all calls and all values, so that two calls may be compared: a potential
+energy counts by its differences.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from autograder.protocol import Call
+
+Quantities = Callable[[list[Call], list], list[tuple[np.ndarray, ...]]]
+
+
+class UnfitError(Exception):
+    """Numbers came back, but not as many, or not in the shape, that the question asks for."""
+
+
+def each(parts: Callable[[Call, np.ndarray], tuple[np.ndarray, ...]]) -> Quantities:
+    """Quantities that are formed from each call's value by itself."""
+    return lambda calls, values: [parts(c, v) for c, v in zip(calls, values, strict=True)]
+
+
+@each
+def one_number(call: Call, value: np.ndarray) -> tuple[np.ndarray]:
+    """A value that is one number, whether it came as a number, (1,) or (1, 1)."""
+    if np.size(value) != 1:
+        raise UnfitError(
+            f"{np.size(value)} numbers of shape {np.shape(value)}; one number is asked for"
+        )
+    return (np.reshape(value, ()),)
+
+
+def vector(value, n: int) -> np.ndarray:
+    """A value of n numbers, whether it came as (n,), (n, 1) or (1, n)."""
+    if np.shape(value) not in ((n,), (n, 1), (1, n)):
+        raise UnfitError(f"an array of shape {np.shape(value)}; shape ({n},) is asked for")
+    return np.reshape(value, n)
+
+
+def array(value, *shape: int) -> np.ndarray:
+    """A value of exactly this shape."""
+    if np.shape(value) != shape:
+        raise UnfitError(f"an array of shape {np.shape(value)}; shape {shape} is asked for")
+    return value
+
+
+def finite(value):
+    """The value, where all its numbers are; UnfitError names one that is not."""
+    for numbers in _arrays(value):
+        bad = numbers[~np.isfinite(numbers)]
+        if bad.size:
+            raise UnfitError(f"{bad.flat[0]}, which is not a finite number")
+    return value
+
+
+def _arrays(value):
+    if isinstance(value, dict | list):
+        for part in value.values() if isinstance(value, dict) else value:
+            yield from _arrays(part)
+    else:
+        yield np.atleast_1d(value)

@@ -1,0 +1,1 @@
+"""One submitted notebook, graded: mended where people damage them, run, judged, its outputs written."""

@@ -1,0 +1,262 @@
+"""grade(submission, source, seed): one notebook judged. No database, no nbgrader, no state."""
+
+import hashlib
+import json
+import logging
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from nbformat import NotebookNode
+
+from autograder.judging.check import HIDDEN_CASES, CannotRunError, Check
+from autograder.judging.faults import said_of
+from autograder.judging.verdict import State, Verdict
+from autograder.notebook import outputs
+from autograder.notebook.beside import Beside
+from autograder.notebook.blame import Ran, explained, ran, stale
+from autograder.notebook.recognise import grade_id
+from autograder.notebook.repair import repair
+from autograder.pipeline.cache import digest
+from autograder.problems import CHECKS
+from autograder.protocol import (
+    CALL_SECONDS,
+    PATIENCE,
+    Call,
+    Fault,
+    FaultKind,
+    Reply,
+    one_line,
+    shortened,
+)
+from autograder.sandbox.room import Room, RoomLostError, StarvedError, TooLongError
+from autograder.terminal import shown_name, shown_note
+
+log = logging.getLogger(__name__)
+
+# A notebook in which everything takes as long as it may must not hold up a batch. Of the processor's
+# time, and PATIENCE times as long on the clock.
+NOTEBOOK_SECONDS = 60.0
+NOTHING = Beside()
+MISSING = """
+import json
+from protocol.languages import missing
+print(json.dumps(missing()))
+"""
+
+
+@dataclass(frozen=True)
+class Graded:
+    """A judged notebook: its cells with the outputs of this run, a verdict for each grade cell by
+    grade_id, and notes for the instructor on what had to be mended.
+    """
+
+    notebook: NotebookNode
+    verdicts: dict[str, Verdict]
+    notes: tuple[str, ...]
+
+
+def grade(
+    submission: NotebookNode,
+    source: NotebookNode,
+    seed: str,
+    beside: Beside = NOTHING,
+    said: tuple[str, ...] = (),
+) -> Graded:
+    """Run the submission's cells in a sandbox and judge its graded functions outside.
+
+    beside: files that its cells find. said: notes that come first.
+    seed: decides the random cases, together with the code of the repaired notebook and the files
+    beside it: the same submission gets the same verdicts again, and what one hand-in was shown of
+    its cases is of no use to the next. Each check has its own stream, so that adding a problem
+    changes no other's cases. A grade cell that no check belongs to gets no credit and says so. Where
+    a sandbox is lost through no fault of the notebook's, that is graded once more. OSError where that
+    happens again, or no sandbox starts.
+    """
+    try:
+        return _graded(submission, source, seed, beside, said)
+    except OSError as error:
+        log.warning("%s: the notebook is graded once more", shown_note(str(error)))
+        return _graded(submission, source, seed, beside, said)
+
+
+def _graded(submission, source, seed, beside, said) -> Graded:
+    notebook, notes = repair(submission, source, said, beside.documents)
+    verdicts, seed = {}, of_content(seed, notebook, beside)
+    allowance = outputs.Allowance()
+    with Sitting(partial(Room.loaded, files=beside.laid)) as sitting:
+
+        def ask(calls):
+            return [beside.explained(reply) for reply in sitting.ask(calls)]
+
+        for cell in notebook.cells:
+            if cell.cell_type != "code":
+                continue
+            cell.outputs, cell.execution_count = [], None
+            if not is_judged(cell):
+                cell.outputs = allowance.shown(sitting.run(cell.source))
+                cell.outputs += _explanations(cell.outputs, beside)
+                continue
+            name = grade_id(cell)
+            if name in CHECKS:
+                verdict = CHECKS[name].run(ask, stream(seed, name), HIDDEN_CASES)
+                verdict = sitting.told(CHECKS[name], verdict)
+            else:
+                problem = f"No check belongs to the grade cell {name}."
+                verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
+            if verdict.state is State.CHECK_FAILED:
+                log.error("%s: %s", shown_name(name), shown_note(verdict.problem))
+                notes.append(f"{name} could not be judged: {verdict.problem}")
+            verdicts[name] = verdict.without_inputs()
+    return Graded(notebook, verdicts, tuple(notes))
+
+
+def _explanations(shown, beside) -> list[NotebookNode]:
+    """Below an error that names a file: why it is not there."""
+    errors = (f"{out.ename}: {out.evalue}" for out in shown if out.output_type == "error")
+    return [outputs.stream("stderr", f"{why}\n") for why in map(beside.explanation, errors) if why]
+
+
+def is_judged(cell: NotebookNode) -> bool:
+    """Whether the cell is graded by a check, not run, and not read by a person."""
+    claims = cell.metadata.get("nbgrader") or {}
+    return cell.cell_type == "code" and bool(claims.get("grade")) and not claims.get("solution")
+
+
+def of_content(seed: str, notebook: NotebookNode, beside: Beside = NOTHING) -> str:
+    """The seed of this very code's cases: other code, or another file beside it, meets others, and no
+    text around it counts.
+    """
+    code = (cell.source for cell in notebook.cells if cell.cell_type == "code")
+    return digest(seed, beside.digest(), *code)
+
+
+def stream(seed: str, name: str) -> np.random.Generator:
+    """The random numbers of one check under one seed."""
+    digest = hashlib.sha256(f"{seed}\0{name}".encode()).digest()
+    return np.random.default_rng(np.frombuffer(digest, dtype=np.uint32))
+
+
+class Sitting:
+    """A student's notebook in a room, cell by cell; when the room is lost, a new one takes over.
+
+    A new room runs the earlier cells again, but not the one, or the call, that ended the last. After
+    NOTEBOOK_SECONDS nothing more is run; starting a room does not count. A call that the processor
+    had no time for is tried once more before it costs anything.
+    """
+
+    def __init__(self, room=Room.loaded):
+        self._new_room = room
+        self._room = None
+        self._used = self._clock = 0.0  # s, in earlier rooms, and while student code ran
+        self._ran: list[str] = []
+        self._cells: list[Ran] = []  # all of them, those that ended a room too
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exception):
+        self._leave()
+
+    def run(self, source: str) -> list[dict]:
+        """The outputs of a cell; an error output where it ends its process."""
+        if self._is_over():
+            text = f"not run: the notebook took {self._limit():g} s before it came to this cell"
+            self._cells.append(Ran(source, f"TimeoutError: {text}", stopped=True))
+            return [outputs.error("TimeoutError", text, [text])]
+        try:
+            room = self._current()
+            with self._timed():
+                shown = room.run(source)
+        except RoomLostError as error:
+            self._leave()
+            text = f"this cell ended Python itself: {error}"
+            shown = [outputs.error("RoomLostError", text, [text])]
+            said = f"the end of Python itself ({one_line(str(error))})"
+            self._cells.append(Ran(source, said, stopped=True))
+        else:
+            self._ran.append(source)
+            self._cells.append(ran(source, shown))
+        return shown
+
+    def ask(self, calls: list[Call]) -> list[Reply]:
+        """The replies to calls of the student's functions."""
+        replies = self._asked(calls)
+        if (fault := replies[-1].fault) and fault.kind is FaultKind.STARVED:
+            replies[-1:] = self._asked(calls[len(replies) - 1 :])
+        last = replies[-1].fault
+        if last and last.kind is FaultKind.NO_TOOLS and last.message in self._missing():
+            raise CannotRunError(last.message)
+        if last and not self._is_over():
+            replies[-1] = Reply(fault=explained(calls[0].name, last, self._cells))
+        return replies
+
+    def told(self, check: Check, verdict: Verdict) -> Verdict:
+        """The verdict, which says so where it is of an earlier function than the notebook's last."""
+        earlier = stale(check.name, self._cells)
+        if verdict.state not in (State.INCORRECT, State.PARTLY_CORRECT) or earlier is None:
+            return verdict
+        said = said_of(earlier, check.name, check.signature)
+        return replace(verdict, next_step=f"{said} {verdict.next_step}".strip())
+
+    def _asked(self, calls: list[Call]) -> list[Reply]:
+        try:
+            room = None if self._is_over() else self._current()
+            if room is not None:
+                seconds = NOTEBOOK_SECONDS - self._spent()
+                with self._timed():
+                    return room.ask(calls, seconds, PATIENCE * NOTEBOOK_SECONDS - self._clock)
+            fault = Fault(FaultKind.DIED)
+        except TooLongError:
+            fault = Fault(FaultKind.TIMED_OUT, f"{CALL_SECONDS:g} s")
+        except StarvedError:
+            fault = Fault(FaultKind.STARVED, f"{PATIENCE * CALL_SECONDS:g} s")
+        except RoomLostError:
+            fault = Fault(FaultKind.DIED)
+        self._leave()
+        if self._is_over():
+            text = f"the {self._limit():g} s that the whole notebook has"
+            fault = Fault(FaultKind.TIMED_OUT, text)
+        return [Reply(fault=fault)]
+
+    def _missing(self) -> list[str]:
+        """What no answer in this language can be run without, by a room that has met no student."""
+        with self._new_room() as room:
+            (printed,) = room.run(MISSING)
+        return [shortened(line) for line in json.loads(printed["text"])]
+
+    def _current(self):
+        if self._room is None:
+            self._room = self._new_room()
+            for source in self._ran:
+                if not self._is_over():
+                    with self._timed():
+                        self._room.run(source)
+        return self._room
+
+    def _leave(self) -> None:
+        if self._room is not None:
+            self._room.close()
+            self._used += self._room.used
+            self._room = None
+
+    @contextmanager
+    def _timed(self):
+        start = time.monotonic()
+        try:
+            yield
+        finally:
+            self._clock += time.monotonic() - start
+
+    def _spent(self) -> float:
+        return self._used + (self._room.used if self._room is not None else 0.0)
+
+    def _is_over(self) -> bool:
+        return self._spent() >= NOTEBOOK_SECONDS or self._clock >= PATIENCE * NOTEBOOK_SECONDS
+
+    def _limit(self) -> float:
+        """The one that the notebook is over: the processor's or the clock's, s."""
+        of_processor = self._spent() >= NOTEBOOK_SECONDS
+        return NOTEBOOK_SECONDS if of_processor else PATIENCE * NOTEBOOK_SECONDS

@@ -1,0 +1,156 @@
+"""Puts a submitted notebook's graded cells right, from the source version, before it is judged.
+
+Students copy, delete, rename and retype cells, by accident or not. nbgrader trusts the cells'
+metadata as submitted; here it is rebuilt from the source, and every change is reported, to the
+student too: in a cell that is put first.
+"""
+
+import copy
+from collections.abc import Iterable, Sequence
+
+from nbformat import NotebookNode
+
+from autograder.notebook.form import NEW_CELL, give_form, tell_apart, without_surrogates
+from autograder.notebook.letter import letter
+from autograder.notebook.own_cells import point_to_own_cells
+from autograder.notebook.recognise import Places, grade_id, known_cells, places
+from autograder.notebook.released import essence, released
+from autograder.protocol import one_line
+
+MOST_NOTES = 50
+
+
+def repair(
+    submission: NotebookNode,
+    source: NotebookNode,
+    said: Iterable[str] = (),
+    documents: Sequence[str] = (),
+) -> tuple[NotebookNode, list[str]]:
+    """The submission with each graded cell of `source` in it exactly once, and what was mended.
+
+    A locked cell gets the source's text again; what a student wrote into it becomes a cell of the
+    student's own before it. An editable cell keeps the student's text; where it was deleted, an empty
+    one is put in. Of several copies the last one counts, as it does when the notebook is run; the
+    others stay as ordinary cells. Cells that only claim to be graded stay too, without the claim.
+    An empty answer that a person reads points to the student's own cells beside it, or documents.
+
+    said: what the student should know besides; it comes first. documents: files of the student's that
+    may hold an answer.
+    """
+    notebook, notes = copy.deepcopy(submission), list(said)
+    for cell in notebook.cells:
+        cell.pop("outputs", None)  # made anew
+    clean = without_surrogates(notebook)
+    if clean is not notebook:
+        notes.append("characters that no text can hold were replaced by \ufffd")
+        notebook = clean
+    give_form(notebook, source, notes)
+    known = known_cells(source)
+    found = places(notebook, source)
+    _tell_of(found, notes)
+    for index, cell in enumerate(notebook.cells):
+        claimed = grade_id(cell)
+        if "nbgrader" in cell.metadata and (claimed is None or found.at.get(claimed) != index):
+            del cell.metadata["nbgrader"]
+            if claimed and claimed not in known:
+                notes.append(
+                    f"a cell that claims to be {one_line(claimed, 60)}, which the source does not have"
+                )
+    placed = {name: notebook.cells[index] for name, index in found.at.items()}
+    for name in found.bare:
+        placed[name].metadata["nbgrader"] = copy.deepcopy(known[name].metadata["nbgrader"])
+    for name, original in known.items():
+        if name in placed:
+            _keep_changed_text(notebook, placed[name], original, notes)
+            _put_right(placed[name], original, notes)
+    _put_back(notebook, known, placed, notes)
+    notes += point_to_own_cells(notebook, source, documents)
+    if len(notes) > MOST_NOTES:
+        notes = [*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES} more such notes"]
+    if notes:
+        notebook.cells.insert(0, letter(notes))
+    tell_apart(notebook)
+    return notebook, notes
+
+
+def is_locked(cell: NotebookNode) -> bool:
+    """Whether the source's text counts in this cell, not the student's."""
+    claims = cell.metadata["nbgrader"]
+    return not claims.get("solution") and bool(claims.get("grade") or claims.get("locked"))
+
+
+def _tell_of(found: Places, notes) -> None:
+    notes += [f"{name} was there more than once; the last one counts" for name in found.doubled]
+    if len(found.bare) == 1:
+        notes.append(f"{found.bare[0]} had lost its nbgrader settings; they were put back")
+    elif found.bare:
+        notes.append(
+            f"{len(found.bare)} cells had lost their nbgrader settings, which were put back: "
+            f"{', '.join(found.bare)}"
+        )
+
+
+def _keep_changed_text(notebook, cell, original, notes) -> None:
+    """What was written into a locked cell runs as a cell of the student's own, before it."""
+    if not is_locked(original):
+        return
+    if essence(cell.source) in (essence(released(original)), essence(original.source)):
+        return
+    name = grade_id(original)
+    if not cell.source.strip():
+        notes.append(f"{name} had been emptied; its text was put back")
+        return
+    notes.append(
+        f"the text of {name} had been changed; it was put back, and the changed text runs as a cell "
+        "of its own before it"
+    )
+    own = NEW_CELL[cell.cell_type](source=cell.source)
+    if "attachments" in cell:
+        own.attachments = cell.attachments
+    del own["id"]  # a random one
+    notebook.cells.insert(_index(notebook.cells, cell), own)
+
+
+def _put_right(cell, original, notes) -> None:
+    name = grade_id(original)
+    if cell.cell_type != original.cell_type:
+        notes.append(f"{name} had been made a {cell.cell_type} cell")
+        cell.cell_type = original.cell_type
+        if cell.cell_type == "code":
+            cell.outputs, cell.execution_count = [], None
+            cell.pop("attachments", None)
+        else:
+            cell.pop("outputs", None)
+            cell.pop("execution_count", None)
+    checksum = cell.metadata["nbgrader"].get("checksum")
+    claims = {
+        k: v for k, v in cell.metadata["nbgrader"].items() if k not in ("checksum", "cell_type")
+    }
+    wanted = dict(original.metadata["nbgrader"])
+    if any(claims.get(key) != value for key, value in wanted.items()):
+        notes.append(f"the nbgrader settings of {name} had been changed")
+    cell.metadata["nbgrader"] = NotebookNode(
+        wanted | ({"checksum": checksum} if isinstance(checksum, str) else {})
+    )
+    if is_locked(original):
+        cell.source = original.source
+
+
+def _put_back(notebook, known, placed, notes) -> None:
+    """Each missing cell goes behind the graded cell that precedes it in the source."""
+    before = None
+    for name, original in known.items():
+        if name not in placed:
+            notes.append(f"{name} was missing; it was put back")
+            text = original.source if is_locked(original) else ""
+            cell = NEW_CELL[original.cell_type](source=text)
+            cell.metadata = copy.deepcopy(original.metadata)
+            del cell["id"]  # a random one
+            position = 0 if before is None else _index(notebook.cells, before) + 1
+            notebook.cells.insert(position, cell)
+            placed[name] = cell
+        before = placed[name]
+
+
+def _index(cells, wanted) -> int:
+    return next(index for index, cell in enumerate(cells) if cell is wanted)

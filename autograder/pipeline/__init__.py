@@ -1,0 +1,1 @@
+"""Many notebooks: side by side, resumed, recorded."""

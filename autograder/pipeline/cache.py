@@ -1,0 +1,69 @@
+"""What grading has reached already, on disk: judged notebooks by their content, and what was recorded.
+
+A result's name is a digest of all that decides it: the submission, the source, the seed, the
+settings and this code. So nothing in the cache is ever out of date, and it may be deleted at any time.
+"""
+
+import hashlib
+import json
+import sys
+from collections.abc import Iterator
+from functools import cache
+from importlib import metadata
+from importlib.util import find_spec
+from pathlib import Path
+
+from autograder.files import PART, put_in_place
+
+SOURCES = {".py", ".cpp", ".hpp", ".java", ".m"}  # some are built around students' answers
+PACKAGES = ("ipython", "matplotlib", "nbformat", "numpy", "scipy", "sympy")
+
+
+class Cache:
+    """A folder of JSON files, each written at once: a killed run leaves whole ones only."""
+
+    def __init__(self, folder: Path):
+        self._folder = folder
+        folder.mkdir(parents=True, exist_ok=True)
+        for left in folder.rglob(f"*{PART}"):
+            left.unlink()
+
+    def load(self, name: str) -> dict | None:
+        """The entry of that name; None where there is none that can be read."""
+        try:
+            entry = json.loads(self._path(name).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+        return entry if isinstance(entry, dict) else None
+
+    def store(self, name: str, entry: dict) -> None:
+        path = self._path(name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        put_in_place(path, json.dumps(entry))
+
+    def _path(self, name: str) -> Path:
+        return self._folder / f"{name}.json"
+
+
+def digest(*parts: str | bytes) -> str:
+    """A name for these parts: different for different parts, wherever one ends and the next begins."""
+    whole = hashlib.sha256()
+    for part in parts:
+        data = part.encode(errors="surrogatepass") if isinstance(part, str) else part
+        whole.update(len(data).to_bytes(8, "big") + data)
+    return whole.hexdigest()
+
+
+@cache
+def code_version() -> str:
+    """A digest of the code that grades: this package, armdyn, Python and the packages under them."""
+    armdyn = find_spec("armdyn").origin  # importing it would load SciPy
+    parts = [sys.version, *(f"{name} {metadata.version(name)}" for name in PACKAGES)]
+    for package in (Path(__file__).parents[1], Path(armdyn).parent):
+        parts += [f"{name}\0{text}" for name, text in _sources(package)]
+    return digest(*parts)
+
+
+def _sources(package: Path) -> Iterator[tuple[str, str]]:
+    for path in sorted(path for path in package.rglob("*.*") if path.suffix in SOURCES):
+        yield path.relative_to(package).as_posix(), path.read_text(encoding="utf-8")

@@ -1,0 +1,247 @@
+"""Many submissions: judged side by side, kept, and recorded by one writer.
+
+`grade` is a pure function, so that any executor serves: processes here, or a Dask cluster. Whatever
+was judged is in the cache before it is recorded, so that a killed run goes on where it was.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from tqdm import tqdm
+
+from autograder.pipeline.alike import alike
+from autograder.pipeline.cache import Cache, code_version, digest
+from autograder.pipeline.executors import Cluster, Processes, outcomes
+from autograder.pipeline.lock import locked
+from autograder.pipeline.worker import judge, load
+from autograder.protocol import one_line
+from autograder.sandbox.room import borrow, lend
+from autograder.terminal import shown_name, shown_note
+
+CACHE = Path("course") / "cache-of-results"
+LOCK = Path("course") / "grading.lock"
+PRELOAD = ("autograder.lean", "autograder.pipeline.worker")
+
+
+@dataclass(frozen=True)
+class Line:
+    """One student's line of the summary: points, states in words, and what the instructor should know.
+
+    graded: False where there is no verdict, or not on every cell; the notes say why. redone: whether
+    anything had to be judged or recorded.
+    """
+
+    student: str
+    score: float | None = None
+    most: float | None = None
+    states: str = ""
+    notes: tuple[str, ...] = ()
+    graded: bool = True
+    redone: bool = True
+
+
+class OtherVersionError(Exception):
+    """A worker of the cluster has other code than this machine."""
+
+
+def grade_all(
+    root: Path,
+    assignment: str,
+    jobs: int = 2,
+    scheduler: str | None = None,
+    force: bool = False,
+) -> list[Line]:
+    """Grade each submission of an assignment and record it; a line for each student, in order.
+
+    jobs: how many processes judge. scheduler: the address of a Dask cluster that judges instead.
+    force: judge again what is in the cache. ValueError where the assignment cannot be graded at all,
+    BlockingIOError while another run is at work.
+    """
+    with (
+        locked(root / LOCK, f"another `autograder grade` is at work in {root}"),
+        Cluster(scheduler) if scheduler else Processes(jobs, PRELOAD, lend, borrow) as pool,
+    ):
+        if force or not (root / CACHE / _done(assignment, "anybody")).parent.exists():
+            pool.warm(load)  # while this process loads nbgrader
+        from autograder.nbgrader_glue.recorder import Recorder  # takes seconds
+
+        with Recorder(root, assignment) as recorder:
+            return _Run(root, recorder, pool, force).lines()
+
+
+class _Run:
+    """One pass over an assignment's submissions."""
+
+    def __init__(self, root: Path, recorder, pool, force: bool):
+        self._cache = Cache(root / CACHE)
+        self._recorder, self._pool, self._force = recorder, pool, force
+        self._submissions = recorder.submissions()
+        self._standings = recorder.standings()
+        # What decides every result; the rest is the submission's own.
+        self._common = digest(recorder.source, recorder.settings, code_version())
+        self._keys: dict[str, str] = {}
+        self._lines: dict[str, Line] = {}
+
+    def lines(self) -> list[Line]:
+        with _bar(len(self._submissions)) as bar:
+            for student, outcome in outcomes(judge, self._tasks(), self._pool):
+                self._settle(student, outcome)
+                bar.update(len(self._lines) - bar.n)
+            bar.update(len(self._lines) - bar.n)
+        for student, others in alike(self._lines).items():
+            note = f"reads like {', '.join(map(ascii, others))}: are these folders one student's?"
+            line = self._lines[student]
+            self._lines[student] = replace(line, notes=(*line.notes, note))
+        return [self._lines[student] for student in self._submissions]
+
+    def _tasks(self) -> Iterator[tuple[str, tuple]]:
+        """What is left to be judged; what needs no judging is settled on the way."""
+        for student in self._submissions:
+            try:
+                why = self._recorder.refusal(student)
+                if why:
+                    self._refuse(student, why)
+                    continue
+                task = self._task(student)
+            except FileNotFoundError as error:
+                self._refuse(student, str(error))
+            except Exception as error:
+                self._fail(student, error)
+            else:
+                if task:
+                    yield student, task
+
+    def _task(self, student: str) -> tuple | None:
+        """The arguments of `judge`; None where there is nothing to judge."""
+        recorder = self._recorder
+        path, said = recorder.counted(student)
+        self._submissions[student] = path
+        content, seed = path.read_bytes(), recorder.seed_of(student)
+        beside = recorder.laid_in(student)
+        key = digest(content, seed, beside.digest(), *said, self._common)
+        self._keys[student] = key
+        if not self._force:
+            if self._unchanged(student, key):
+                return None
+            known = self._cache.load(_result(key))
+            if known:
+                self._settle(student, known, new=False)
+                return None
+        return content, recorder.source, seed, beside, tuple(said)
+
+    def _unchanged(self, student: str, key: str) -> bool:
+        """Whether this very submission was recorded, and its rows and files are still there."""
+        recorder, standing = self._recorder, self._standings.get(student)
+        done = self._cache.load(_done(recorder.assignment, student))
+        path = recorder.autograded(student)
+        if not (done and standing and done.get("key") == key and path.is_file()):
+            return False
+        now = self._state(student, standing)
+        if now != {name: done.get(name) for name in now}:
+            return False
+        self._note(student, done["states"], done["notes"], standing, redone=False)
+        return True
+
+    def _state(self, student: str, standing) -> dict[str, str]:
+        """What grading this submission left, by which a later run knows it again."""
+        return {
+            "key": self._keys[student],
+            "files": digest(self._recorder.files_of(student)),
+            "rows": digest(standing.rows),
+            "notebook": digest(self._recorder.autograded(student).read_bytes()),
+        }
+
+    def _settle(self, student: str, outcome: dict | Exception, new: bool = True) -> None:
+        """Keep what was judged, and record it."""
+        recorder = self._recorder
+        try:
+            if isinstance(outcome, Exception):
+                raise outcome
+            if outcome["code"] != code_version():
+                raise OtherVersionError("a worker of the cluster has another version of the course")
+            if "refused" in outcome:
+                path = self._submissions[student]
+                self._refuse(student, _unreadable(path, outcome["refused"]))
+                return
+            certain, states, notes = (outcome[name] for name in ("certain", "states", "notes"))
+            if certain and new:
+                self._cache.store(_result(self._keys[student]), outcome)
+            standing = recorder.record(student, outcome["notebook"])
+            if certain:
+                entry = self._state(student, standing) | {"states": states, "notes": notes}
+                self._cache.store(_done(recorder.assignment, student), entry)
+        except Exception as error:
+            self._fail(student, error)
+        else:
+            self._note(student, states, notes, standing, graded=certain)
+
+    def _fail(self, student: str, error: Exception) -> None:
+        """An error that is no fault of the submission's: what was recorded before stays."""
+        self._recorder.forget()
+        why = f"{type(error).__name__}: {one_line(str(error))}"
+        if self._recorder.autograded(student).exists():
+            why = f"{why}; its earlier grading stays"
+        self._lines[student] = Line(student, notes=(why,), graded=False)
+
+    def _refuse(self, student: str, why: str) -> None:
+        """A submission that cannot be graded as it is: an earlier notebook is taken away."""
+        try:
+            self._recorder.refuse(student)
+        except Exception as error:
+            self._recorder.forget()
+            why = f"{why}; {type(error).__name__}: {one_line(str(error))}"
+        self._lines[student] = Line(student, notes=(why,), graded=False)
+
+    def _note(self, student, states, notes, standing, **more) -> None:
+        counts = [f"{count} {state}" for state, count in Counter(states).items()]
+        if standing.to_read:
+            counts.append(f"{standing.to_read} to be read")
+        self._lines[student] = Line(
+            student,
+            standing.score,
+            self._recorder.max_score,
+            ", ".join(counts),
+            tuple(notes),
+            **more,
+        )
+
+
+def table(lines: list[Line]) -> str:
+    """The lines as a table: student, score, states, notes."""
+    rows = [("student", "score", "states", "notes")]
+    for line in lines:
+        score = "" if line.score is None else f"{line.score:g} of {line.most:g}"
+        states = line.states or "could not be graded"
+        first, *others = [shown_note(note) for note in line.notes] or [""]
+        rows.append((shown_name(line.student), score, states, first))
+        rows += [("", "", "", note) for note in others]
+    widths = [max(len(row[column]) for row in rows) for column in range(3)]
+    shown = "\n".join(
+        "  ".join([*(cell.ljust(width) for cell, width in zip(row, widths, strict=False)), row[3]])
+        .rstrip()
+        for row in rows
+    )  # fmt: skip
+    redone = sum(line.redone and line.graded for line in lines)
+    unchanged = sum(not line.redone for line in lines)
+    failed = sum(not line.graded for line in lines)
+    tail = f"{redone} graded, {unchanged} unchanged"
+    return f"{shown}\n\n{tail}" + (f", {failed} could not be graded" if failed else "")
+
+
+def _bar(total: int):
+    """A progress bar, where someone is there to see it."""
+    return tqdm(total=total, unit="notebook", disable=None, leave=False)
+
+
+def _unreadable(path: Path, why: str) -> str:
+    return f"{path.name} {one_line(why)}"
+
+
+def _result(key: str) -> str:
+    return f"results/{key[:2]}/{key}"
+
+
+def _done(assignment: str, student: str) -> str:
+    return f"recorded/{assignment}/{digest(student)}"

@@ -1,0 +1,72 @@
+"""One submission's file judged, in another process or on another machine: bytes in, JSON out."""
+
+import warnings
+from functools import lru_cache
+
+import nbformat
+from nbformat import NotebookNode
+
+from autograder.judging.verdict import State
+from autograder.nbgrader_glue import with_verdicts
+from autograder.notebook.beside import Beside
+from autograder.notebook.grade import NOTHING, grade
+from autograder.pipeline.cache import code_version
+from autograder.sandbox.room import Room
+
+
+def judge(
+    content: bytes, source: str, seed: str, beside: Beside = NOTHING, said: tuple[str, ...] = ()
+) -> dict:
+    """grade(submission, source, seed, beside, said), its verdicts as nbgrader reads them.
+
+    notebook, states, notes, certain (whether every check could be judged) and code, by which a
+    worker with other code is known; or refused, why the file cannot be graded, and code.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # nbformat's are not the instructor's business
+            return _judged(content, source, seed, beside, said) | {"code": code_version()}
+    except (UnicodeDecodeError, nbformat.reader.NotJSONError):
+        refused = "is not valid JSON: ask for it again"
+    except OSError:
+        raise  # ours
+    except Exception as error:
+        refused = f"cannot be read: {type(error).__name__}: {error}"
+    refused = "; ".join([refused, *said])
+    return {"refused": refused, "code": code_version()}
+
+
+def load() -> None:
+    """Start what a first submission would wait for."""
+    Room().close()
+    code_version()
+
+
+def _judged(content: bytes, source: str, seed: str, beside: Beside, said: tuple) -> dict:
+    notebook, notes = _read(content.decode("utf-8-sig"))
+    graded = grade(notebook, _source(source), seed, beside, said)
+    notebook = with_verdicts(graded)
+    nbformat.validate(notebook, relax_add_props=True)
+    states = [verdict.state for verdict in graded.verdicts.values()]
+    return {
+        "notebook": notebook,
+        "states": [state.value for state in states],
+        "notes": [*notes, *graded.notes],
+        "certain": State.CHECK_FAILED not in states,
+    }
+
+
+def _read(text: str) -> tuple[NotebookNode, list[str]]:
+    notebook = nbformat.reads(text, as_version=nbformat.NO_CONVERT)
+    notes = []
+    if notebook.nbformat != 4:
+        notes.append(f"the notebook was in format {notebook.nbformat}; it was converted")
+        notebook = nbformat.convert(notebook, 4)
+    if not isinstance(notebook.get("metadata"), dict):
+        raise ValueError("it has no metadata")
+    return notebook, notes
+
+
+@lru_cache(maxsize=8)
+def _source(text: str) -> NotebookNode:
+    return nbformat.reads(text, as_version=4)

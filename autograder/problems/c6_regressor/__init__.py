@@ -1,0 +1,1 @@
+"""c6: the regressor and identification."""

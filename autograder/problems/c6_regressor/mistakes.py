@@ -1,0 +1,693 @@
+"""Mistakes about the regressor, about fitting with it, and about counting what a motion shows."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from autograder.judging.diagnosis import Mistake
+from autograder.problems.material.planar_2r import BASE_COLUMNS, base_parameters, changed, parameters, regressor
+
+# The arm of the notebook's set-up cell.
+EXAMPLE = SimpleNamespace(
+    l1=0.45, l2=0.38, lc1=0.21, lc2=0.17, m1=4.2, m2=2.6, I1=0.075, I2=0.034, g=9.81
+)
+M1, MC1, J1, M2, MC2, J2 = range(6)
+
+
+def _with(**of):
+    """The right Y of an arm, of which some parameters are what these functions of it give."""
+    return lambda q, qd, qdd, arm: regressor(
+        q, qd, qdd, changed(arm, **{name: value(arm) for name, value in of.items()})
+    )
+
+
+def _at(q=1.0, qd=1.0, qdd=1.0):
+    """The right Y of another state: angles, velocities and accelerations times these numbers."""
+    return lambda q_, qd_, qdd_, arm: regressor(q * q_, qd * qd_, qdd * qdd_, arm)
+
+
+def _plus(entries):
+    """The right Y with something added: entries gives it by (row, column)."""
+
+    def wrong(q, qd, qdd, arm):
+        Y = regressor(q, qd, qdd, arm)
+        for (row, column), value in entries(_State(q, qd, qdd), arm).items():
+            Y[..., row, column] += value
+        return Y
+
+    return wrong
+
+
+def _columns(*order):
+    """The right columns in another order."""
+    return lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm)[..., order]
+
+
+class _State:
+    """The angles, velocities and accelerations by name, of one state or of many."""
+
+    def __init__(self, q, qd, qdd):
+        self.q1, self.q2, self.qd1, self.qd2 = q[..., 0], q[..., 1], qd[..., 0], qd[..., 1]
+        self.qdd1, self.qdd2 = qdd[..., 0], qdd[..., 1]
+        self.c1, self.c2, self.s2 = np.cos(self.q1), np.cos(self.q2), np.sin(self.q2)
+        self.c12, self.spin_2 = np.cos(self.q1 + self.q2), self.qdd1 + self.qdd2
+
+
+def _gravity_as(of_1, of_2):
+    """Gravity that varies with these functions of the state, for cos q1 and for cos(q1 + q2)."""
+    return _plus(
+        lambda s, arm: {
+            (0, MC1): arm.g * (of_1(s) - s.c1),
+            (0, M2): arm.l1 * arm.g * (of_1(s) - s.c1),
+            (0, MC2): arm.g * (of_2(s) - s.c12),
+            (1, MC2): arm.g * (of_2(s) - s.c12),
+        }
+    )
+
+
+def _coupling(joint_1, joint_2):
+    """More of ℓ1 in the column of m2 ℓc2, for each joint a function of the state."""
+    return _plus(lambda s, arm: {(0, MC2): arm.l1 * joint_1(s), (1, MC2): arm.l1 * joint_2(s)})
+
+
+def _nothing(s):
+    return 0.0
+
+
+NO_GRAVITY = (
+    "Gravity is missing from your Y. Y π is the whole left side M q̈ + C q̇ + g: which columns does "
+    "the weight of a link enter?"
+)
+ABOUT_COM = (
+    "Your Y uses ℓc. It is one of the things to be found, and Y holds only what is known. About "
+    "which point must the inertia in π be taken, so that ℓc² goes into it?"
+)
+ORDER = (
+    "The columns are right, but they stand in another order than the parameters in π. Write the "
+    "names of the six parameters above your columns."
+)
+HARD_CODED_G = (
+    "Your Y is right on Earth only: 9.81 is written into it. The check also puts the arm on other "
+    "planets; which parameter of arm gives g?"
+)
+EXAMPLE_ARM = (
+    "This is the Y of the arm in the set-up cell, whatever arm is given. Where does your function "
+    "read ℓ1 and g of its own argument?"
+)
+CENTRIFUGAL = (
+    "A product of velocities has the wrong sign in your column of m2 ℓc2. Compare with C q̇: which "
+    "joint gets h and which gets −h, and which sign has h itself?"
+)
+
+# Those about one column stand before those about several, which may look like them in that column.
+REGRESSOR = (
+    Mistake(
+        "sign of gravity",
+        _with(g=lambda arm: -arm.g),
+        "Gravity has the wrong sign in your Y. On which side of the equation does g(q) stand, and "
+        "which way must the motors push to hold the arm out to the right?",
+    ),
+    Mistake(
+        "gravity missing in the column of m2",
+        _plus(lambda s, arm: {(0, M2): -arm.l1 * arm.g * s.c1}),
+        "In your column of m2 the weight is missing. The elbow carries m2: who holds it up?",
+    ),
+    Mistake(
+        "gravity missing in the column of m2 lc2",
+        _plus(lambda s, arm: {(0, MC2): -arm.g * s.c12, (1, MC2): -arm.g * s.c12}),
+        "In your column of m2 ℓc2 gravity is missing. Where in g(q) does the product m2 ℓc2 stand?",
+    ),
+    Mistake(
+        "gravity of m2 lc2 missing at joint 1",
+        _plus(lambda s, arm: {(0, MC2): -arm.g * s.c12}),
+        "In your column of m2 ℓc2 gravity is missing at joint 1. Does the direction of link 2 change "
+        "when joint 1 turns?",
+    ),
+    Mistake("gravity missing", _with(g=lambda arm: 0.0), NO_GRAVITY),
+    Mistake(
+        "sine for cosine in gravity",
+        _gravity_as(lambda s: np.sin(s.q1), lambda s: np.sin(s.q1 + s.q2)),
+        "Gravity varies with the sine in your Y, as if the angles were measured from the vertical. "
+        "From which axis is q1 measured, and at which q1 does the weight of link 1 pull most?",
+    ),
+    Mistake(
+        "absolute second angle in gravity",
+        _gravity_as(lambda s: s.c1, lambda s: s.c2),
+        "In the gravity of link 2 you take q2 for its direction in space. From what is q2 measured?",
+    ),
+    Mistake(
+        "coupling without the factor 2",
+        _coupling(lambda s: -s.c2 * s.qdd1, _nothing),
+        "In your column of m2 ℓc2, q̈1 counts too little at joint 1. Look at the coupling term of M11 "
+        "and of M12: are they the same?",
+    ),
+    Mistake(
+        "sine for cosine in the coupling",
+        _coupling(
+            lambda s: (s.s2 - s.c2) * (2 * s.qdd1 + s.qdd2), lambda s: (s.s2 - s.c2) * s.qdd1
+        ),
+        "The accelerations in your column of m2 ℓc2 come with the sine of q2. Which function of q2 "
+        "stands in M, and is it largest with the arm stretched?",
+    ),
+    Mistake(
+        "cos q1 in the coupling",
+        _coupling(
+            lambda s: (s.c1 - s.c2) * (2 * s.qdd1 + s.qdd2), lambda s: (s.c1 - s.c2) * s.qdd1
+        ),
+        "The accelerations in your column of m2 ℓc2 come with the cosine of q1. Would the inertia of "
+        "the arm change if the whole arm turned about the shoulder?",
+    ),
+    Mistake(
+        "velocity products left out at joint 2",
+        _coupling(_nothing, lambda s: -s.s2 * s.qd1**2),
+        "The row of joint 2 has no product of velocities in your Y. What does link 2 feel at the "
+        "elbow when only joint 1 turns?",
+    ),
+    Mistake(
+        "velocity products left out",
+        _at(qd=0.0),
+        "Your Y does not depend on the velocities. Where does C(q, q̇) q̇ enter, and with which "
+        "product of parameters?",
+    ),
+    Mistake(
+        "Coriolis without the factor 2",
+        _coupling(lambda s: s.s2 * s.qd1 * s.qd2, _nothing),
+        "The product q̇1 q̇2 counts half in your column of m2 ℓc2. How many entries of C contribute "
+        "it to C q̇?",
+    ),
+    Mistake(
+        "centrifugal part missing at joint 1",
+        _coupling(lambda s: s.s2 * s.qd2**2, _nothing),
+        "The square of q̇2 is missing at joint 1 in your column of m2 ℓc2. Multiply C by q̇ once more, "
+        "entry by entry.",
+    ),
+    Mistake(
+        "sign of the velocity products",
+        _coupling(
+            lambda s: 2 * s.s2 * (2 * s.qd1 * s.qd2 + s.qd2**2), lambda s: -2 * s.s2 * s.qd1**2
+        ),
+        CENTRIFUGAL,
+    ),
+    Mistake(
+        "sign of the velocity products at joint 1",
+        _coupling(lambda s: 2 * s.s2 * (2 * s.qd1 * s.qd2 + s.qd2**2), _nothing),
+        CENTRIFUGAL,
+    ),
+    Mistake(
+        "sign of the velocity products at joint 2",
+        _coupling(_nothing, lambda s: -2 * s.s2 * s.qd1**2),
+        CENTRIFUGAL,
+    ),
+    Mistake(
+        "C times ones",
+        _coupling(
+            lambda s: s.s2 * (2 * s.qd1 * s.qd2 + s.qd2**2 - s.qd1 - 2 * s.qd2),
+            lambda s: s.s2 * (s.qd1 - s.qd1**2),
+        ),
+        "Your velocities stand alone, not in products: you have added up the rows of C. By which "
+        "vector must C be multiplied?",
+    ),
+    Mistake(
+        "absolute acceleration of link 2",
+        _plus(lambda s, arm: {(0, J2): -s.qdd1, (1, J2): -s.qdd1}),
+        "In your column of J2, link 2 turns with q̈2 only. What is its angular acceleration in space?",
+    ),
+    Mistake(
+        "absolute acceleration of link 2 at joint 2",
+        _plus(lambda s, arm: {(1, J2): -s.qdd1}),
+        "In your column of J2, joint 2 does not feel q̈1. Is J2 in M12?",
+    ),
+    Mistake(
+        "J2 left out at joint 1",
+        _plus(lambda s, arm: {(0, J2): -s.spin_2}),
+        "In your column of J2 the row of joint 1 is empty. Must joint 1 not turn link 2 as well?",
+    ),
+    Mistake(
+        "J1 at joint 2",
+        _plus(lambda s, arm: {(1, J1): s.qdd1}),
+        "In your column of J1 joint 2 has a torque. Which joints does link 1 load: those before it "
+        "or those behind it?",
+    ),
+    Mistake(
+        "l1 not squared",
+        _plus(lambda s, arm: {(0, M2): (arm.l1 - arm.l1**2) * s.qdd1}),
+        "In your column of m2, look at the units: what must m2 be multiplied with to be an inertia?",
+    ),
+    Mistake(
+        "inertia of m2 at the elbow missing",
+        _plus(lambda s, arm: {(0, M2): -(arm.l1**2) * s.qdd1}),
+        "In your column of m2 only its weight is left. Joint 1 also accelerates the elbow: what "
+        "inertia has a mass m2 there?",
+    ),
+    Mistake(
+        "no acceleration",
+        _at(qdd=0.0),
+        "Your Y does not depend on the accelerations. It is the whole left side M q̈ + C q̇ + g.",
+    ),
+    Mistake(
+        "column of m2 missing",
+        _plus(lambda s, arm: {(0, M2): -(arm.l1**2) * s.qdd1 - arm.l1 * arm.g * s.c1}),
+        "Your column of m2 is empty. Put all of m2 into the elbow, so that ℓc2 = 0: does joint 1 "
+        "feel it?",
+    ),
+    Mistake(
+        "inertia about the centre of mass",
+        _plus(
+            lambda s, arm: {
+                (0, M1): arm.lc1**2 * s.qdd1,
+                (0, M2): arm.lc2**2 * s.spin_2,
+                (1, M2): arm.lc2**2 * s.spin_2,
+            }
+        ),
+        ABOUT_COM,
+    ),
+    Mistake(
+        "inertia about the centre of mass, in the column of m lc",
+        _plus(
+            lambda s, arm: {
+                (0, MC1): arm.lc1 * s.qdd1,
+                (0, MC2): arm.lc2 * s.spin_2,
+                (1, MC2): arm.lc2 * s.spin_2,
+            }
+        ),
+        ABOUT_COM,
+    ),
+    Mistake(
+        "weight of link 1 in the column of m1",
+        _plus(lambda s, arm: {(0, M1): arm.lc1 * arm.g * s.c1, (0, MC1): -arm.g * s.c1}),
+        "You put the weight of link 1 into the column of m1, with ℓc1 in Y. ℓc1 is one of the things "
+        "to be found: which entry of π has it already?",
+    ),
+    Mistake(
+        "parameters in Y",
+        lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm) * parameters(arm),
+        "Your columns add up to the torque: each still carries its own parameter. What is left of a "
+        "column when π is taken out of it?",
+    ),
+    Mistake(
+        "all reversed",
+        lambda q, qd, qdd, arm: -regressor(q, qd, qdd, arm),
+        "Every entry of your Y has the wrong sign. On which side of the equation of motion do the "
+        "torques u stand?",
+    ),
+    Mistake("by kind", _columns(M1, M2, MC1, MC2, J1, J2), ORDER),
+    Mistake("each link reversed", _columns(J1, MC1, M1, J2, MC2, M2), ORDER),
+    Mistake("inertia first", _columns(J1, M1, MC1, J2, M2, MC2), ORDER),
+    Mistake("inertia before first moment", _columns(M1, J1, MC1, M2, J2, MC2), ORDER),
+    Mistake("first moment first", _columns(MC1, M1, J1, MC2, M2, J2), ORDER),
+    Mistake("link 2 first", _columns(M2, MC2, J2, M1, MC1, J1), ORDER),
+    Mistake(
+        "rows swapped",
+        lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm)[..., ::-1, :],
+        "The rows of the two joints have changed places.",
+    ),
+    Mistake(
+        "reshaped for transposed",
+        lambda q, qd, qdd, arm: np.reshape(regressor(q, qd, qdd, arm).T, (2, 6)),
+        "Reshaping an array is not transposing it: the shape fits, but the entries are in other "
+        "places.",
+    ),
+    Mistake(
+        "l2 for l1",
+        _with(l1=lambda arm: arm.l2),
+        "You use ℓ2 where link 2 begins. Which length leads from the shoulder to the elbow?",
+    ),
+    Mistake(
+        "lc1 for l1",
+        _with(l1=lambda arm: arm.lc1),
+        "You let link 2 begin at the centre of mass of link 1. Where on link 1 is the elbow?",
+    ),
+    Mistake(
+        "g missing",
+        _with(g=lambda arm: 1.0),
+        "The gravitational acceleration g is missing from your Y. It is known, so it belongs there.",
+    ),
+    Mistake("9.81", _with(g=lambda arm: 9.81), HARD_CODED_G),
+    Mistake("example arm", _with(l1=lambda arm: EXAMPLE.l1, g=lambda arm: EXAMPLE.g), EXAMPLE_ARM),
+    Mistake(
+        "radians taken for degrees",
+        _at(q=np.pi / 180),
+        "The angles are turned from degrees to radians once too often: q comes in radians already.",
+    ),
+    Mistake(
+        "angles in degrees",
+        _at(q=180 / np.pi),
+        "NumPy takes angles in radians, and q is in radians already: nothing is to be converted.",
+    ),
+)
+
+
+def stacked(Y) -> np.ndarray:
+    """The rows of all samples, one under the other: (K, 2, p) as (2K, p)."""
+    return np.reshape(Y, (-1, np.shape(Y)[-1]))
+
+
+def solved(W, u) -> np.ndarray:
+    """The least-squares solution of W x = u; of least length where it is not the only one."""
+    return np.linalg.lstsq(W, np.ravel(u), rcond=1e-10)[0]
+
+
+def _base(q, qd, qdd, arm):
+    """Y of the base parameters, (K, 2, 4)."""
+    return regressor(q, qd, qdd, arm)[..., BASE_COLUMNS]
+
+
+def fit(q, qd, qdd, u, arm) -> np.ndarray:
+    """The least-squares estimate of the base parameters, (4,)."""
+    return solved(stacked(_base(q, qd, qdd, arm)), u)
+
+
+def _fit_with(Y):
+    """The fit with a wrong regressor."""
+    return lambda q, qd, qdd, u, arm: solved(stacked(Y(q, qd, qdd, arm)[..., BASE_COLUMNS]), u)
+
+
+def _fit_of(rows):
+    """The fit with some of the samples or of the joints only."""
+
+    def wrong(q, qd, qdd, u, arm):
+        return solved(stacked(_base(q, qd, qdd, arm)[rows]), np.reshape(u, (-1, 2))[rows])
+
+    return wrong
+
+
+def _ridge(weight):
+    def wrong(q, qd, qdd, u, arm):
+        W = stacked(_base(q, qd, qdd, arm))
+        return np.linalg.solve(W.T @ W + weight * np.eye(4), W.T @ np.ravel(u))
+
+    return wrong
+
+
+def _with_offset(offsets):
+    """The fit with further columns, one for each column of offsets, (2, k), at every sample."""
+
+    def wrong(q, qd, qdd, u, arm):
+        W = stacked(_base(q, qd, qdd, arm))
+        return solved(np.hstack([W, np.tile(offsets, (len(q), 1))]), u)[:4]
+
+    return wrong
+
+
+def _joint_after_joint(q, qd, qdd, u, arm):
+    """Link 2 from the torques of joint 2, then the rest from those of joint 1."""
+    Y = _base(q, qd, qdd, arm)
+    of_link_2 = solved(Y[:, 1, 2:], u[:, 1])
+    return np.concatenate([solved(Y[:, 0, :2], u[:, 0] - Y[:, 0, 2:] @ of_link_2), of_link_2])
+
+
+def _mean_of_joints(q, qd, qdd, u, arm):
+    Y = _base(q, qd, qdd, arm)
+    return (solved(Y[:, 0], u[:, 0]) + solved(Y[:, 1], u[:, 1])) / 2
+
+
+def _mean_of_samples(q, qd, qdd, u, arm):
+    Y = _base(q, qd, qdd, arm)
+    return np.mean([np.linalg.pinv(Yk) @ uk for Yk, uk in zip(Y, u, strict=True)], axis=0)
+
+
+def _scaled(q, qd, qdd, u, arm):
+    W = stacked(_base(q, qd, qdd, arm))
+    return solved(W / np.linalg.norm(W, axis=0), u)
+
+
+def _total(q, qd, qdd, u, arm):
+    together = np.column_stack([stacked(_base(q, qd, qdd, arm)), np.ravel(u)])
+    last = np.linalg.svd(together)[2][-1]
+    return -last[:4] / last[4]
+
+
+def _shortest_pi(q, qd, qdd, u, arm):
+    return solved(stacked(regressor(q, qd, qdd, arm)), u)[[*BASE_COLUMNS]]
+
+
+def _reordered(*order):
+    return lambda q, qd, qdd, u, arm: fit(q, qd, qdd, u, arm)[[*order]]
+
+
+ONE_SAMPLE = (
+    "Your estimate uses one sample only: two equations for four numbers. Stack all samples under "
+    "each other, and solve once."
+)
+STACKING = (
+    "The rows of your W and the entries of your torque vector are in different orders: one goes "
+    "sample by sample, the other joint by joint. Look at the first three of each."
+)
+REGULARISED = (
+    "Your estimate is pulled towards zero, by something added to the diagonal of WᵀW. This motion "
+    "shows all four numbers: does the system need it?"
+)
+OFFSET = (
+    "Your fit has an offset as a further unknown. It is zero without noise, but with noise it takes "
+    "a part of the torque. Is there a constant torque in the equation of motion?"
+)
+ESTIMATE_ORDER = (
+    "These are the right four numbers in another order. In which order does the docstring ask for "
+    "them?"
+)
+
+IDENTIFY = (
+    Mistake(
+        "joint 1 only",
+        _fit_of((slice(None), 0)),
+        "Your fit uses the torques of joint 1 only. Without noise they suffice; with noise, what do "
+        "the equations of joint 2 still tell?",
+    ),
+    Mistake(
+        "joint 2 only",
+        _fit_of((slice(None), 1)),
+        "Your fit uses the torques of joint 2 only. Which of the four numbers can that joint feel?",
+    ),
+    Mistake(
+        "joint after joint",
+        _joint_after_joint,
+        "You fit link 2 to the torques of joint 2 and then the rest to those of joint 1. Without "
+        "noise that suffices; with noise, what does joint 1 tell about link 2?",
+    ),
+    Mistake(
+        "mean of both joints",
+        _mean_of_joints,
+        "You fit each joint by itself and take the mean. Can joint 2 tell all four numbers? Put the "
+        "rows of both joints into one system.",
+    ),
+    Mistake(
+        "first sample",
+        _fit_of(slice(0, 1)),
+        ONE_SAMPLE,
+    ),
+    Mistake("last sample", _fit_of(slice(-1, None)), ONE_SAMPLE),
+    Mistake(
+        "last sample forgotten",
+        _fit_of(slice(None, -1)),
+        "The last sample is left out of your fit. Where does your loop end?",
+    ),
+    Mistake(
+        "first sample forgotten",
+        _fit_of(slice(1, None)),
+        "The first sample is left out of your fit. At which index does an array begin?",
+    ),
+    Mistake(
+        "mean of the samples' own solutions",
+        _mean_of_samples,
+        "You solve each sample by itself and take the mean. Each has two equations for four numbers, "
+        "so none of them has one solution. Stack the samples first, then solve.",
+    ),
+    Mistake(
+        "torques joint by joint",
+        lambda q, qd, qdd, u, arm: solved(stacked(_base(q, qd, qdd, arm)), u.T),
+        STACKING,
+    ),
+    Mistake(
+        "rows joint by joint",
+        lambda q, qd, qdd, u, arm: solved(stacked(_base(q, qd, qdd, arm).swapaxes(0, 1)), u),
+        STACKING,
+    ),
+    *(Mistake(f"ridge {w:g}", _ridge(w), REGULARISED) for w in (1.0, 0.1, 0.01, 1e-3)),
+    Mistake("one offset", _with_offset(np.ones((2, 1))), OFFSET),
+    Mistake("an offset for each joint", _with_offset(np.eye(2)), OFFSET),
+    Mistake(
+        "columns scaled and not scaled back",
+        _scaled,
+        "You scale the columns of W before the fit. What must then be done with the solution?",
+    ),
+    Mistake(
+        "total least squares",
+        _total,
+        "Your fit also allows errors in W. Here only the torques are noisy: which sum of squares is "
+        "to be as small as possible?",
+    ),
+    Mistake(
+        "entries of the shortest π",
+        _shortest_pi,
+        "You solve for six parameters and then give four of them. The six are not unique: of all "
+        "that fit, lstsq gives the shortest. What of it do the torques really show?",
+    ),
+    Mistake("inertias first", _reordered(1, 0, 3, 2), ESTIMATE_ORDER),
+    Mistake("by kind", _reordered(0, 2, 1, 3), ESTIMATE_ORDER),
+    Mistake("inertias first, by kind", _reordered(1, 3, 0, 2), ESTIMATE_ORDER),
+    Mistake("link 2 first", _reordered(2, 3, 0, 1), ESTIMATE_ORDER),
+    Mistake(
+        "sign",
+        lambda q, qd, qdd, u, arm: -fit(q, qd, qdd, u, arm),
+        "All four numbers have the wrong sign: your arm has negative masses. On which sides of the "
+        "equation do Y π and u stand?",
+    ),
+    Mistake(
+        "example arm",
+        lambda q, qd, qdd, u, arm: base_parameters(EXAMPLE),
+        "These are the numbers of the arm in the set-up cell, whatever was measured. What is known of "
+        "this arm stands in q, q̇, q̈ and u.",
+    ),
+)
+
+# Fits that are right but for the regressor they stand on.
+STANDS_ON = (
+    "Your fit is least squares, but the regressor that it uses is wrong: make the card of part A "
+    "green, or look at what you changed in it here."
+)
+IDENTIFY += tuple(
+    Mistake(f"fit: {mistake.name}", _fit_with(mistake.wrong), STANDS_ON)
+    for mistake in REGRESSOR
+    if mistake.name
+    in (
+        "gravity missing",
+        "sign of gravity",
+        "sine for cosine in gravity",
+        "absolute second angle in gravity",
+        "coupling without the factor 2",
+        "velocity products left out",
+        "no acceleration",
+        "sign of the velocity products",
+        "absolute acceleration of link 2",
+        "l2 for l1",
+        "9.81",
+        "example arm",
+    )
+)
+
+
+def rank(q, qd, qdd, arm) -> int:
+    """The numerical rank of the stacked regressor."""
+    return int(np.linalg.matrix_rank(stacked(regressor(q, qd, qdd, arm))))
+
+
+def _rank_with(Y):
+    return lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(stacked(Y(q, qd, qdd, arm))))
+
+
+def _rank_of(rows):
+    return lambda q, qd, qdd, arm: int(
+        np.linalg.matrix_rank(stacked(regressor(q, qd, qdd, arm)[rows]))
+    )
+
+
+def _always(count):
+    return lambda q, qd, qdd, arm: count
+
+
+def _at_most(count):
+    """The number of rows, but no more than this."""
+    return lambda q, qd, qdd, arm: min(2 * len(q), count)
+
+
+def _rank_and_rounding(q, qd, qdd, arm):
+    """What is counted where every singular value above zero counts: the columns that are not zero
+    leave one each, of the right size or of that of rounding; where all is at rest two are exact
+    multiples of each other more often than not."""
+    moving = np.any(qd) or np.any(qdd)
+    return min(2 * len(q), 5 if moving else 4)
+
+
+def _columns_that_move(q, qd, qdd, arm):
+    return int(np.sum(np.any(stacked(regressor(q, qd, qdd, arm)), axis=0)))
+
+
+ROUNDING_COUNTS = (
+    "You count singular values that are only rounding. Print them all, divided by the largest: "
+    "there is a wide gap, and only those above it are real."
+)
+ONE_STATE = (
+    "Your number is never above 2: it is the rank of a matrix with one row for each joint. Put the "
+    "rows of all samples under each other first."
+)
+COUNTED = (
+    "You count the parameters, not what a motion shows of them: your number is the same for every "
+    "motion. What does an arm at rest tell?"
+)
+
+RANK = (
+    Mistake("number of columns", _always(6), COUNTED),
+    Mistake("five", _always(5), COUNTED),
+    Mistake("four", _always(4), COUNTED),
+    Mistake(
+        "smaller of rows and columns",
+        _at_most(6),
+        "This is the smaller number of the rows and the columns: the rank that W could have. Do the "
+        "columns depend on each other?",
+    ),
+    Mistake(
+        "rows, but at most four",
+        _at_most(4),
+        "You take every motion with enough samples for a rich one. Which columns of W vanish, or are "
+        "multiples of each other, when the arm stands still?",
+    ),
+    Mistake("tolerance zero", _rank_and_rounding, ROUNDING_COUNTS),
+    Mistake(
+        "columns that are not zero",
+        _columns_that_move,
+        "You count the columns that are not zero. Can a column be made of the others?",
+    ),
+    Mistake("first sample", _rank_of(slice(0, 1)), ONE_STATE),
+    Mistake(
+        "sum of the samples",
+        lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(np.sum(regressor(q, qd, qdd, arm), 0))),
+        ONE_STATE,
+    ),
+    Mistake(
+        "side by side",
+        lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(np.hstack(regressor(q, qd, qdd, arm)))),
+        ONE_STATE,
+    ),
+    Mistake(
+        "joint 1 only",
+        _rank_of((slice(None), 0)),
+        "You count what joint 1 shows. Does the torque of joint 2 show something more?",
+    ),
+    Mistake(
+        "joint 2 only",
+        _rank_of((slice(None), 1)),
+        "You count what joint 2 shows. What of link 1 can joint 2 feel?",
+    ),
+    Mistake(
+        "number of samples",
+        lambda q, qd, qdd, arm: len(q),
+        "This is the number of samples. Ten times the same sample: is that ten times as much known?",
+    ),
+    Mistake(
+        "number of rows",
+        lambda q, qd, qdd, arm: 2 * len(q),
+        "You count every equation, two for each sample. Does a sample that repeats another tell "
+        "anything new?",
+    ),
+    Mistake(
+        "gravity ignored",
+        _rank_with(_with(g=lambda arm: 0.0)),
+        "You count what would be seen without gravity. Which g does arm have?",
+    ),
+    Mistake(
+        "9.81",
+        _rank_with(_with(g=lambda arm: 9.81)),
+        "You count what would be seen on Earth. The check also takes the arm into orbit, where g is "
+        "0: which parameter of arm gives g?",
+    ),
+    Mistake(
+        "no acceleration",
+        _rank_with(_at(qdd=0.0)),
+        "Your regressor does not see the accelerations here. Which arguments reach it?",
+    ),
+    Mistake(
+        "what is missing",
+        lambda q, qd, qdd, arm: 6 - rank(q, qd, qdd, arm),
+        "This is how many columns are lost: 6 less the rank. How many are shown?",
+    ),
+)

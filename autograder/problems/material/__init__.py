@@ -1,0 +1,1 @@
+"""What several problems' checks are made of."""

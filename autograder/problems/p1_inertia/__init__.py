@@ -1,0 +1,1 @@
+"""p1: the inertia matrix of the planar 2R arm."""

@@ -1,0 +1,283 @@
+"""p1-inertia: the inertia matrix, from links and in closed form; when it is positive definite."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from autograder.problems.material import planar_2r
+from autograder.problems.material import sampling
+from autograder.problems.material.definiteness import MATRICES, ROUNDING, Kind, is_symmetric, least_eigenvalue
+from autograder.judging.diagnosis import Term
+from autograder.judging.check import VISIBLE_CASES, Check, Criterion
+from autograder.problems.p1_inertia import mistakes
+from autograder.judging.quantities import UnfitError, array, each, one_number
+from autograder.protocol import Call
+from autograder.judging.witness import TRUTH
+
+NOTHING = np.empty(0)  # a quantity of a criterion that a call says nothing of
+
+# Links and joints: one link and many, and as many joints as a spatial inertia has rows.
+SHAPES = ((1, 3), (2, 2), (3, 4), (2, 6), (1, 6), (4, 1))
+
+
+def _links_calls(rng, count):
+    shapes = [*SHAPES, *zip(rng.integers(2, 6, count), rng.integers(1, 7, count), strict=True)]
+    return [
+        Call(
+            "inertia_from_links",
+            (rng.uniform(-1, 1, (L, 6, n)), np.array([_spatial_inertia(rng) for _ in range(L)])),
+        )
+        for L, n in shapes[:count]
+    ]
+
+
+def _spatial_inertia(rng):
+    """A body's 6 × 6 inertia about a point beside its centre of mass, rows and columns (ω, v)."""
+    mass, com = rng.uniform(0.5, 3.0), rng.choice([-1, 1], 3) * rng.uniform(0.3, 0.9, 3)
+    size = np.diag(rng.uniform(0.1, 0.5, 3))
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    spread = turn @ size @ turn.T  # ∫ r rᵀ dm: any positive one is some body's
+    x, y, z = com
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    about_point = np.trace(spread) * np.eye(3) - spread - mass * cross @ cross
+    inertia = np.block([[about_point, mass * cross], [-mass * cross, mass * np.eye(3)]])
+    return (inertia + inertia.T) / 2
+
+
+@each
+def _one_link_and_more(call, value):
+    jacobians, _ = call.args
+    links, _, n = jacobians.shape
+    M = np.reshape(value, (1, 1)) if n == 1 and np.size(value) == 1 else array(value, n, n)
+    return (M, NOTHING) if links == 1 else (NOTHING, M)
+
+
+def _block_term(name, rows, columns):
+    """The part of Σ JᵀIJ that comes from one block of the spatial inertias and its transpose."""
+    mask = np.zeros((6, 6))
+    mask[rows, columns] = mask[columns, rows] = 1
+    return Term(
+        name,
+        lambda jacobians, inertias: sum(
+            J.T @ (mask * I) @ J for J, I in zip(jacobians, inertias, strict=True)
+        ),
+    )
+
+
+def _M_calls(rng, count):
+    # At least twelve, so that the six terms of M11 cannot explain just any error.
+    return [
+        Call("M", (sampling.angles(rng), sampling.planar_2r(rng))) for _ in range(max(count, 12))
+    ]
+
+
+@each
+def _entries(call, value):
+    M = array(value, 2, 2)
+    return (M[0, 0], np.array([M[0, 1], M[1, 0]]), M[1, 1])
+
+
+def _link_1(size):
+    return lambda q, arm: np.array([[size(arm), 0.0], [0.0, 0.0]])
+
+
+def _link_2(size):
+    return lambda q, arm: np.full((2, 2), size(arm))
+
+
+M_TERMS = (
+    Term("the rotation of link 1", _link_1(lambda arm: arm.I1)),
+    Term("the centre of mass of link 1", _link_1(lambda arm: arm.m1 * arm.lc1**2)),
+    Term("the mass of link 2, carried at the elbow", _link_1(lambda arm: arm.m2 * arm.l1**2)),
+    Term("the rotation of link 2", _link_2(lambda arm: arm.I2)),
+    Term("the centre of mass of link 2 about the elbow", _link_2(lambda arm: arm.m2 * arm.lc2**2)),
+    Term(
+        "the coupling of the two links",
+        lambda q, arm: (
+            arm.m2 * arm.l1 * arm.lc2 * np.cos(q[1]) * np.array([[2.0, 1.0], [1.0, 0.0]])
+        ),
+    ),
+)
+
+
+# Of which criteria a matrix speaks. Each criterion sees some to accept and some to refuse, so that no
+# answer that is always the same meets one.
+SPEAKS_OF = {
+    Kind.DEFINITE: (0, 1, 2),
+    Kind.INDEFINITE: (0,),
+    Kind.NEGATIVE_DIAGONAL: (0, 3),
+    Kind.SEMIDEFINITE: (1,),
+    Kind.SKEWED: (2,),
+    Kind.ROUNDED: (3,),
+}
+
+
+def _matrix_calls(rng, count):
+    return [
+        Call("is_spd", (2.0 ** rng.integers(-3, 4) * matrix(rng),))  # exact: no digit changes
+        for _ in range(max(1, count // VISIBLE_CASES))
+        for _, matrix in MATRICES
+    ]
+
+
+def _verdicts(calls, values):
+    """For each criterion the answer of each call that speaks of it, as 1 or 0."""
+    found = []
+    for place, (answer,) in enumerate(one_number(calls, values)):
+        if answer not in (0, 1):
+            raise UnfitError(f"{answer:.4g}; True or False is asked for")
+        kind, _ = MATRICES[place % len(MATRICES)]
+        found.append(tuple(answer if k in SPEAKS_OF[kind] else NOTHING for k in range(4)))
+    return found
+
+
+PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2")
+
+
+@each
+def _singular_and_allowed(call, value):
+    arm, q = _arm_and_q(value)
+    is_singular = _why_singular(arm, q)
+    named = vars(arm)
+    allowed = (
+        arm.m1 != 0 and arm.m2 != 0,
+        arm.l1 != 0 and arm.l2 != 0,
+        all(number >= 0 for number in named.values()),
+    )
+    return (is_singular, np.array([*is_singular, *allowed], dtype=float))
+
+
+def _arm_and_q(value):
+    """The arm as a namespace of its eight numbers, and q; UnfitError for what is neither."""
+    if not isinstance(value, list) or len(value) != 2 or not isinstance(value[0], dict):
+        raise UnfitError("no pair of an arm and a q; (arm, q) is asked for, arm a dict")
+    arm, q = value
+    missing = [name for name in PARAMETERS if name not in arm]
+    if missing:
+        raise UnfitError(f"an arm without {', '.join(missing)}")
+    if isinstance(q, dict | list) or np.shape(q) not in ((2,), (2, 1), (1, 2)):
+        raise UnfitError("a q that is not two angles")
+    for name in PARAMETERS:
+        if isinstance(arm[name], dict | list) or np.size(arm[name]) != 1:
+            raise UnfitError(f"an arm whose {name} is not one number")
+    return SimpleNamespace(**{n: float(np.ravel(arm[n])[0]) for n in PARAMETERS}), np.ravel(q)
+
+
+def _why_singular(arm, q):
+    """Whether M(q) is singular, and three times 1; where it is not, a 0 for each reason, in turn.
+
+    det M = a b − k², with a the inertia of link 1 and of m2 at the elbow, b that of link 2 about the
+    elbow. Relative to a b it does not depend on units, and is 1 − k²/(a b).
+    """
+    first, b = arm.I1 + arm.m1 * arm.lc1**2, arm.I2 + arm.m2 * arm.lc2**2
+    ab = (first + arm.m2 * arm.l1**2) * b
+    k2 = (arm.m2 * arm.l1 * arm.lc2 * np.cos(q[1])) ** 2
+    if abs(ab - k2) <= ROUNDING * max(abs(ab), k2):
+        return np.ones(4)
+    if arm.I2 != 0:
+        return np.array([0.0, 0.0, 1.0, 1.0])
+    return np.array([0.0, 1.0, first == 0, abs(np.sin(q[1])) < 1e-6])
+
+
+CHECKS = (
+    Check(
+        id="p1-inertia_from_links",
+        signature="inertia_from_links(jacobians, inertias)",
+        reference=lambda jacobians, inertias: np.einsum(
+            "lai,lab,lbj->ij", jacobians, inertias, jacobians
+        ),
+        calls=_links_calls,
+        quantities=_one_link_and_more,
+        criteria=(
+            Criterion("matrix of one link", "kg·m²", 0.5),
+            Criterion("matrix of several links", "kg·m²", 0.5),
+        ),
+        mistakes=mistakes.INERTIA_FROM_LINKS,
+        terms=(
+            _block_term("the rotation of the links", slice(0, 3), slice(0, 3)),
+            _block_term("the translation of the links", slice(3, 6), slice(3, 6)),
+            _block_term("the coupling of rotation and translation in I", slice(0, 3), slice(3, 6)),
+        ),
+        hints=(
+            "Write the kinetic energy of one link with its velocity vₖ = Jₖ q̇ put in. What stands "
+            "between the two q̇?",
+            "Check the shapes: Jₖ is (6, n) and Iₖ is (6, 6). In which order do they multiply to "
+            "(n, n)?",
+            "Start with an n × n matrix of zeros, n from jacobians.shape[2]. Loop over the links "
+            "with zip(jacobians, inertias), add each link's matrix, and return after the loop.",
+        ),
+    ),
+    Check(
+        id="p1-M",
+        signature="M(q, arm)",
+        reference=planar_2r.M,
+        calls=_M_calls,
+        quantities=_entries,
+        criteria=(
+            Criterion("M11", "kg·m²", 0.5),
+            Criterion(
+                "M12 and M21",
+                "kg·m²",
+                0.25,
+                otherwise="M12 and M21 are judged together: are they the same in your matrix?",
+            ),
+            Criterion("M22", "kg·m²", 0.25),
+        ),
+        mistakes=mistakes.INERTIA,
+        terms=M_TERMS,
+        hints=(
+            "Start from the energy, not from the matrix. Each link has two parts: its centre of "
+            "mass moves, and it turns. What is the angular velocity of link 2?",
+            "Write the position of the centre of mass of link 2, differentiate it, and square its "
+            "velocity. The two angles leave one cosine: that of the angle between the links.",
+            "Sort K by q̇1², q̇1 q̇2 and q̇2². In q̇ᵀ M q̇ the first has M11, the last M22, and the "
+            "mixed one M12 + M21. Remember the ½, and that M12 = M21.",
+        ),
+        pose=lambda call: planar_2r.joints(*call.args),
+    ),
+    Check(
+        id="p1-is_spd",
+        signature="is_spd(A)",
+        reference=lambda A: is_symmetric(A) and least_eigenvalue(A) > ROUNDING,
+        calls=_matrix_calls,
+        quantities=_verdicts,
+        criteria=(
+            Criterion("positive definite told from indefinite", TRUTH, 0.3),
+            Criterion("semidefinite refused", TRUTH, 0.2),
+            Criterion("non-symmetric refused", TRUTH, 0.3),
+            Criterion("symmetric up to rounding accepted", TRUTH, 0.2),
+        ),
+        mistakes=mistakes.IS_SPD,
+        hints=(
+            "There are two questions in the name: symmetric, and positive definite. Ask them one "
+            "after the other.",
+            "For symmetry look at the largest entry of |A − Aᵀ|. For the rest, which function of "
+            "np.linalg gives the eigenvalues of a symmetric matrix?",
+            "Compare both with 1e-9 times the largest number of their kind: the asymmetry with the "
+            "largest entry, and the smallest eigenvalue with the largest one.",
+        ),
+    ),
+    Check(
+        id="p1-singular_arm",
+        signature="singular_arm()",
+        reference=lambda: (
+            planar_2r.changed(mistakes.EXAMPLE, I2=0.0, lc2=0.0),
+            (0.3, 1.0),
+        ),
+        calls=lambda rng, count: [Call("singular_arm", (), parts=True)],
+        quantities=_singular_and_allowed,
+        criteria=(
+            Criterion("is M(q) singular?", TRUTH, 0.5),
+            Criterion("is it so with allowed parameters?", TRUTH, 0.5),
+        ),
+        mistakes=mistakes.SINGULAR_ARM,
+        hints=(
+            "M is singular where some velocity other than zero costs no energy. Each link's energy "
+            "has two parts, and none of them is negative: what must each of them be?",
+            "Link 2 must not cost energy by turning: which parameter of it does that decide? Then ask "
+            "which motions leave its centre of mass at rest.",
+            "A point mass has no inertia about its centre of mass. Put the point mass of link 2 where "
+            "joint 2 cannot move it, and look at your M22.",
+        ),
+    ),
+)

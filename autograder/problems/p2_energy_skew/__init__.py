@@ -1,0 +1,1 @@
+"""p2: Coriolis terms, energy and skew-symmetry."""

@@ -1,0 +1,264 @@
+"""p2-energy-skew: the Coriolis matrix, its freedom, and what energy says about it.
+
+C is judged by what it does: C q̇, which the motion sees; q̇ᵀC q̇, which the energy sees; and C + Cᵀ, which
+shows whether Ṁ − 2C is skew-symmetric. For two joints the first and the last leave only the
+Christoffel form.
+"""
+
+import numpy as np
+
+from autograder.problems.material import planar_2r
+from autograder.problems.material import sampling
+from autograder.judging.diagnosis import TOLERANCE, relative_errors
+from autograder.judging.check import VISIBLE_CASES, Check, Criterion
+from autograder.problems.p2_energy_skew import mistakes
+from autograder.judging.quantities import array, each
+from autograder.protocol import Call, Expressions, Symbol, real
+
+# Ṁ − 2C is clearly not skew where C + Cᵀ and Ṁ differ by this share of the largest entry of C.
+CLEARLY = 0.01
+
+
+def _calls(name):
+    def calls(rng, count):
+        return [
+            Call(name, (sampling.angles(rng), sampling.velocities(rng), sampling.planar_2r(rng)))
+            for _ in range(count)
+        ]
+
+    return calls
+
+
+def _pose(call):
+    q, _, arm = call.args
+    return planar_2r.joints(q, arm)
+
+
+@each
+def _entries(call, value):
+    """Ṁ11; Ṁ12 and Ṁ21; Ṁ22."""
+    M_dot = array(value, 2, 2)
+    return M_dot[0, 0], np.array([M_dot[0, 1], M_dot[1, 0]]), M_dot[1, 1]
+
+
+def _matrix(value, n, right):
+    """A C as it came, (n, n). The vector C q̇ and the row sums of C are mistakes with a name: they count
+    as the diagonal of a matrix. right(): C and q̇, where they are needed.
+    """
+    if n == 1 and np.size(value) == 1:
+        return np.reshape(value, (1, 1))
+    if np.size(value) == n:
+        C, qd = right()
+        for vector in (C @ qd, C @ np.ones(n)):
+            if np.allclose(np.ravel(value), vector, rtol=TOLERANCE, atol=TOLERANCE):
+                return np.diag(np.ravel(value))
+    return array(value, n, n)
+
+
+def _of_arm(call, value):
+    return _matrix(value, 2, lambda: (planar_2r.C(*call.args), call.args[1]))
+
+
+@each
+def _steps(call, value):
+    """C q̇; q̇ᵀC q̇; C + Cᵀ."""
+    C, qd = _of_arm(call, value), call.args[1]
+    return C @ qd, qd @ C @ qd, C + C.T
+
+
+def _other(calls, values):
+    """C q̇, and how far Ṁ − 2C is from skew-symmetric, up to where that is clear.
+
+    One clear case is enough: what fails somewhere is no property. Where C q̇ is not right, no distance
+    counts, and it is put below zero.
+    """
+    given = [_of_arm(call, value) for call, value in zip(calls, values, strict=True)]
+    right = [planar_2r.C(*call.args) for call in calls]
+    velocities = [call.args[1] for call in calls]
+    torques = [C @ qd for C, qd in zip(given, velocities, strict=True)]
+    enough = np.array([CLEARLY * np.max(np.abs(C)) for C in right])
+    # C + Cᵀ of the Christoffel C is Ṁ.
+    apart = [np.max(np.abs(C + C.T - R - R.T)) for C, R in zip(given, right, strict=True)]
+    expected = [C @ qd for C, qd in zip(right, velocities, strict=True)]
+    if np.any(relative_errors(expected, torques) > TOLERANCE):
+        counts = -enough
+    elif np.any(apart >= enough):
+        counts = enough
+    else:
+        counts = np.array(apart)
+    return list(zip(torques, counts, strict=True))
+
+
+def _inertia_text(rng, coordinates):
+    """A symmetric matrix of expressions in the coordinates, each of which changes at its own rate.
+
+    As plain as can be, so that a student's `simplify` ends in time: with three joints an entry
+    changes with one of them.
+    """
+    n = len(coordinates)
+    rows = [[""] * n for _ in range(n)]
+    for i in range(n):
+        for j in range(i, n):
+            base = rng.uniform(3.0, 5.0) if i == j else rng.uniform(0.2, 0.8)
+            among = coordinates if n < 3 else [coordinates[(i + j) % n]]
+            rates = zip(rng.uniform(0.3, 1.5, n), among, strict=False)
+            rows[i][j] = f"{base:.2f} + " + " + ".join(f"{rate:.2f}*{q}" for rate, q in rates)
+            rows[j][i] = rows[i][j]
+    rows[0][0] += f" + {rng.uniform(1.0, 2.0):.2f}*cos({coordinates[-1]})"
+    return tuple(map(tuple, rows))
+
+
+def _symbolic_calls(rng, count):
+    """One, two and three joints, each at one point; for the grader twice. Symbols are slow."""
+    calls = []
+    for n in (1, 2, 3) * (1 if count <= VISIBLE_CASES else 2):
+        q, qd = [[f"{name}{k + 1}" for k in range(n)] for name in ("q", "qd")]
+        values = [float(draw(rng)[0]) for draw in n * [sampling.angle] + n * [sampling.velocity]]
+        calls.append(
+            Call(
+                "christoffel",
+                (Expressions(_inertia_text(rng, q)), tuple(map(Symbol, q)), tuple(map(Symbol, qd))),
+                at=(dict(zip(q + qd, values, strict=True)),),
+            )
+        )
+    return calls
+
+
+_christoffel = mistakes.at_points(lambda D, qd, M: mistakes.coriolis(D, qd))
+
+
+@each
+def _symbolic(call, value):
+    """C q̇, and C."""
+    (point,), n = call.at, len(call.args[1])
+    qd = np.array([point[symbol.name] for symbol in call.args[2]])
+    C = _matrix(value[0], n, lambda: (_christoffel(*map(real, call.args))(point), qd))
+    return C @ qd, C
+
+
+CHECKS = (
+    Check(
+        id="p2-M_dot",
+        signature="M_dot(q, qd, arm)",
+        reference=planar_2r.M_dot,
+        calls=_calls("M_dot"),
+        quantities=_entries,
+        criteria=(
+            Criterion("entry Ṁ11", "kg·m²/s", 0.45),
+            Criterion("entries Ṁ12 and Ṁ21", "kg·m²/s", 0.45),
+            Criterion("entry Ṁ22", "kg·m²/s", 0.1),
+        ),
+        mistakes=mistakes.M_DOT,
+        terms=mistakes.M_DOT_TERMS,
+        hints=(
+            "M changes with time only because the arm moves: M(q(t)). Which of its entries hold an "
+            "angle, and which angle?",
+            "The chain rule: d/dt of an entry is the sum over all joints of ∂entry/∂q_k times q̇_k. "
+            "Write down which of these derivatives are zero.",
+            "Call the number that stands with cos q2 in M12 the coupling. It enters M11, M12 and M21, "
+            "not equally often. Differentiate it with respect to q2 and multiply by q̇2. To test: "
+            "(M(q + ε q̇) − M(q − ε q̇)) / (2ε) for a small ε.",
+        ),
+        pose=_pose,
+    ),
+    Check(
+        id="p2-C",
+        signature="C(q, qd, arm)",
+        reference=planar_2r.C,
+        calls=_calls("C"),
+        quantities=_steps,
+        criteria=(
+            Criterion("vector C q̇", "N·m", 0.5),
+            Criterion(
+                "power q̇ᵀC q̇ = ½ q̇ᵀṀ q̇, so that the energy is kept",
+                "W",
+                0.2,
+                otherwise="With your C the energy would change where nobody does work: "
+                "q̇ᵀ(Ṁ − 2C)q̇ is not zero.",
+                is_property=True,
+            ),
+            Criterion(
+                "sum C + Cᵀ = Ṁ, so that Ṁ − 2C is skew-symmetric",
+                "kg·m²/s",
+                0.3,
+                otherwise="With your C the matrix Ṁ − 2C is not skew-symmetric. That is a property of "
+                "the Christoffel choice, beyond a right C q̇: how does it share the product q̇1 q̇2 "
+                "between the entries of a row?",
+                is_property=True,
+            ),
+        ),
+        mistakes=mistakes.CORIOLIS,
+        terms=mistakes.CORIOLIS_TERMS,
+        hints=(
+            "M changes with q2 only, so most of the derivatives ∂M_ij/∂q_k are zero. List those that "
+            "are not: there are three, and two of them are equal.",
+            "Give the name h to half of ∂M11/∂q2. Form h_ijk for all eight i, j, k: each is h, −h or 0.",
+            "Entry (i, j) of C is h_ij1 q̇1 + h_ij2 q̇2. Test it: C + Cᵀ must be your Ṁ, entry by entry.",
+        ),
+        pose=_pose,
+    ),
+    Check(
+        id="p2-C_other",
+        signature="C_other(q, qd, arm)",
+        reference=lambda q, qd, arm: (
+            planar_2r.C(q, qd, arm) + np.array([[-qd[1], qd[0]], [0.0, 0.0]])
+        ),
+        calls=_calls("C_other"),
+        quantities=_other,
+        criteria=(
+            Criterion(
+                "vector C_other q̇",
+                "N·m",
+                0.5,
+                otherwise="Your C_other q̇ differs from C q̇. Whatever you add to C must vanish when it "
+                "is multiplied by q̇.",
+            ),
+            Criterion(
+                "distance of Ṁ − 2 C_other from skew-symmetric (counts with the right C_other q̇)",
+                "kg·m²/s",
+                0.5,
+                otherwise="An answer counts as not skew where C_other q̇ is right and C_other + "
+                "C_otherᵀ differs clearly from Ṁ.",
+                is_property=True,
+            ),
+        ),
+        mistakes=mistakes.OTHER,
+        terms=mistakes.CORIOLIS_TERMS,
+        hints=(
+            "C q̇ holds the product q̇1 q̇2 in its first row. In which entries of the row can it stand?",
+            "Add to C a matrix that sends q̇ to zero. One row of it is enough: which row (a, b) has "
+            "a q̇1 + b q̇2 = 0 at every velocity?",
+            "Move the term of C11 into C12 so that the first row times q̇ stays the same. Then look at "
+            "C_other + C_otherᵀ beside Ṁ: is the first entry still the same?",
+        ),
+        pose=_pose,
+    ),
+    Check(
+        id="p2-christoffel",
+        signature="christoffel(M, q, qd)",
+        reference=_christoffel,
+        calls=_symbolic_calls,
+        quantities=_symbolic,
+        criteria=(
+            Criterion("vector C q̇", "N·m", 0.4),
+            Criterion(
+                "Christoffel form, entry by entry,",
+                "kg·m²/s",
+                0.6,
+                otherwise="Your matrix is not that of the Christoffel symbols. Write down h_121 and "
+                "h_211 for M = [[a(q2), b(q2)], [b(q2), c]] by hand, and compare.",
+                is_property=True,
+            ),
+        ),
+        mistakes=mistakes.CHRISTOFFEL,
+        terms=mistakes.CHRISTOFFEL_TERMS,
+        hints=(
+            "Three loops: i over rows, j over columns, and the sum over k. sp.diff(M[i, j], q[k]) "
+            "is one derivative of the three.",
+            "Try it by hand on one joint: M = [[a(q1)]] has C = ½ a′(q1) q̇1. Does yours?",
+            "In h_ijk the first derivative keeps i, j together, the second i, k, the third j, k. The "
+            "two that hold the row index i inside M have a plus. Multiply each h_ijk by q̇_k, and test "
+            "on the arm's M: C + Cᵀ must be Ṁ.",
+        ),
+    ),
+)

@@ -1,0 +1,511 @@
+"""Mistakes about Ṁ, the Coriolis matrix C and its Christoffel form.
+
+Wrong models of the 2R arm rest on one fact: all derivatives of its M are the same matrix PATTERN times
+a number. Those of the Christoffel form are sums over D[i, j, k] = ∂M_ij/∂q_k, for any n.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from autograder.problems.material import planar_2r as right
+from autograder.judging.diagnosis import Mistake, Term
+
+# How the coupling m2 ℓ1 ℓc2 cos q2 enters M.
+PATTERN = np.array([[2.0, 1.0], [1.0, 0.0]])
+
+
+def christoffel(D, first=0.5, second=0.5, third=-0.5) -> np.ndarray:
+    """h_ijk with the numbers given in front of ∂M_ij/∂q_k, ∂M_ik/∂q_j and ∂M_jk/∂q_i."""
+    return first * D + second * np.einsum("ikj->ijk", D) + third * np.einsum("jki->ijk", D)
+
+
+def coriolis(D, qd, **numbers) -> np.ndarray:
+    """C_ij = Σ_k h_ijk q̇_k."""
+    return christoffel(D, **numbers) @ qd
+
+
+def derivatives(q, arm, by_q1=0.0, by_q2=None, pattern=PATTERN) -> np.ndarray:
+    """D of the 2R arm; by_q1, by_q2: what stands for the derivatives of the coupling."""
+    by_q2 = right.h(q, arm) if by_q2 is None else by_q2
+    return np.stack([by_q1 * pattern, by_q2 * pattern], axis=-1)
+
+
+def coupling(arm) -> float:
+    """m2 ℓ1 ℓc2, kg·m²."""
+    return arm.m2 * arm.l1 * arm.lc2
+
+
+# Each gives D of an arm that somebody took for this one: a reason, D(q, arm), a sentence with {0} for
+# the matrix that is asked for.
+WRONG_ARMS = (
+    (
+        "cosine for sine",
+        lambda q, arm: derivatives(q, arm, by_q2=-coupling(arm) * np.cos(q[1])),
+        "Your {0} varies with cos q2. M varies with cos q2 itself: how does its derivative vary?",
+    ),
+    (
+        "cosine for sine, reversed",
+        lambda q, arm: derivatives(q, arm, by_q2=coupling(arm) * np.cos(q[1])),
+        "Your {0} varies with cos q2, as if M held sin q2. How does M depend on q2: is the arm "
+        "hardest to turn stretched out (q2 = 0) or with its elbow at a right angle?",
+    ),
+    (
+        "length for centre of mass",
+        lambda q, arm: derivatives(q, right.changed(arm, lc2=arm.l2)),
+        "You use the length ℓ2 of link 2 where the distance to its centre of mass belongs. Where is "
+        "its mass, seen from joint 2?",
+    ),
+    (
+        "centre of mass for length",
+        lambda q, arm: derivatives(q, right.changed(arm, l1=arm.lc1)),
+        "You use the distance ℓc1 where the length of link 1 belongs. How far from joint 1 is the "
+        "joint that carries link 2?",
+    ),
+    (
+        "mass of the other link",
+        lambda q, arm: derivatives(q, right.changed(arm, m2=arm.m1)),
+        "You use the mass m1. The mass of which link moves nearer to joint 1 when the elbow folds?",
+    ),
+    (
+        "absolute second angle",
+        lambda q, arm: derivatives(q, arm, *2 * [-coupling(arm) * np.sin(q[0] + q[1])]),
+        "Your {0} varies with q1 + q2. M may change with the angle between the links only: which "
+        "coordinate is that?",
+    ),
+    (
+        "second angle measured from the x axis",
+        lambda q, arm: derivatives(
+            q, arm, coupling(arm) * np.sin(q[1] - q[0]), -coupling(arm) * np.sin(q[1] - q[0])
+        ),
+        "Your {0} varies with q2 − q1, as if q2 were measured from the x axis. From where is q2 "
+        "measured here?",
+    ),
+    (
+        "first angle for second",
+        lambda q, arm: derivatives(q, arm, -coupling(arm) * np.sin(q[0]), 0.0),
+        "Your {0} varies with q1. Turning the whole arm about joint 1 does not change its shape: "
+        "which angle does?",
+    ),
+    (
+        "radians taken for degrees",
+        lambda q, arm: derivatives(q, arm, by_q2=-coupling(arm) * np.sin(np.radians(q[1]))),
+        "The angle is turned from degrees to radians once too often: q comes in radians already.",
+    ),
+    (
+        "factor 2 missing in M11",
+        lambda q, arm: derivatives(q, arm, pattern=np.array([[1.0, 1.0], [1.0, 0.0]])),
+        "Your {0} comes from an M11 whose coupling is too small by half. Square the velocity of link "
+        "2's centre of mass again: how often does the mixed product appear?",
+    ),
+    (
+        "coupling in M22",
+        lambda q, arm: derivatives(q, arm, pattern=np.array([[2.0, 1.0], [1.0, 1.0]])),
+        "Your {0} comes from an M22 that changes with q2. With joint 1 locked, link 2 turns about "
+        "joint 2: does its inertia about that joint change?",
+    ),
+)
+
+M_DOT = (
+    Mistake(
+        "sign",
+        lambda q, qd, arm: -right.M_dot(q, qd, arm),
+        "Your Ṁ has the wrong sign. When the elbow folds from q2 = 0, does M11 grow or shrink?",
+    ),
+    Mistake(
+        "velocity of the other joint",
+        lambda q, qd, arm: right.h(q, arm) * qd[0] * PATTERN,
+        "You multiply ∂M/∂q2 by q̇1. In the chain rule, with which velocity does the derivative with "
+        "respect to q2 go?",
+    ),
+    Mistake(
+        "sum of both velocities",
+        lambda q, qd, arm: right.h(q, arm) * (qd[0] + qd[1]) * PATTERN,
+        "You multiply ∂M/∂q2 by q̇1 + q̇2. In the chain rule each derivative has its own velocity: "
+        "which is that of q2?",
+    ),
+    Mistake(
+        "chain rule forgotten",
+        lambda q, qd, arm: right.h(q, arm) * PATTERN,
+        "This is the derivative with respect to q2, in kg·m² for each radian. Ṁ is one with respect "
+        "to time: what does the chain rule add?",
+    ),
+    Mistake(
+        "derivative with respect to q1 only",
+        lambda q, qd, arm: np.zeros((2, 2)),
+        "Your Ṁ is zero. M does not change with q1, that is true. What else in M changes with time?",
+    ),
+    Mistake(
+        "twice C",
+        lambda q, qd, arm: 2 * right.C(q, qd, arm),
+        "This is 2C. It equals Ṁ only under the quadratic form with q̇; compare the two matrices "
+        "entry by entry.",
+    ),
+    Mistake(
+        "M itself",
+        lambda q, qd, arm: right.M(q, arm),
+        "This is M, not how fast it changes.",
+    ),
+    Mistake(
+        "constants differentiated",
+        lambda q, qd, arm: right.M(q, arm) * qd[1],
+        "You multiply M by a velocity, where its derivative is to be multiplied. What is the "
+        "derivative of the constant parts of M?",
+    ),
+    *(
+        Mistake(name, lambda q, qd, arm, D=D: D(q, arm) @ qd, sentence.format("Ṁ"))
+        for name, D, sentence in WRONG_ARMS
+    ),
+    Mistake(
+        "C for the derivative",
+        right.C,
+        "This is C. It is made of the same derivatives as Ṁ, but is M symmetric, and can its "
+        "derivative be otherwise?",
+    ),
+    Mistake(
+        "half of it",
+        lambda q, qd, arm: 0.5 * right.M_dot(q, qd, arm),
+        "Your Ṁ is half of the right one. The ½ stands in the kinetic energy; does it stand in M?",
+    ),
+)
+M_DOT_TERMS = (
+    Term("the right Ṁ itself", right.M_dot),
+    Term("its mirror image with q̇1 for q̇2", lambda q, qd, arm: right.h(q, arm) * qd[0] * PATTERN),
+)
+
+
+def _h_times(pattern):
+    """A wrong C: h times a matrix of the velocities."""
+    return lambda q, qd, arm: right.h(q, arm) * np.array(pattern(*qd))
+
+
+COLUMN = (
+    "This is the vector C q̇, or a matrix made of it. C is the square matrix that gives this vector "
+    "when it is multiplied by q̇."
+)
+ROW_SUMS = (
+    "You have C times a vector of ones: its rows are summed. Which vector must C be multiplied by to "
+    "give the Coriolis and centrifugal torque?"
+)
+NOT_SKEW = (
+    "Your C gives the right C q̇, and the energy is kept with it, but Ṁ − 2C is not skew-symmetric: "
+    "C + Cᵀ is not Ṁ. What is missing is a property of the Christoffel choice. How does it share the "
+    "product q̇1 q̇2 between the entries of a row?"
+)
+NO_HALF = "Your C is twice the right one. What stands in front of the Christoffel symbol?"
+TRANSPOSED = (
+    "This is the transpose of C, which is also Ṁ − C. It passes the tests of energy and "
+    "skew-symmetry, but not C q̇: which index of h_ijk numbers the row?"
+)
+HALF_M_DOT = (
+    "This is half of Ṁ. It makes Ṁ − 2C zero, and zero is skew; but it does not give the right C q̇. "
+    "Which terms of the Euler–Lagrange equation does it leave out?"
+)
+M_DOT_FOR_C = (
+    "This is Ṁ. It is one part of what Euler–Lagrange gives with q̇: what comes from the derivative of "
+    "the kinetic energy with respect to q?"
+)
+LAST_SIGN = (
+    "The last of the three derivatives in your Christoffel symbol has the wrong sign. It comes from "
+    "−∂K/∂q: what does that do to it?"
+)
+LAST_MISSING = (
+    "Your C leaves out −∂K/∂q: only the terms from d/dt(∂K/∂q̇) are in it. Where does M(q) in the "
+    "kinetic energy enter once more?"
+)
+SECOND_MISSING = (
+    "One of the two derivatives with a plus in your Christoffel symbol is missing. d/dt(M q̇) gives "
+    "∂M_ij/∂q_k once; how is it shared between the velocities j and k?"
+)
+FIRST_INDEX = (
+    "You sum the Christoffel symbols over the wrong index. Which index of h_ijk is left free for the "
+    "row, and which one goes with q̇_k?"
+)
+NO_VELOCITY = (
+    "Your sum over k has no velocity in it: the matrix you return does not change with q̇. By what is "
+    "each h_ijk multiplied?"
+)
+WRONG_VELOCITY = (
+    "You multiply h_ijk by the velocity of the row or the column instead of that of the index you "
+    "sum over. Which index is summed in C_ij?"
+)
+LAST_NOT_HALVED = (
+    "The last of the three derivatives in your Christoffel symbol counts twice as much as it should. "
+    "The kinetic energy has a ½: what stands in front of its derivative with respect to q?"
+)
+FIRST_MISSING = (
+    "The derivative of M_ij itself, with respect to q_k, is missing or shared wrongly in your "
+    "Christoffel symbol. Where does d/dt act on M?"
+)
+SIGN = (
+    "All of your C has the wrong sign. Look at the sign of each derivative of M, and at the side of "
+    "the equation on which C q̇ stands."
+)
+M_DOT_LESS_2C = "This is Ṁ − 2C, the matrix that is to be tested. C itself is asked for."
+M_FOR_C = "This is M. It multiplies q̈; C multiplies q̇ and is made of the derivatives of M."
+ZERO = (
+    "Your C is zero. Do the derivatives in it act on M with respect to the coordinates q, and does M "
+    "change with them?"
+)
+
+CORIOLIS = (
+    Mistake(
+        "2 missing in the Coriolis term",
+        _h_times(lambda a, b: [[0.0, a + b], [-a, 0.0]]),
+        "The term with q̇1 q̇2 in your C q̇ is half of what it should be. In how many places of the sum "
+        "over j and k does this product appear?",
+    ),
+    Mistake(
+        "Coriolis term missing",
+        _h_times(lambda a, b: [[0.0, b], [-a, 0.0]]),
+        "The term with q̇1 q̇2 is missing from the first row of your C q̇. What happens when both joints "
+        "turn at once?",
+    ),
+    Mistake(
+        "sign of h",
+        lambda q, qd, arm: -right.C(q, qd, arm),
+        SIGN,
+    ),
+    Mistake(
+        "sign of the centrifugal term of joint 1",
+        _h_times(lambda a, b: [[b, a - b], [-a, 0.0]]),
+        "The term with q̇2² in the first row of your C q̇ has the wrong sign. From which derivative of "
+        "M does it come?",
+    ),
+    Mistake(
+        "centrifugal term of joint 1 missing",
+        _h_times(lambda a, b: [[b, a], [-a, 0.0]]),
+        "The term with q̇2² is missing from the first row of your C q̇. Does M12 change with q2?",
+    ),
+    Mistake(
+        "sign of the centrifugal term of joint 2",
+        _h_times(lambda a, b: [[b, a + b], [a, 0.0]]),
+        "The second row of your C has the wrong sign: link 2 would be pulled inwards by the rotation "
+        "of link 1. From which term of Euler–Lagrange does this row come, and with which sign?",
+    ),
+    Mistake(
+        "centrifugal term of joint 2 missing",
+        _h_times(lambda a, b: [[b, a + b], [0.0, 0.0]]),
+        "The second row of your C is zero. Link 1 alone turns: does link 2 feel nothing of it?",
+    ),
+    Mistake("C q̇ for C", lambda q, qd, arm: np.diag(right.C(q, qd, arm) @ qd), COLUMN),
+    Mistake("C times ones", lambda q, qd, arm: np.diag(right.C(q, qd, arm) @ np.ones(2)), ROW_SUMS),
+    Mistake("half missing", lambda q, qd, arm: 2 * right.C(q, qd, arm), NO_HALF),
+    Mistake("transposed", lambda q, qd, arm: right.C(q, qd, arm).T, TRANSPOSED),
+    Mistake(
+        "valid, but not skew: q̇1 q̇2 all in the second column",
+        _h_times(lambda a, b: [[0.0, 2 * a + b], [-a, 0.0]]),
+        NOT_SKEW,
+    ),
+    Mistake(
+        "valid, but not skew: q̇1 q̇2 all in the first column",
+        _h_times(lambda a, b: [[2 * b, b], [-a, 0.0]]),
+        NOT_SKEW,
+    ),
+    Mistake("M_dot for C", right.M_dot, M_DOT_FOR_C),
+    Mistake("half of M_dot", lambda q, qd, arm: 0.5 * right.M_dot(q, qd, arm), HALF_M_DOT),
+    Mistake(
+        "M_dot less 2C",
+        lambda q, qd, arm: right.M_dot(q, qd, arm) - 2 * right.C(q, qd, arm),
+        M_DOT_LESS_2C,
+    ),
+    Mistake(
+        "velocities exchanged",
+        _h_times(lambda a, b: [[a, a + b], [-b, 0.0]]),
+        "The velocities q̇1 and q̇2 have changed places in your C. With which velocity does a "
+        "derivative with respect to q2 go?",
+    ),
+    Mistake("M for C", lambda q, qd, arm: right.M(q, arm), M_FOR_C),
+    Mistake("zero", lambda q, qd, arm: np.zeros((2, 2)), ZERO),
+    Mistake(
+        "last sign",
+        lambda q, qd, arm: coriolis(derivatives(q, arm), qd, third=0.5),
+        LAST_SIGN,
+    ),
+    Mistake(
+        "last term missing",
+        lambda q, qd, arm: coriolis(derivatives(q, arm), qd, third=0.0),
+        LAST_MISSING,
+    ),
+    Mistake(
+        "second term missing",
+        lambda q, qd, arm: coriolis(derivatives(q, arm), qd, second=0.0),
+        SECOND_MISSING,
+    ),
+    Mistake(
+        "summed over the first index",
+        lambda q, qd, arm: np.einsum("kij,k->ij", christoffel(derivatives(q, arm)), qd),
+        FIRST_INDEX,
+    ),
+    Mistake(
+        "no velocity",
+        lambda q, qd, arm: coriolis(derivatives(q, arm), np.ones(2)),
+        NO_VELOCITY,
+    ),
+    Mistake(
+        "velocity of the column",
+        lambda q, qd, arm: christoffel(derivatives(q, arm)) @ np.ones(2) * qd,
+        WRONG_VELOCITY,
+    ),
+    *(
+        Mistake(name, lambda q, qd, arm, D=D: coriolis(D(q, arm), qd), sentence.format("C"))
+        for name, D, sentence in WRONG_ARMS
+    ),
+)
+CORIOLIS_TERMS = (
+    Term("the Coriolis term of row 1, with q̇1 q̇2", _h_times(lambda a, b: [[b, a], [0.0, 0.0]])),
+    Term("the centrifugal term of row 1, with q̇2²", _h_times(lambda a, b: [[0.0, b], [0.0, 0.0]])),
+    Term("the centrifugal term of row 2, with q̇1²", _h_times(lambda a, b: [[0.0, 0.0], [-a, 0.0]])),
+)
+
+PLUS_CONSTANT = (
+    "What you add to C does not vanish when it is multiplied by q̇. Which (2, 2) matrices, built from "
+    "q̇1 and q̇2, send the vector q̇ to zero?"
+)
+OTHER = (
+    Mistake(
+        "C itself",
+        right.C,
+        "This is the Christoffel C again. Its Ṁ − 2C is skew-symmetric, and here one is asked for "
+        "that is not. What may be added to C without changing C q̇?",
+    ),
+    Mistake("transposed", lambda q, qd, arm: right.C(q, qd, arm).T, TRANSPOSED),
+    Mistake("half of M_dot", lambda q, qd, arm: 0.5 * right.M_dot(q, qd, arm), HALF_M_DOT),
+    Mistake("M_dot for C", right.M_dot, M_DOT_FOR_C),
+    Mistake("C q̇ for C", lambda q, qd, arm: np.diag(right.C(q, qd, arm) @ qd), COLUMN),
+    Mistake("C times ones", lambda q, qd, arm: np.diag(right.C(q, qd, arm) @ np.ones(2)), ROW_SUMS),
+    Mistake(
+        "scaled",
+        lambda q, qd, arm: 2 * right.C(q, qd, arm),
+        "This is 2C. Multiplying C changes C q̇ as well; what is to be kept is C q̇.",
+    ),
+    Mistake("zero", lambda q, qd, arm: np.zeros((2, 2)), ZERO),
+    Mistake(
+        "constant skew matrix added",
+        lambda q, qd, arm: right.C(q, qd, arm) + np.array([[0.0, 1.0], [-1.0, 0.0]]),
+        PLUS_CONSTANT,
+    ),
+    Mistake(
+        "constant skew matrix taken off",
+        lambda q, qd, arm: right.C(q, qd, arm) - np.array([[0.0, 1.0], [-1.0, 0.0]]),
+        PLUS_CONSTANT,
+    ),
+    Mistake("unit matrix added", lambda q, qd, arm: right.C(q, qd, arm) + np.eye(2), PLUS_CONSTANT),
+    Mistake("ones added", lambda q, qd, arm: right.C(q, qd, arm) + np.ones((2, 2)), PLUS_CONSTANT),
+    Mistake(
+        "first entry dropped",
+        _h_times(lambda a, b: [[0.0, a + b], [-a, 0.0]]),
+        "The entry that you took out of the first column is lost: C q̇ has half of its term with "
+        "q̇1 q̇2 now. Where in the row can it go so that C q̇ stays?",
+    ),
+    Mistake(
+        "columns exchanged",
+        lambda q, qd, arm: right.C(q, qd, arm)[:, ::-1],
+        "The columns of C have changed places, but q̇1 and q̇2 have not. Is C q̇ the same?",
+    ),
+)
+
+
+STEP = 1e-30  # no difference is formed, so no digits are lost
+
+
+@lru_cache(maxsize=64)
+def _derivatives_of(M, q):
+    """A function from the values of q to D, (n, n, n), and M, (n, n).
+
+    The complex step, Im M(q + i ε) / ε, is exact for analytic entries, and a fraction of the work of
+    SymPy's derivatives.
+    """
+    import sympy  # only a symbolic question pays for it
+
+    n = len(q)
+    numbers = sympy.lambdify(q, list(M), "numpy")
+
+    def at(values):
+        steps = np.array(values) + 1j * STEP * np.eye(n)
+        M = np.array([np.reshape(numbers(*step), (n, n)) for step in steps])
+        return np.moveaxis(M.imag, 0, -1) / STEP, M[0].real
+
+    return at
+
+
+def at_points(of):
+    """A model of `christoffel` from one of numbers: of(D, q̇, M) → (n, n).
+
+    The matrix is compiled once, whatever is made of it.
+    """
+
+    def model(M, q, qd):
+        at = _derivatives_of(M.as_immutable(), tuple(q))
+
+        def numbers(point):
+            D, inertia = at([point[symbol.name] for symbol in q])
+            return of(D, np.array([point[symbol.name] for symbol in qd]), inertia)
+
+        return numbers
+
+    return model
+
+
+CHRISTOFFEL = tuple(
+    Mistake(name, at_points(of), sentence)
+    for name, of, sentence in (
+        ("C q̇ for C", lambda D, qd, M: np.diag(coriolis(D, qd) @ qd), COLUMN),
+        ("C times ones", lambda D, qd, M: np.diag(coriolis(D, qd) @ np.ones(len(qd))), ROW_SUMS),
+        ("half missing", lambda D, qd, M: 2 * coriolis(D, qd), NO_HALF),
+        ("sign", lambda D, qd, M: -coriolis(D, qd), SIGN),
+        ("transposed", lambda D, qd, M: coriolis(D, qd).T, TRANSPOSED),
+        (
+            "valid, but not skew: the first derivative twice",
+            lambda D, qd, M: coriolis(D, qd, first=1.0, second=0.0),
+            NOT_SKEW,
+        ),
+        (
+            "valid, but not skew: the second derivative twice",
+            lambda D, qd, M: coriolis(D, qd, first=0.0, second=1.0),
+            NOT_SKEW,
+        ),
+        ("M_dot for C", lambda D, qd, M: D @ qd, M_DOT_FOR_C),
+        ("half of M_dot", lambda D, qd, M: 0.5 * D @ qd, HALF_M_DOT),
+        ("M_dot less 2C", lambda D, qd, M: D @ qd - 2 * coriolis(D, qd), M_DOT_LESS_2C),
+        ("last sign", lambda D, qd, M: coriolis(D, qd, third=0.5), LAST_SIGN),
+        ("last term missing", lambda D, qd, M: coriolis(D, qd, third=0.0), LAST_MISSING),
+        ("last term not halved", lambda D, qd, M: coriolis(D, qd, third=-1.0), LAST_NOT_HALVED),
+        ("first term missing", lambda D, qd, M: coriolis(D, qd, first=0.0), FIRST_MISSING),
+        ("second term missing", lambda D, qd, M: coriolis(D, qd, second=0.0), SECOND_MISSING),
+        (
+            "summed over the first index",
+            lambda D, qd, M: np.einsum("kij,k->ij", christoffel(D), qd),
+            FIRST_INDEX,
+        ),
+        ("no velocity", lambda D, qd, M: coriolis(D, np.ones(len(qd))), NO_VELOCITY),
+        (
+            "velocity of the column",
+            lambda D, qd, M: christoffel(D) @ np.ones(len(qd)) * qd,
+            WRONG_VELOCITY,
+        ),
+        (
+            "velocity of the row",
+            lambda D, qd, M: christoffel(D) @ np.ones(len(qd)) * qd[:, None],
+            WRONG_VELOCITY,
+        ),
+        (
+            "second kind",
+            lambda D, qd, M: np.linalg.solve(M, coriolis(D, qd)),
+            "These are Christoffel symbols of the second kind: M⁻¹ has been multiplied in. That is "
+            "right for q̈ = …; in M q̈ + C q̇ + … = u, has M⁻¹ a place?",
+        ),
+        ("zero", lambda D, qd, M: np.zeros((len(qd), len(qd))), ZERO),
+        ("M for C", lambda D, qd, M: M, M_FOR_C),
+    )
+)
+CHRISTOFFEL_TERMS = (
+    Term(
+        "the two derivatives with a plus, from d/dt(M q̇)",
+        at_points(lambda D, qd, M: coriolis(D, qd, third=0.0)),
+    ),
+    Term(
+        "the last derivative, from −∂K/∂q",
+        at_points(lambda D, qd, M: coriolis(D, qd, first=0.0, second=0.0)),
+    ),
+)

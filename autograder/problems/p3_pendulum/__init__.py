@@ -1,0 +1,1 @@
+"""p3: the pendulum."""

@@ -1,0 +1,193 @@
+"""p3-pendulum: a manipulator with one degree of freedom, from its Lagrangian to its matrices.
+
+The references are one line each, and stand here rather than come from `armdyn`, so that the two can
+be held against each other in a test.
+"""
+
+from math import cos, sin, sqrt
+
+import numpy as np
+
+from autograder.problems.material import sampling
+from autograder.judging.diagnosis import Term
+from autograder.judging.check import Check, Criterion
+from autograder.problems.p3_pendulum import mistakes
+from autograder.judging.quantities import UnfitError, each
+from autograder.protocol import Call, Symbol
+
+LAGRANGIAN_ARGUMENTS = ("q", "qd", "m", "lc", "I", "g")
+
+
+def _position_calls(name):
+    def calls(rng, count):
+        return [Call(name, (sampling.angle(rng), sampling.pendulum(rng))) for _ in range(count)]
+
+    return calls
+
+
+def _coriolis_calls(rng, count):
+    return [
+        Call("C", (sampling.angle(rng), sampling.velocity(rng), sampling.pendulum(rng)))
+        for _ in range(count)
+    ]
+
+
+def _lagrangian_calls(rng, count):
+    """Each pendulum at rest hanging, at rest elsewhere, and moving there: three points a call."""
+    symbols = tuple(Symbol(name) for name in LAGRANGIAN_ARGUMENTS)
+    calls = []
+    for _ in range(count):
+        pend = vars(sampling.pendulum(rng))
+        q, qd = float(sampling.angle(rng)[0]), float(sampling.velocity(rng)[0])
+        states = ((0.0, 0.0), (q, 0.0), (q, qd))
+        points = tuple({"q": at, "qd": rate, **pend} for at, rate in states)
+        calls.append(Call("lagrangian", symbols, points))
+    return calls
+
+
+@each
+def _lagrangian_parts(call, value):
+    """The change of L with q̇, and with q: a constant in P, which no equation of motion sees, is free."""
+    if value.shape != (3,):
+        raise UnfitError(f"an expression of shape {value.shape[1:]}; L is one number")
+    hanging, at_rest, moving = value
+    return (np.array(moving - at_rest), np.array(at_rest - hanging))
+
+
+def _inertia_calls(rng, count):
+    return [
+        Call("inertia_about_pivot", tuple(rng.uniform((0.05, 0.5, 0.2), (0.5, 3.0, 0.9)).tolist()))
+        for _ in range(count)
+    ]
+
+
+def _frequency_calls(rng, count):
+    return [Call("small_angle_frequency", (sampling.pendulum(rng),)) for _ in range(count)]
+
+
+CHECKS = (
+    Check(
+        id="p3-lagrangian",
+        signature="lagrangian(q, qd, m, lc, I, g)",
+        reference=lambda q, qd, m, lc, I, g: 0.5 * I * qd**2 - m * g * lc * (1 - cos(q)),
+        calls=_lagrangian_calls,
+        quantities=_lagrangian_parts,
+        criteria=(
+            Criterion("kinetic part of L", "J", 0.5),
+            Criterion("potential part of L", "J", 0.5),
+        ),
+        mistakes=mistakes.LAGRANGIAN,
+        terms=(
+            Term(
+                "the kinetic energy of the body",
+                lambda q, qd, m, lc, I, g: 0.5 * I * qd**2,
+            ),
+            Term(
+                "the potential energy of the raised mass",
+                lambda q, qd, m, lc, I, g: -m * g * lc * (1 - cos(q)),
+            ),
+        ),
+        hints=(
+            "Two energies, one each: how fast does the body turn, and how high has its centre of mass "
+            "risen?",
+            "The body turns about a fixed point. If the inertia is taken about that point, one term "
+            "holds the whole kinetic energy. For the height, draw the pendulum at q and mark how far "
+            "below the pivot the centre of mass is.",
+            "Half an inertia times the square of a velocity; a weight times a height that is 0 at "
+            "q = 0, ℓc at q = π/2 and twice ℓc at q = π. Which function of q does that? Then L is the "
+            "first less the second.",
+        ),
+    ),
+    Check(
+        id="p3-M",
+        signature="M(q, pend)",
+        reference=lambda q, pend: pend.I,
+        calls=_position_calls("M"),
+        criteria=(Criterion("inertia about the pivot", "kg·m²"),),
+        mistakes=mistakes.INERTIA,
+        terms=(
+            Term("the inertia about the pivot", lambda q, pend: pend.I),
+            Term("the inertia of a point mass", lambda q, pend: pend.m * pend.lc**2),
+        ),
+        hints=(
+            "The cell below your Lagrangian prints the equation of motion. What stands before qdd?",
+            "Compare with the figure's table: about which point is the given inertia taken, and about "
+            "which does the body turn?",
+            "The same point: nothing is to be added to the given inertia, and q does not enter. Give "
+            "it the form of a matrix with one row and one column.",
+        ),
+    ),
+    Check(
+        id="p3-C",
+        signature="C(q, qd, pend)",
+        reference=lambda q, qd, pend: 0.0,
+        calls=_coriolis_calls,
+        criteria=(
+            Criterion(
+                "Coriolis matrix of one joint",
+                "kg·m²/s",
+                otherwise="Your C is not zero. Every entry of C is made of derivatives of M with "
+                "respect to q: how does this M change with q?",
+            ),
+        ),
+        mistakes=mistakes.CORIOLIS,
+        hints=(
+            "Look at the printed equation of motion: does any term hold qd?",
+            "C comes from the change of M with q. How does this M change when the pendulum turns?",
+            "A constant M has no derivative. Return the matrix of one row and one column that says so.",
+        ),
+    ),
+    Check(
+        id="p3-g_vec",
+        signature="g_vec(q, pend)",
+        reference=lambda q, pend: pend.m * pend.g * pend.lc * sin(q[0]),
+        calls=_position_calls("g_vec"),
+        criteria=(Criterion("gravity torque", "N·m"),),
+        mistakes=mistakes.GRAVITY,
+        terms=(
+            Term("the torque of the weight", lambda q, pend: pend.m * pend.g * pend.lc * sin(q[0])),
+        ),
+        hints=(
+            "What is left of the printed equation of motion when nothing moves?",
+            "It is the derivative of P by q. Where does it vanish, and where is it largest: hanging, "
+            "or level?",
+            "A weight on a lever arm, and the arm is the horizontal distance of the centre of mass "
+            "from the pivot, q counted from hanging. To hold the body at a small positive q the motor "
+            "must push in the positive direction: that is the sign of g on the left side.",
+        ),
+    ),
+    Check(
+        id="p3-inertia_about_pivot",
+        signature="inertia_about_pivot(I_com, m, lc)",
+        reference=lambda I_com, m, lc: I_com + m * lc**2,
+        calls=_inertia_calls,
+        criteria=(Criterion("inertia moved to the pivot", "kg·m²"),),
+        mistakes=mistakes.INERTIA_ABOUT_PIVOT,
+        terms=(
+            Term("the inertia about the centre of mass", lambda I_com, m, lc: I_com),
+            Term("the inertia of a point mass", lambda I_com, m, lc: m * lc**2),
+        ),
+        hints=(
+            "The parallel-axis theorem moves an inertia between two parallel axes, of which one goes "
+            "through the centre of mass.",
+            "What is added is what a point mass would have that sits where the centre of mass is.",
+            "Of all parallel axes the one through the centre of mass has the smallest inertia, so the "
+            "inertia of that point mass comes on top. Check the unit: kg·m².",
+        ),
+    ),
+    Check(
+        id="p3-small_angle_frequency",
+        signature="small_angle_frequency(pend)",
+        reference=lambda pend: sqrt(pend.m * pend.g * pend.lc / pend.I),
+        calls=_frequency_calls,
+        criteria=(Criterion("angular frequency of small swings", "rad/s"),),
+        mistakes=mistakes.SMALL_ANGLE_FREQUENCY,
+        hints=(
+            "Write the equation of motion with u = 0, and put q in the place of sin q.",
+            "Divide by what stands before q̈. An oscillator has q̈ and the angle itself, with one "
+            "constant factor: what is that factor called?",
+            "The factor before q is the square of the angular frequency. In it stand the weight, its "
+            "lever arm and the inertia about the pivot. A root gives rad/s; 2π is not needed.",
+        ),
+    ),
+)

@@ -1,0 +1,415 @@
+"""Mistakes about gravity: in P, in its gradient, in the form with Jacobians, in the equilibria."""
+
+from math import degrees, pi, radians
+from types import SimpleNamespace
+
+import numpy as np
+
+from autograder.judging.diagnosis import Mistake
+from autograder.problems.material.planar_2r import changed, g_vec, potential_energy
+
+# The arm of the notebook's set-up cell.
+EXAMPLE = SimpleNamespace(
+    l1=0.45, l2=0.38, lc1=0.21, lc2=0.17, m1=4.2, m2=2.6, I1=0.075, I2=0.034, g=9.81
+)
+
+
+def _energy(arm, height_1, height_2):
+    """P of links whose directions have these heights on a circle of radius 1."""
+    return arm.g * (arm.m1 * arm.lc1 * height_1 + arm.m2 * (arm.l1 * height_1 + arm.lc2 * height_2))
+
+
+def _torque(arm, level_1, level_2):
+    """g of links whose directions reach this far out on a circle of radius 1."""
+    g2 = arm.m2 * arm.lc2 * arm.g * level_2
+    return np.array([(arm.m1 * arm.lc1 + arm.m2 * arm.l1) * arm.g * level_1 + g2, g2])
+
+
+def _on(model, **parameters):
+    """The right model with one parameter of the arm in the place of another: lc1="l1"."""
+    return lambda q, arm: model(
+        q, changed(arm, **{name: getattr(arm, of) for name, of in parameters.items()})
+    )
+
+
+def _with(model, **parameters):
+    """The right model of an arm whose parameters have these numbers."""
+    return lambda q, arm: model(q, changed(arm, **parameters))
+
+
+HARD_CODED_G = (
+    "Your answer is right on Earth only: 9.81 is written into it. The check also puts the arm on "
+    "other planets; which parameter of arm gives g?"
+)
+EXAMPLE_ARM = (
+    "These are the numbers of the arm in the set-up cell, whatever arm is given. Where does your "
+    "function read the parameters of its own argument?"
+)
+ONCE_TOO_OFTEN = (
+    "The angles are turned from degrees to radians once too often: q comes in radians already."
+)
+IN_DEGREES = (
+    "NumPy takes angles in radians, and q is in radians already: nothing is to be converted."
+)
+LINK_1_LENGTH = (
+    "You let the weight of link 1 act at its end. Which of l1 and lc1 leads to the centre of mass "
+    "of link 1?"
+)
+LINK_2_LENGTH = (
+    "You let the weight of link 2 act at its tip. Which of l2 and lc2 leads to the centre of mass "
+    "of link 2?"
+)
+ELBOW_AT_LC1 = (
+    "You let link 2 begin at the centre of mass of link 1. Where on link 1 is the elbow, and which "
+    "parameter says so?"
+)
+MASSES_MISSING = "The masses are missing. What is the weight of a link?"
+MASSES_SWAPPED = "m1 and m2 have changed places. Which link carries which mass?"
+G_MISSING = "The gravitational acceleration g is missing. What is the weight of a link?"
+
+POTENTIAL = (
+    Mistake(
+        "sign of P",
+        lambda q, arm: -potential_energy(q, arm),
+        "Your P has the wrong sign: it falls as the arm rises. Which way does the gravitational "
+        "acceleration point, and does it take work to lift a link?",
+    ),
+    Mistake(
+        "cosine for sine",
+        lambda q, arm: _energy(arm, np.cos(q[0]), np.cos(q[0] + q[1])),
+        "Your P uses cosines: how far out the links reach, or their heights if the angles were "
+        "measured from upright. From which axis is q1 measured, and how high is link 1 at q1 = 0?",
+    ),
+    Mistake(
+        "the pendulum's convention",
+        lambda q, arm: -_energy(arm, np.cos(q[0]), np.cos(q[0] + q[1])),
+        "Your P measures the angles from hanging down, as the pendulum of problem 3 does. From "
+        "which axis is q1 measured here, and how high is link 1 at q1 = 0?",
+    ),
+    Mistake(
+        "absolute second angle",
+        lambda q, arm: _energy(arm, np.sin(q[0]), np.sin(q[1])),
+        "Your P takes q2 for the direction of link 2 in space. From what is q2 measured?",
+    ),
+    Mistake(
+        "second angle the wrong way round",
+        lambda q, arm: _energy(arm, np.sin(q[0]), np.sin(q[0] - q[1])),
+        "Your P takes the difference of the angles for the direction of link 2. Turn the elbow a "
+        "little counter-clockwise: does the direction of link 2 grow or shrink?",
+    ),
+    Mistake(
+        "elbow changes nothing",
+        lambda q, arm: _energy(arm, np.sin(q[0]), 0.0),
+        "Your P does not change as the elbow turns: the whole mass of link 2 seems to sit at the "
+        "elbow, or is left out. Where is its centre of mass?",
+    ),
+    Mistake(
+        "elbow's height left out",
+        lambda q, arm: (
+            arm.g * (arm.m1 * arm.lc1 * np.sin(q[0]) + arm.m2 * arm.lc2 * np.sin(q[0] + q[1]))
+        ),
+        "Your P lifts link 2 from the height of the shoulder. At what height is the elbow, where "
+        "link 2 begins?",
+    ),
+    Mistake(
+        "link 1 left out",
+        _with(potential_energy, m1=0.0),
+        "Link 1 does not add to your P. Which mass does link 1 lift by itself?",
+    ),
+    Mistake("l1 for lc1", _on(potential_energy, lc1="l1"), LINK_1_LENGTH),
+    Mistake("l2 for lc2", _on(potential_energy, lc2="l2"), LINK_2_LENGTH),
+    Mistake("lc1 for l1", _on(potential_energy, l1="lc1"), ELBOW_AT_LC1),
+    Mistake(
+        "half",
+        lambda q, arm: potential_energy(q, arm) / 2,
+        "Your P is half the right one. The ½ belongs to a kinetic energy; does it belong here?",
+    ),
+    Mistake("masses missing", _with(potential_energy, m1=1.0, m2=1.0), MASSES_MISSING),
+    Mistake("masses swapped", _on(potential_energy, m1="m2", m2="m1"), MASSES_SWAPPED),
+    Mistake("gravity constant missing", _with(potential_energy, g=1.0), G_MISSING),
+    Mistake("gravity constant hard-coded", _with(potential_energy, g=9.81), HARD_CODED_G),
+    Mistake("example arm", lambda q, arm: potential_energy(q, EXAMPLE), EXAMPLE_ARM),
+    Mistake(
+        "radians taken for degrees",
+        lambda q, arm: potential_energy([radians(angle) for angle in q], arm),
+        ONCE_TOO_OFTEN,
+    ),
+    Mistake(
+        "angles in degrees",
+        lambda q, arm: potential_energy([degrees(angle) for angle in q], arm),
+        IN_DEGREES,
+    ),
+)
+
+GRAVITY = (
+    Mistake(
+        "sign of gravity",
+        lambda q, arm: -g_vec(q, arm),
+        "Your gravity torque has the wrong sign. On which side of M q̈ + C q̇ + g = u does g stand, "
+        "and which way must a motor push to hold the arm out to the right?",
+    ),
+    Mistake(
+        "sine for cosine",
+        lambda q, arm: _torque(arm, np.sin(q[0]), np.sin(q[0] + q[1])),
+        "You have the sine where the cosine belongs: with the links level, your arm feels no "
+        "gravity. Has P been differentiated, and from which axis is q1 measured?",
+    ),
+    Mistake(
+        "sine for cosine, reversed",
+        lambda q, arm: -_torque(arm, np.sin(q[0]), np.sin(q[0] + q[1])),
+        "Your torque varies like −sin, as the gradient of a P made of cosines does. From which axis "
+        "is q1 measured, and what is the height of link 1 at q1 = 0?",
+    ),
+    Mistake(
+        "absolute second angle",
+        lambda q, arm: _torque(arm, np.cos(q[0]), np.cos(q[1])),
+        "You take q2 for the direction of link 2 in space. From what is q2 measured?",
+    ),
+    Mistake(
+        "second angle the wrong way round",
+        lambda q, arm: _torque(arm, np.cos(q[0]), np.cos(q[0] - q[1])),
+        "You take the difference of the angles for the direction of link 2. Turn the elbow a little "
+        "counter-clockwise: does the direction of link 2 grow or shrink?",
+    ),
+    Mistake(
+        "link 2 left out of g1",
+        lambda q, arm: g_vec(q, arm) - [arm.m2 * arm.lc2 * arm.g * np.cos(q[0] + q[1]), 0.0],
+        "In your g1 the term of link 2's direction is missing. Does that direction change when "
+        "joint 1 turns and q2 stays?",
+    ),
+    Mistake(
+        "elbow left out of g1",
+        lambda q, arm: g_vec(q, arm) - [arm.m2 * arm.l1 * arm.g * np.cos(q[0]), 0.0],
+        "In your g1 the mass m2 lifted with the elbow is missing. What does joint 1 carry besides "
+        "its own link?",
+    ),
+    Mistake(
+        "link 1 left out",
+        _with(g_vec, m1=0.0),
+        "In your g1 the weight of link 1 is missing.",
+    ),
+    Mistake(
+        "elbow in g2",
+        lambda q, arm: g_vec(q, arm) + np.array([0.0, arm.m2 * arm.l1 * arm.g * np.cos(q[0])]),
+        "Your g2 is the torque of link 2's weight about the shoulder. About which axis does joint 2 "
+        "turn, and does the elbow move with q2?",
+    ),
+    Mistake(
+        "energies of the links",
+        lambda q, arm: np.array(
+            [
+                arm.m1 * arm.g * arm.lc1 * np.sin(q[0]),
+                arm.m2 * arm.g * (arm.l1 * np.sin(q[0]) + arm.lc2 * np.sin(q[0] + q[1])),
+            ]
+        ),
+        "These are the potential energies of the links, one by one. What turns P(q) into g(q)?",
+    ),
+    Mistake(
+        "potential energy for torque",
+        lambda q, arm: np.full(2, potential_energy(q, arm)),
+        "This is the potential energy P, in joules. What turns P(q) into g(q)?",
+    ),
+    Mistake(
+        "entries swapped",
+        lambda q, arm: g_vec(q, arm)[::-1],
+        "The torques of the two joints have changed places.",
+    ),
+    Mistake("l1 for lc1", _on(g_vec, lc1="l1"), LINK_1_LENGTH),
+    Mistake("l2 for lc2", _on(g_vec, lc2="l2"), LINK_2_LENGTH),
+    Mistake("lc1 for l1", _on(g_vec, l1="lc1"), ELBOW_AT_LC1),
+    Mistake("masses missing", _with(g_vec, m1=1.0, m2=1.0), MASSES_MISSING),
+    Mistake("masses swapped", _on(g_vec, m1="m2", m2="m1"), MASSES_SWAPPED),
+    Mistake("gravity constant missing", _with(g_vec, g=1.0), G_MISSING),
+    Mistake("gravity constant hard-coded", _with(g_vec, g=9.81), HARD_CODED_G),
+    Mistake("example arm", lambda q, arm: g_vec(q, EXAMPLE), EXAMPLE_ARM),
+    Mistake(
+        "radians taken for degrees",
+        lambda q, arm: g_vec([radians(angle) for angle in q], arm),
+        ONCE_TOO_OFTEN,
+    ),
+    Mistake(
+        "angles in degrees",
+        lambda q, arm: g_vec([degrees(angle) for angle in q], arm),
+        IN_DEGREES,
+    ),
+)
+
+
+def _from_jacobians(jacobians_v, masses, g0) -> np.ndarray:
+    """−Σ m Jvᵀ g0, (n,), N·m."""
+    return -np.einsum("l,lin,i->n", masses, jacobians_v, g0)
+
+
+def _along(axis, strength):
+    """As if gravity pointed against this axis: 1 for y, 2 for z."""
+    return lambda jacobians_v, masses, g0: strength(g0) * masses @ jacobians_v[:, axis]
+
+
+def _masses(change):
+    """The right formula with other masses."""
+    return lambda jacobians_v, masses, g0: _from_jacobians(jacobians_v, change(masses), g0)
+
+
+def _component(axis):
+    """One component of gravity alone."""
+    return lambda jacobians_v, masses, g0: _from_jacobians(
+        jacobians_v, masses, g0 * (np.arange(3) == axis)
+    )
+
+
+def _reshaped(jacobians_v, masses, g0):
+    L, _, n = jacobians_v.shape
+    return -masses @ (jacobians_v.reshape(L, n, 3) @ g0)
+
+
+LENGTH_OF_G0 = (
+    "You use the length of g0 and let gravity point straight along one axis. What does the "
+    "direction of the vector g0 say?"
+)
+ONE_COMPONENT = (
+    "You use one component of g0 only. A robot may hang on a wall or on a slope: which components "
+    "of g0 do work when a centre of mass moves?"
+)
+EARTH = "9.81 is written into your function. How strong gravity is, and where it points, are both in g0."
+LOADS = (
+    "You add the masses up along the chain. Each Jacobian belongs to one centre of mass: the mass "
+    "of how many links is there?"
+)
+
+FROM_JACOBIANS = (
+    Mistake(
+        "sign of gravity",
+        lambda jacobians_v, masses, g0: -_from_jacobians(jacobians_v, masses, g0),
+        "Your gravity torque is reversed. g0 points down: does P grow or fall when a centre of mass "
+        "moves along g0?",
+    ),
+    Mistake(
+        "length of g0 against y",
+        _along(1, np.linalg.norm),
+        LENGTH_OF_G0,
+    ),
+    Mistake("length of g0 against z", _along(2, np.linalg.norm), LENGTH_OF_G0),
+    Mistake("length of g0 along y", _along(1, lambda g0: -np.linalg.norm(g0)), LENGTH_OF_G0),
+    Mistake("length of g0 along z", _along(2, lambda g0: -np.linalg.norm(g0)), LENGTH_OF_G0),
+    Mistake("y component alone", _component(1), ONE_COMPONENT),
+    Mistake("z component alone", _component(2), ONE_COMPONENT),
+    Mistake("9.81 against y", _along(1, lambda g0: 9.81), EARTH),
+    Mistake("9.81 against z", _along(2, lambda g0: 9.81), EARTH),
+    Mistake(
+        "9.81 along g0",
+        lambda jacobians_v, masses, g0: _from_jacobians(
+            jacobians_v, masses, 9.81 * g0 / np.linalg.norm(g0)
+        ),
+        EARTH,
+    ),
+    Mistake(
+        "direction of g0 alone",
+        lambda jacobians_v, masses, g0: _from_jacobians(
+            jacobians_v, masses, g0 / np.linalg.norm(g0)
+        ),
+        "You use the direction of g0 only. How strong is gravity?",
+    ),
+    Mistake(
+        "masses ignored",
+        _masses(np.ones_like),
+        "The masses are left out. What turns the acceleration g0 into a force on a link?",
+    ),
+    Mistake("masses added up from the base", _masses(np.cumsum), LOADS),
+    Mistake(
+        "masses added up from the hand",
+        _masses(lambda masses: np.cumsum(masses[::-1])[::-1]),
+        LOADS,
+    ),
+    Mistake(
+        "total mass at every link",
+        _masses(lambda masses: np.full_like(masses, masses.sum())),
+        "Every centre of mass carries the mass of the whole robot here. Which mass belongs to which "
+        "Jacobian?",
+    ),
+    Mistake(
+        "first link left out",
+        _masses(lambda masses: masses * (np.arange(len(masses)) > 0)),
+        "The first link is left out of your sum. At which index does a list begin?",
+    ),
+    Mistake(
+        "last link left out",
+        _masses(lambda masses: masses * (np.arange(len(masses)) < len(masses) - 1)),
+        "The last link is left out of your sum. Where does your loop end?",
+    ),
+    Mistake(
+        "last link alone",
+        _masses(lambda masses: masses * (np.arange(len(masses)) == len(masses) - 1)),
+        "Only the last link is in your result. Is each link added, or does it replace the one before?",
+    ),
+    Mistake(
+        "reshaped for transposed",
+        _reshaped,
+        "Reshaping an array is not transposing it: the shape fits, but the entries are in other "
+        "places.",
+    ),
+)
+
+
+def _all(first, second):
+    """Every pair of one angle from each."""
+    return lambda arm: np.array([(a, b) for a in first for b in second])
+
+
+def _only(*configurations):
+    return lambda arm: np.array(configurations)
+
+
+LEVEL = (
+    "Your configurations hold the links level, where gravity pulls hardest. From which axis is q1 "
+    "measured, and is it P or its gradient that must vanish?"
+)
+STRETCHED = (
+    "Yours are equilibria, but only with the arm stretched. Must both links point the same way for "
+    "both torques to vanish?"
+)
+QUARTER = (
+    "Where you fold the elbow by a quarter turn, link 2 lies level and pulls on both joints. By how "
+    "much must the elbow turn from stretched to folded?"
+)
+
+EQUILIBRIA = (
+    Mistake("stretched only", _only((pi / 2, 0), (-pi / 2, 0)), STRETCHED),
+    Mistake(
+        "stable only",
+        _only((-pi / 2, 0)),
+        "Only the arm hanging down is in your answer. An equilibrium need not be stable: where else "
+        "do both torques vanish?",
+    ),
+    Mistake(
+        "one value of the inverse cosine",
+        _only((pi / 2, 0)),
+        "Only the arm standing upright is in your answer. An inverse cosine gives one angle: how "
+        "many angles on the circle have this cosine?",
+    ),
+    Mistake(
+        "link 1 up only",
+        _only((pi / 2, 0), (pi / 2, pi)),
+        "Yours are equilibria, but in all of them link 1 points up. Which other direction of link 1 "
+        "asks for no torque?",
+    ),
+    Mistake(
+        "link 1 down only",
+        _only((-pi / 2, 0), (-pi / 2, pi)),
+        "Yours are equilibria, but in all of them link 1 hangs down. Which other direction of link 1 "
+        "asks for no torque?",
+    ),
+    Mistake("from the vertical", _all((0, pi), (0, pi)), LEVEL),
+    Mistake("from the vertical, stretched only", _only((0, 0), (pi, 0)), LEVEL),
+    Mistake(
+        "absolute second angle",
+        _all((-pi / 2, pi / 2), (-pi / 2, pi / 2)),
+        "Your second angle is the direction of link 2 in space. From what is q2 measured?",
+    ),
+    Mistake("folded by a quarter turn", _all((-pi / 2, pi / 2), (0, pi / 2)), QUARTER),
+    Mistake("folded by a quarter turn back", _all((-pi / 2, pi / 2), (0, -pi / 2)), QUARTER),
+    Mistake(
+        "in degrees",
+        _all((-90, 90), (0, 180)),
+        "These are the right angles in degrees. In which unit are angles asked for?",
+    ),
+)

@@ -1,0 +1,1 @@
+"""p5: state space and simulation."""

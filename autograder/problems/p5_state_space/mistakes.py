@@ -1,0 +1,746 @@
+"""Mistakes about the first-order form, integrators and the energy along a run."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from autograder.judging.diagnosis import Mistake, Term
+from autograder.problems.material.planar_2r import C, M, changed, f_vec, g_vec, kinetic_energy, potential_energy
+from autograder.problems.material.systems import rk4, run
+
+# The arm of the notebook; a test holds the two together.
+EXAMPLE = SimpleNamespace(
+    l1=1.0, l2=0.8, lc1=0.5, lc2=0.4, m1=2.0, m2=1.5, I1=0.17, I2=0.08, g=9.81,
+    viscous=np.array([0.3, 0.2]), coulomb=np.array([0.4, 0.25]),
+)  # fmt: skip
+
+
+def torque(q, qd, u, arm):
+    """What is left of u to accelerate the arm, (2,), N·m."""
+    return u - C(q, qd, arm) @ qd - g_vec(q, arm) - f_vec(qd, arm)
+
+
+def rate(x, u, arm):
+    """ẋ of the arm, (4,): the right answer."""
+    q, qd = x[:2], x[2:]
+    return np.concatenate([qd, np.linalg.solve(M(q, arm), torque(q, qd, u, arm))])
+
+
+def _with(change):
+    """The right answer but for a torque that is added: change(q, qd, u, arm)."""
+
+    def wrong(x, u, arm):
+        q, qd = x[:2], x[2:]
+        rest = torque(q, qd, u, arm) + change(q, qd, u, arm)
+        return np.concatenate([qd, np.linalg.solve(M(q, arm), rest)])
+
+    return wrong
+
+
+def _accelerating(acceleration):
+    """The right answer but for q̈: acceleration(q, qd, rest, arm) from the right torque."""
+
+    def wrong(x, u, arm):
+        q, qd = x[:2], x[2:]
+        return np.concatenate([qd, acceleration(q, qd, torque(q, qd, u, arm), arm)])
+
+    return wrong
+
+
+def _coulomb(sign):
+    """Coulomb friction with another function in the place of sign."""
+    return _with(lambda q, qd, u, arm: arm.coulomb * (np.sign(qd) - sign(qd)))
+
+
+def _part(torque_of):
+    """A term of q̈: M⁻¹ times a torque."""
+
+    def model(x, u, arm):
+        q, qd = x[:2], x[2:]
+        part = np.linalg.solve(M(q, arm), torque_of(q, qd, u, arm))
+        return np.concatenate([np.zeros(2), part])
+
+    return model
+
+
+RATE_TERMS = (
+    Term("M⁻¹ u", _part(lambda q, qd, u, arm: u)),
+    Term("M⁻¹ C q̇", _part(lambda q, qd, u, arm: -C(q, qd, arm) @ qd)),
+    Term("M⁻¹ g", _part(lambda q, qd, u, arm: -g_vec(q, arm))),
+    Term("viscous friction", _part(lambda q, qd, u, arm: -arm.viscous * qd)),
+    Term("Coulomb friction", _part(lambda q, qd, u, arm: -arm.coulomb * np.sign(qd))),
+)
+
+INTERLEAVED = (
+    "You read x as if it were [q1, q̇1, q2, q̇2]. In which order does the notation table put the "
+    "four entries?"
+)
+SMOOTH_SIGN = (
+    "Your Coulomb friction fades out at low speed, as with a tanh. The model asked for jumps: how "
+    "large is dry friction at 0.001 rad/s?"
+)
+AT_REST = (
+    "Your Coulomb friction is not zero in a joint at rest. In which direction would it push there? "
+    "What does NumPy's own sign give for 0?"
+)
+
+RATE = (
+    Mistake(
+        "halves swapped",
+        lambda x, u, arm: np.roll(rate(x, u, arm), 2),
+        "The two halves of your ẋ are swapped. Which half of x is q, and which half of ẋ is its rate "
+        "of change?",
+    ),
+    Mistake(
+        "q for its rate",
+        lambda x, u, arm: np.concatenate([x[:2], rate(x, u, arm)[2:]]),
+        "The first half of your ẋ is q itself. What is the rate of change of q, and where in x does "
+        "it stand?",
+    ),
+    Mistake(
+        "q and its rate read from the wrong half",
+        lambda x, u, arm: rate(np.roll(x, 2), u, arm),
+        "Your accelerations come out as if x were [q̇; q]. Which half do you call q?",
+    ),
+    Mistake(
+        "interleaved state",
+        lambda x, u, arm: rate(x[[0, 2, 1, 3]], u, arm),
+        INTERLEAVED,
+    ),
+    Mistake(
+        "interleaved state and rate",
+        lambda x, u, arm: rate(x[[0, 2, 1, 3]], u, arm)[[0, 2, 1, 3]],
+        INTERLEAVED,
+    ),
+    Mistake(
+        "Coriolis torque left out",
+        _with(lambda q, qd, u, arm: C(q, qd, arm) @ qd),
+        "The Coriolis and centrifugal torque is missing from your q̈. Which term of the equation of "
+        "motion is quadratic in the velocities?",
+    ),
+    Mistake(
+        "sign of the Coriolis torque",
+        _with(lambda q, qd, u, arm: 2 * C(q, qd, arm) @ qd),
+        "The Coriolis and centrifugal torque has the wrong sign in your q̈. On which side of the "
+        "equation of motion does it stand?",
+    ),
+    Mistake(
+        "C times ones",
+        _with(lambda q, qd, u, arm: C(q, qd, arm) @ (qd - 1)),
+        "Your Coriolis torque is the sum of each row of C. What does C multiply?",
+    ),
+    Mistake(
+        "C transposed",
+        _with(lambda q, qd, u, arm: (C(q, qd, arm) - C(q, qd, arm).T) @ qd),
+        "Your Coriolis torque uses C with rows and columns exchanged. Does q̇ stand to the right or "
+        "to the left of C?",
+    ),
+    Mistake(
+        "gravity left out",
+        _with(lambda q, qd, u, arm: g_vec(q, arm)),
+        "Gravity is missing from your q̈. Which torque acts on the arm when it is at rest?",
+    ),
+    Mistake(
+        "sign of gravity",
+        _with(lambda q, qd, u, arm: 2 * g_vec(q, arm)),
+        "Gravity has the wrong sign in your q̈: your arm falls upwards. On which side of the equation "
+        "of motion does g(q) stand?",
+    ),
+    Mistake(
+        "gravity constant hard-coded",
+        _with(lambda q, qd, u, arm: g_vec(q, arm) - g_vec(q, changed(arm, g=9.81))),
+        "Your q̈ is right on Earth only: 9.81 is written into it. The check also uses other planets.",
+    ),
+    Mistake(
+        "friction left out",
+        _with(lambda q, qd, u, arm: f_vec(qd, arm)),
+        "Friction is missing from your q̈. Which two parameters of arm have you not used yet?",
+    ),
+    Mistake(
+        "sign of friction",
+        _with(lambda q, qd, u, arm: 2 * f_vec(qd, arm)),
+        "Friction has the wrong sign in your q̈: it drives the joints. Does friction add energy to an "
+        "arm or take it out?",
+    ),
+    Mistake(
+        "viscous friction left out",
+        _with(lambda q, qd, u, arm: arm.viscous * qd),
+        "The viscous part of the friction is missing. Which part of f grows with the speed?",
+    ),
+    Mistake(
+        "sign of viscous friction",
+        _with(lambda q, qd, u, arm: 2 * arm.viscous * qd),
+        "The viscous part of your friction has the wrong sign: the faster the joint, the more it is "
+        "pushed on.",
+    ),
+    Mistake(
+        "viscous friction quadratic",
+        _with(lambda q, qd, u, arm: arm.viscous * (qd - qd * np.abs(qd))),
+        "Your viscous friction grows with the square of the speed. Look at the unit of its "
+        "coefficient.",
+    ),
+    Mistake(
+        "Coulomb friction left out",
+        _coulomb(lambda qd: 0 * qd),
+        "The Coulomb part of the friction is missing. Which part of f has the same size at every "
+        "speed?",
+    ),
+    Mistake(
+        "sign of Coulomb friction",
+        _coulomb(lambda qd: -np.sign(qd)),
+        "The Coulomb part of your friction has the wrong sign: it pushes the joint on.",
+    ),
+    Mistake(
+        "Coulomb friction in one direction",
+        _coulomb(lambda qd: np.ones(2)),
+        "Your Coulomb friction always acts in the same direction. What decides in which direction "
+        "friction acts?",
+    ),
+    Mistake(
+        "absolute value for sign",
+        _coulomb(np.abs),
+        "Your Coulomb friction uses |q̇| where its sign is needed: it grows with the speed and never "
+        "changes direction.",
+    ),
+    Mistake(
+        "velocity for its sign",
+        _coulomb(lambda qd: qd),
+        "Your Coulomb friction grows with the speed. Which property of q̇, and not its size, does dry "
+        "friction depend on?",
+    ),
+    Mistake(
+        "sign of the angle",
+        _with(lambda q, qd, u, arm: arm.coulomb * (np.sign(qd) - np.sign(q))),
+        "Your Coulomb friction looks at the sign of the angle. Does friction depend on where a joint "
+        "is, or on how it moves?",
+    ),
+    *(
+        Mistake(f"tanh for sign, width {width:g}", _coulomb(lambda qd, w=width: np.tanh(qd / w)),
+                SMOOTH_SIGN)
+        for width in (1.0, 0.1, 0.05, 0.01, 0.001)
+    ),
+    Mistake("sign(0) = 1", _coulomb(lambda qd: np.where(qd >= 0, 1.0, -1.0)), AT_REST),
+    Mistake("sign(0) = -1", _coulomb(lambda qd: np.where(qd > 0, 1.0, -1.0)), AT_REST),
+    Mistake(
+        "coefficients swapped",
+        _with(
+            lambda q, qd, u, arm: f_vec(qd, arm) - arm.coulomb * qd - arm.viscous * np.sign(qd)
+        ),
+        "The two friction coefficients are swapped. Which of them is in N·m, and which in "
+        "N·m·s/rad?",
+    ),
+    Mistake(
+        "friction as an acceleration",
+        lambda x, u, arm: _with(lambda q, qd, u, arm: f_vec(qd, arm))(x, u, arm)
+        - np.concatenate([np.zeros(2), f_vec(x[2:], arm)]),
+        "Your friction is subtracted from the acceleration. It is a torque: what must happen to a "
+        "torque before it is an acceleration?",
+    ),
+    Mistake(
+        "input left out",
+        _with(lambda q, qd, u, arm: -u),
+        "The input u is missing from your q̈. What makes the arm move in a direction you choose?",
+    ),
+    Mistake(
+        "sign of the input",
+        _with(lambda q, qd, u, arm: -2 * u),
+        "The input u has the wrong sign in your q̈: the motor turns the wrong way.",
+    ),
+    Mistake(
+        "M not inverted",
+        _accelerating(lambda q, qd, rest, arm: M(q, arm) @ rest),
+        "You multiply by M. In M q̈ = ..., how do you get q̈ alone?",
+    ),
+    Mistake(
+        "torque for acceleration",
+        _accelerating(lambda q, qd, rest, arm: rest),
+        "The second half of your ẋ is a torque, in N·m. What resists it?",
+    ),
+    Mistake(
+        "divided by the diagonal of M",
+        _accelerating(lambda q, qd, rest, arm: rest / np.diag(M(q, arm))),
+        "You divide by the diagonal of M, as if the joints did not feel each other. What do the "
+        "entries beside the diagonal do?",
+    ),
+    Mistake(
+        "each entry of M inverted",
+        _accelerating(lambda q, qd, rest, arm: (1 / M(q, arm)) @ rest),
+        "You invert each entry of M by itself. The inverse of a matrix is something else: which "
+        "NumPy function solves a linear system?",
+    ),
+    Mistake(
+        "divided by M entry by entry, rows summed",
+        _accelerating(lambda q, qd, rest, arm: np.sum(rest / M(q, arm), axis=0)),
+        "You divide by M entry by entry. Which NumPy function solves a linear system?",
+    ),
+    Mistake(
+        "example arm hard-coded",
+        lambda x, u, arm: rate(x, u, EXAMPLE),
+        "Your f always uses the arm of this notebook. The check hands over other arms, as the third "
+        "argument.",
+    ),
+)  # fmt: skip
+
+
+def explicit(rows, weights):
+    """One step of the explicit method with these coefficients."""
+
+    def step(f, x, u, dt):
+        slopes = []
+        for row in rows:
+            ahead = sum((a * k for a, k in zip(row, slopes, strict=True) if a), 0.0)
+            slopes.append(f(x + dt * ahead, u))
+        return x + dt * sum(b * k for b, k in zip(weights, slopes, strict=True) if b)
+
+    return step
+
+
+ROWS = ((), (1 / 2,), (0, 1 / 2), (0, 0, 1))
+WEIGHTS = (1 / 6, 1 / 3, 1 / 3, 1 / 6)
+
+# Wrong methods, which show in a step and in a simulation.
+METHODS = (
+    Mistake(
+        "Euler",
+        explicit(((),), (1,)),
+        "This is Euler's method: only the slope at the start of the step counts, whatever else is "
+        "computed. At which states must the other three slopes be taken?",
+    ),
+    Mistake(
+        "midpoint",
+        explicit(ROWS[:2], (0, 1)),
+        "This is the midpoint method, of order 2: only the second slope counts. How do the four "
+        "slopes share in the step?",
+    ),
+    Mistake(
+        "Heun",
+        explicit(((), (1,)), (1 / 2, 1 / 2)),
+        "This is Heun's method, of order 2: the mean of the slopes at the two ends. Where else does "
+        "RK4 take slopes?",
+    ),
+    Mistake(
+        "k3 from k1",
+        explicit((*ROWS[:2], (1 / 2, 0), ROWS[3]), WEIGHTS),
+        "Your k3 is the same as k2. From which slope must k3 set out?",
+    ),
+    Mistake(
+        "k2 twice in the sum",
+        explicit((*ROWS[:3], ROWS[3]), (1 / 6, 2 / 3, 0, 1 / 6)),
+        "Your sum takes k2 twice and k3 not at all. Look at the two middle terms.",
+    ),
+    Mistake(
+        "k4 from k2",
+        explicit((*ROWS[:3], (0, 1, 0)), WEIGHTS),
+        "Your k4 sets out along k2. Which is the newest slope by then?",
+    ),
+    Mistake(
+        "k4 from k1",
+        explicit((*ROWS[:3], (1, 0, 0)), WEIGHTS),
+        "Your k4 sets out along k1. Which is the newest slope by then?",
+    ),
+    Mistake(
+        "half a step in k4",
+        explicit((*ROWS[:3], (0, 0, 1 / 2)), WEIGHTS),
+        "Your k4 is taken in the middle of the step. How far ahead does the last slope look?",
+    ),
+    Mistake(
+        "whole steps in k2 and k3",
+        explicit(((), (1,), (0, 1), (0, 0, 1)), WEIGHTS),
+        "Your k2 and k3 are taken at the end of the step. How far ahead do the two middle slopes "
+        "look?",
+    ),
+    Mistake(
+        "equal weights",
+        explicit(ROWS, (1 / 4, 1 / 4, 1 / 4, 1 / 4)),
+        "Your four slopes have equal weights. Which of them tell more about the whole step?",
+    ),
+    Mistake(
+        "equal weights, sum over six",
+        explicit(ROWS, (1 / 6, 1 / 6, 1 / 6, 1 / 6)),
+        "Your weights add up to 4/6: the step is too short. How often does each middle slope count?",
+    ),
+)  # fmt: skip
+
+
+def _stages_without_dt(f, x, u, dt):
+    k1 = f(x, u)
+    k2 = f(x + k1 / 2, u)
+    k3 = f(x + k2 / 2, u)
+    k4 = f(x + k3, u)
+    return x + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+
+
+STEP = (
+    *METHODS,
+    Mistake(
+        "weights in the wrong places",
+        explicit(ROWS, (1 / 3, 1 / 6, 1 / 6, 1 / 3)),
+        "Your weights are exchanged: the ends count twice, the middle once.",
+    ),
+    Mistake(
+        "division by six missing",
+        explicit(ROWS, (1, 2, 2, 1)),
+        "Your step is six times too long. What must the weights of the slopes add up to?",
+    ),
+    Mistake(
+        "dt missing in the sum",
+        lambda f, x, u, dt: x + (rk4(f, x, u, dt) - x) / dt,
+        "You add a slope to a state. What turns a rate of change into a change?",
+    ),
+    Mistake(
+        "dt missing in the stages",
+        _stages_without_dt,
+        "The states at which you take k2, k3 and k4 do not depend on dt. How far along a slope is "
+        "the middle of the step?",
+    ),
+    Mistake(
+        "dt twice",
+        lambda f, x, u, dt: x + dt * (rk4(f, x, u, dt) - x),
+        "The time step is multiplied in twice. Are your k's slopes, or changes of the state?",
+    ),
+    Mistake(
+        "change for state",
+        lambda f, x, u, dt: rk4(f, x, u, dt) - x,
+        "You return the change of the state. Where did the step start?",
+    ),
+    Mistake(
+        "mean slope for state",
+        lambda f, x, u, dt: (rk4(f, x, u, dt) - x) / dt,
+        "You return a slope. What is the state at the end of the step?",
+    ),
+    Mistake(
+        "step backwards",
+        lambda f, x, u, dt: rk4(f, x, u, -dt),
+        "Your step goes back in time. Look at the signs in front of dt.",
+    ),
+    Mistake(
+        "change subtracted",
+        lambda f, x, u, dt: 2 * x - rk4(f, x, u, dt),
+        "You subtract the change from the state. In which direction does a slope lead?",
+    ),
+    Mistake(
+        "input left out",
+        lambda f, x, u, dt: rk4(f, x, 0 * u, dt),
+        "Your step does not feel u. What do you hand to f as its second argument?",
+    ),
+)  # fmt: skip
+
+
+def _at_the_stages(f, x0, u, t):
+    """u asked for anew at each of the four slopes."""
+    if not callable(u):
+        return run(f, x0, u, t)
+
+    def rate(state, _):
+        return np.append(f(state[:-1], u(state[-1], state[:-1])), 1.0)
+
+    start = np.append(x0, t[0])
+    return run(rate, start, np.zeros(0), t)[:, :-1]
+
+
+def _shifted(f, x0, u, t):
+    states = run(f, x0, u, t)
+    return np.vstack([states[1:], np.zeros((1, len(x0)))])
+
+
+def _equal(f, x0, u, t):
+    """All steps as long as the first."""
+    return run(f, x0, u, t, steps=np.full(len(t) - 1, t[1] - t[0]))
+
+
+def _one_step_on(f, x0, u, t):
+    """Each row after its step, and all steps as long as the first."""
+    return _equal(f, x0, u, np.append(t, t[-1]))[1:]
+
+
+def _late(f, x0, u, t):
+    """Each step as long as the one before it; the first goes back over the whole run."""
+    return run(f, x0, u, t, steps=t[:-1] - np.roll(t, 1)[:-1])
+
+
+def _from_zero(f, x0, u, t):
+    return run(f, x0, u, np.concatenate([[0.0], t]))[1:]
+
+
+def _last_zero(f, x0, u, t):
+    states = run(f, x0, u, t)
+    states[-1] = 0
+    return states
+
+
+SIMULATE = (
+    Mistake(
+        "all rows equal",
+        lambda f, x0, u, t: np.tile(run(f, x0, u, t)[-1], (len(t), 1)),
+        "All rows are the last state. Do you store the same array again and again, and change it in "
+        "place (as x += ... does)?",
+    ),
+    Mistake(
+        "transposed",
+        lambda f, x0, u, t: run(f, x0, u, t).T,
+        "Your states stand in columns. One row for each time is asked for: which way do rows and "
+        "columns go?",
+    ),
+    Mistake(
+        "rows one step ahead",
+        _shifted,
+        "Your row k holds the state after the step, and the start is lost. Which state belongs to "
+        "t[0]?",
+    ),
+    Mistake(
+        "first row is no start, equal steps",
+        _one_step_on,
+        "Your first row is the state after a step, and all steps are as long as the first. Which "
+        "state belongs to t[0], and how long is step k?",
+    ),
+    Mistake(
+        "steps taken to be equal",
+        _equal,
+        "You take all time steps to be as long as the first one. The times in t need not be equally "
+        "spaced: how long is step k?",
+    ),
+    Mistake(
+        "equal steps from start to end",
+        lambda f, x0, u, t: run(f, x0, u, t, steps=np.full(len(t) - 1, (t[-1] - t[0]) / (len(t) - 1))),
+        "You spread the time evenly over the steps. The times in t need not be equally spaced: how "
+        "long is step k?",
+    ),
+    Mistake(
+        "last step's length",
+        _late,
+        "Step k of yours is as long as the step before it should be. Between which two times does "
+        "the state of row k move on to row k + 1?",
+    ),
+    Mistake(
+        "run from time zero",
+        _from_zero,
+        "Your run starts at time zero, although t need not. At which time is the state x0?",
+    ),
+    Mistake(
+        "last step missing",
+        _last_zero,
+        "Your last row is still zero: the last step is never taken. How many steps lie between "
+        "len(t) times?",
+    ),
+    Mistake(
+        "state never moved on",
+        lambda f, x0, u, t: np.array(
+            [x0, *(run(f, x0, u, t[k : k + 2])[-1] for k in range(len(t) - 1))]
+        ),
+        "Each of your steps starts from x0 again. Where must step k start?",
+    ),
+    Mistake(
+        "start repeated",
+        lambda f, x0, u, t: np.tile(x0, (len(t), 1)),
+        "All rows are x0: nothing moves. Is the result of the step stored anywhere?",
+    ),
+    Mistake(
+        "torque of the start only",
+        lambda f, x0, u, t: run(f, x0, u, t, held=lambda u, t, k, x, x0: u(t[0], x0)),
+        "You ask u once, at the start, and hold it for the whole run. How often does the controller "
+        "read the clock and the state?",
+    ),
+    Mistake(
+        "torque of the end of the step",
+        lambda f, x0, u, t: run(f, x0, u, t, held=lambda u, t, k, x, x0: u(t[k + 1], x)),
+        "You ask u at the end time of each step. When does the controller read the clock, and until "
+        "when does it hold the torque?",
+    ),
+    Mistake(
+        "torque of the middle of the step",
+        lambda f, x0, u, t: run(f, x0, u, t,
+                                held=lambda u, t, k, x, x0: u((t[k] + t[k + 1]) / 2, x)),
+        "You ask u at the middle of each step. When does the controller read the clock, and until "
+        "when does it hold the torque?",
+    ),
+    Mistake(
+        "torque at the stages",
+        _at_the_stages,
+        "Your torque changes inside the step. Here a computer drives the arm: how often in one step "
+        "does it read the clock and the state?",
+    ),
+    Mistake(
+        "torque of the first state",
+        lambda f, x0, u, t: run(f, x0, u, t, held=lambda u, t, k, x, x0: u(t[k], x0)),
+        "You hand x0 to u in every step. Which state does the controller see at t[k]?",
+    ),
+    Mistake(
+        "torque of time zero",
+        lambda f, x0, u, t: run(f, x0, u, t, held=lambda u, t, k, x, x0: u(0.0, x)),
+        "You ask u for the time zero in every step. What is the time at the start of step k?",
+    ),
+    Mistake(
+        "clock from zero",
+        lambda f, x0, u, t: run(f, x0, u, t, held=lambda u, t, k, x, x0: u(t[k] - t[0], x)),
+        "Your clock starts at zero, although t need not. Which time does the controller read?",
+    ),
+    Mistake(
+        "input left out",
+        lambda f, x0, u, t: run(f, x0, 0 * (u(t[0], x0) if callable(u) else u), t),
+        "Your run does not feel u. What do you hand on to the step?",
+    ),
+    *(
+        Mistake(m.name, lambda f, x0, u, t, step=m.wrong: run(f, x0, u, t, step), m.sentence)
+        for m in METHODS
+    ),
+)  # fmt: skip
+
+
+def drift(x, arm, kinetic=kinetic_energy, potential=potential_energy):
+    """E(t) − E(0), (len(x),), J: the right answer, or with another K or P."""
+    energy = np.array([kinetic(s[:2], s[2:], arm) + potential(s[:2], arm) for s in x])
+    return energy - energy[0]
+
+
+def _nothing(*_):
+    return 0.0
+
+
+def _height_absolute(q, arm):
+    """P with q2 taken from the x axis."""
+    return potential_energy(np.array([q[0], q[1] - q[0]]), arm)
+
+
+def _with_zero(E0):
+    """E itself, with P = 0 where the arm lies along x, less E0 of the energies."""
+
+    def wrong(x, arm):
+        start = x[0]
+        first = kinetic_energy(start[:2], start[2:], arm) + potential_energy(start[:2], arm)
+        energy = drift(x, arm) + first
+        return energy - E0(energy)
+
+    return wrong
+
+
+DRIFT_TERMS = (
+    Term("the change of K", lambda x, arm: drift(x, arm, potential=_nothing)),
+    Term("the change of P", lambda x, arm: drift(x, arm, kinetic=_nothing)),
+)
+
+DRIFT = (
+    Mistake(
+        "half missing",
+        lambda x, arm: drift(x, arm, kinetic=lambda q, qd, arm: 2 * kinetic_energy(q, qd, arm)),
+        "Your kinetic energy is twice the right one. What stands in front of a kinetic energy?",
+    ),
+    Mistake(
+        "diagonal of M only",
+        lambda x, arm: drift(
+            x, arm, kinetic=lambda q, qd, arm: 0.5 * np.sum(np.diag(M(q, arm)) * qd**2)
+        ),
+        "Your kinetic energy uses the diagonal of M only. What happens to it when both joints turn?",
+    ),
+    Mistake(
+        "M of the start",
+        lambda x, arm: drift(
+            x, arm, kinetic=lambda q, qd, arm: kinetic_energy(x[0, :2], qd, arm)
+        ),
+        "Your kinetic energy uses M at the first state all along. What does M depend on?",
+    ),
+    Mistake(
+        "C in the energy",
+        lambda x, arm: drift(
+            x, arm,
+            kinetic=lambda q, qd, arm: kinetic_energy(q, qd, arm) + 0.5 * qd @ C(q, qd, arm) @ qd,
+        ),
+        "There is a term with C in your energy. Which two energies does the arm have?",
+    ),
+    Mistake(
+        "C for M",
+        lambda x, arm: drift(x, arm, kinetic=lambda q, qd, arm: 0.5 * qd @ C(q, qd, arm) @ qd),
+        "Your kinetic energy is made with C. Which matrix gives the kinetic energy?",
+    ),
+    Mistake(
+        "K alone",
+        lambda x, arm: drift(x, arm, potential=_nothing),
+        "The potential energy is missing. What does the arm gain as it rises?",
+    ),
+    Mistake(
+        "P alone",
+        lambda x, arm: drift(x, arm, kinetic=_nothing),
+        "The kinetic energy is missing. What does the arm gain as it moves faster?",
+    ),
+    Mistake(
+        "sign of P",
+        lambda x, arm: drift(x, arm, potential=lambda q, arm: -potential_energy(q, arm)),
+        "Your potential energy falls as the arm rises. Is E the sum of K and P, and is P positive "
+        "upwards?",
+    ),
+    Mistake(
+        "absolute second angle",
+        lambda x, arm: drift(x, arm, potential=_height_absolute),
+        "Your P takes q2 from the x axis. From where is q2 measured, and so how high is the second "
+        "centre of mass?",
+    ),
+    Mistake(
+        "cosine for sine",
+        lambda x, arm: drift(
+            x, arm, potential=lambda q, arm: potential_energy(q + np.array([np.pi / 2, 0.0]), arm)
+        ),
+        "Your heights use the cosine. From which axis is q1 measured, and how high is the arm at "
+        "q = 0?",
+    ),
+    Mistake(
+        "link 1 carries nothing",
+        lambda x, arm: drift(
+            x, arm, potential=lambda q, arm: potential_energy(q, arm)
+            - arm.m2 * arm.g * arm.l1 * np.sin(q[0])
+        ),
+        "The height of the second centre of mass is taken from the elbow. How high is the elbow?",
+    ),
+    Mistake(
+        "gravity torque times angle",
+        lambda x, arm: drift(x, arm, potential=lambda q, arm: g_vec(q, arm) @ q),
+        "Your P is the gravity torque times the angle. A torque that changes on the way must be "
+        "summed along it: what are the heights of the two centres of mass?",
+    ),
+    Mistake(
+        "gravity constant hard-coded",
+        lambda x, arm: drift(x, changed(arm, g=9.81)),
+        "Your P is right on Earth only: 9.81 is written into it. The check also uses other planets.",
+    ),
+    Mistake(
+        "from the row before",
+        lambda x, arm: np.diff(drift(x, arm), prepend=0.0),
+        "You give the change from each row to the next. From which state is the drift counted?",
+    ),
+    Mistake(
+        "absolute value",
+        lambda x, arm: np.abs(drift(x, arm)),
+        "You give the size of the drift. Its sign is asked for too: does the run gain energy or lose "
+        "it?",
+    ),
+    Mistake(
+        "start less now",
+        lambda x, arm: -drift(x, arm),
+        "Your drift has the wrong sign: what grows counts as positive.",
+    ),
+    Mistake(
+        "energy for drift",
+        _with_zero(lambda energy: 0.0),
+        "This is the energy itself. By how much has it changed since the first row?",
+    ),
+    Mistake(
+        "from the mean",
+        _with_zero(np.mean),
+        "You subtract the mean of the energy. From which state is the drift counted?",
+    ),
+    Mistake(
+        "from the end",
+        _with_zero(lambda energy: energy[-1]),
+        "You subtract the energy of the last row. From which state is the drift counted?",
+    ),
+    Mistake(
+        "share for drift",
+        lambda x, arm: drift(x, arm) / _with_zero(lambda energy: 0.0)(x[:1], arm),
+        "You divide by the energy of the start. That share depends on where P is zero; the drift in "
+        "J does not.",
+    ),
+    Mistake(
+        "example arm hard-coded",
+        lambda x, arm: drift(x, EXAMPLE),
+        "Your energy is always that of the arm of this notebook. The check hands over other arms, as "
+        "the second argument.",
+    ),
+)  # fmt: skip

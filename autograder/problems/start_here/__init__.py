@@ -1,0 +1,1 @@
+"""The first lesson's own check."""

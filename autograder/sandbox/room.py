@@ -1,0 +1,330 @@
+"""A room of its own for a student's code: a process that can reach nothing but its own memory.
+
+With bubblewrap the process has no network, no home directory, no course folder, none of this
+project's files but the runner, and a read-only system. Without bubblewrap (macOS, some containers)
+there are limits on time, memory, processes and file size only, and `Room` says so once. Either way a
+room is a fork of a warm process where the system allows it, and a process of its own where not.
+
+Time is the processor's, of all processes of a room together: on a busy machine an honest answer takes
+longer, and no more of that. Beside each such limit is one of the clock, PATIENCE times as long.
+"""
+
+import base64
+import json
+import logging
+import math
+import os
+import select
+import socket
+import sys
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from functools import cache
+
+from autograder.protocol import (
+    CALL_SECONDS,
+    MOST_NUMBERS,
+    PATIENCE,
+    Call,
+    Reply,
+    decode_reply,
+    encode_call,
+    one_line,
+)
+from autograder.sandbox import nursery
+from autograder.sandbox.bubblewrap import bubblewrapped, has_bubblewrap
+from autograder.sandbox.cold import ColdProcess
+from autograder.sandbox.unwalled import UnwalledNursery, UnwalledProcess
+
+log = logging.getLogger(__name__)
+
+START_SECONDS = 60.0
+CELL_SECONDS = 10.0
+# What a cell starts may take so many times as long: compiling Eigen's headers alone takes seconds.
+STARTED = 3.0
+# Over the limit inside by this much, the process is taken to be out of its own control.
+GRACE_SECONDS = 3.0
+# For a room's watch to answer.
+WATCH_SECONDS = 10.0
+# How often a room that is silent is asked what it has used.
+LOOK_SECONDS = 0.25
+# What most notebooks import: its first cell must not pay for it where the room's process is new.
+LOAD = "import matplotlib.pyplot, sympy\ndel matplotlib, sympy"
+# What a cell may show, and what one call may answer: more than the runner ever sends.
+MOST_BYTES = 32 << 20
+MOST_VALUES = 1 << 20
+MOST_OUTPUTS = 100
+BYTES_A_NUMBER = 32
+
+
+class Way(Enum):
+    """How a room is made."""
+
+    WARM = "forked from a warm process, in bubblewrap"
+    COLD = "started in bubblewrap"
+    UNWALLED = "forked from a warm process, without walls"
+    UNWALLED_COLD = "started without walls"
+
+    @property
+    def walled(self) -> bool:
+        return self in (Way.WARM, Way.COLD)
+
+    @property
+    def warm(self) -> bool:
+        return self in (Way.WARM, Way.UNWALLED)
+
+
+class RoomLostError(Exception):
+    """The process ended, fell silent, or wrote what is no reply; it is gone now."""
+
+
+class TooLongError(RoomLostError):
+    """It used more of the processor's time than it had, out of its own control."""
+
+
+class StarvedError(RoomLostError):
+    """It was silent till the clock's limit, and had used less than it had of the processor's time."""
+
+
+class Room:
+    """A running sandbox. Use as a context manager; `close` leaves no process behind.
+
+    run(source) gives a cell's outputs, ask(calls) the replies to calls. Both raise RoomLostError
+    when the process does not survive them, and leave none behind that the student's code started.
+    OSError where the sandbox does not start.
+
+    files: what is laid into the folder in which cells run, by the path in it.
+    """
+
+    def __init__(self, way: Way | None = None, files: Mapping[str, bytes] | None = None):
+        self.way = way or _best_way()
+        self._buffer = bytearray()
+        self._process = _start(self.way)
+        os.set_blocking(self._process.requests, False)
+        self._before = self._used = 0.0
+        try:
+            hello = self._receive(math.inf, START_SECONDS, MOST_BYTES, MOST_VALUES)
+            if not hello.get("ready"):
+                self._lost(str(hello.get("refused")))
+            if files:
+                self._lay(files)
+        except RoomLostError as error:
+            # Nothing of the student's has run yet.
+            raise OSError(f"the sandbox did not start: {error}") from None
+        self._forget_time()
+
+    @classmethod
+    def loaded(cls, files: Mapping[str, bytes] | None = None) -> "Room":
+        """A room in which what notebooks import is there already, at nobody's expense."""
+        room = cls()
+        try:
+            if not room.way.warm:
+                room.run(LOAD, START_SECONDS)
+            if files:
+                room._lay(files)
+        except RoomLostError as error:
+            raise OSError(f"the sandbox did not start: {error}") from None
+        room._forget_time()
+        return room
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exception):
+        self.close()
+
+    @property
+    def used(self) -> float:
+        """The processor time of all processes of the room, s, when it was last asked for."""
+        return self._used - self._before
+
+    def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
+        """seconds: of the processor's time, for the cell; STARTED times that with all it starts."""
+        self._send({"run": source, "seconds": seconds})
+        clock = PATIENCE * seconds + GRACE_SECONDS
+        most = STARTED * seconds + GRACE_SECONDS
+        message = self._receive(most, clock, MOST_BYTES, MOST_VALUES)
+        outputs = message.get("outputs")
+        if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
+            self._lost("it sent no outputs")
+        self._sweep()
+        return outputs[:MOST_OUTPUTS]
+
+    def ask(
+        self, calls: list[Call], seconds: float = math.inf, clock: float = math.inf
+    ) -> list[Reply]:
+        """The replies to calls, up to the first fault.
+
+        seconds, clock: what they have all together, of the processor's time and of the clock's. Each
+        call has its own limits, inside and, for code that ignores those, from here.
+        """
+        ends, most = time.monotonic() + clock, self._used + seconds
+        self._send({"ask": [encode_call(call) for call in calls]})
+        replies = []
+        while len(replies) < len(calls):
+            message = self._receive(
+                min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
+                min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - time.monotonic()),
+                BYTES_A_NUMBER * MOST_NUMBERS,
+                4 * MOST_NUMBERS,
+            )
+            if "reply" not in message:
+                self._lost("it sent no reply")
+            replies.append(decode_reply(message["reply"]))
+            if replies[-1].fault:
+                break
+        self._sweep()
+        return replies
+
+    @property
+    def closed(self) -> bool:
+        return self._process.ended
+
+    def close(self) -> None:
+        """End the process, and all that it started."""
+        self._process.end()
+
+    def _lay(self, files: Mapping[str, bytes]) -> None:
+        coded = {name: base64.b64encode(content).decode() for name, content in files.items()}
+        self._send({"files": coded})
+        failed = self._receive(math.inf, START_SECONDS, MOST_BYTES, MOST_VALUES).get("failed")
+        if failed:
+            log.warning("no place in the sandbox for %s", ", ".join(map(one_line, failed)))
+
+    def _send(self, request: dict) -> None:
+        left = memoryview(json.dumps(request).encode() + b"\n")
+        stdin = self._process.requests
+        try:
+            while left:
+                # A process that does not read must not make the judge wait for ever.
+                if not select.select([], [stdin], [], GRACE_SECONDS)[1]:
+                    self._lost("it stopped listening")
+                left = left[os.write(stdin, left) :]
+        except OSError:
+            self._lost("it has ended")
+
+    def _sweep(self) -> None:
+        """End what the student's code started. What it could not end, the room ends with."""
+        used = self._process.told("sweep", WATCH_SECONDS)
+        if used is None:
+            self._lost("it left processes behind")
+        self._used = used
+
+    def _look(self) -> None:
+        used = self._process.told("used", WATCH_SECONDS)
+        self._used = self._used if used is None else used
+
+    def _forget_time(self) -> None:
+        """What the room has used so far is nobody's."""
+        self._look()
+        self._before = self._used
+
+    def _receive(self, seconds: float, clock: float, most_bytes: int, most_values: int) -> dict:
+        line = self._read_line(seconds, clock, most_bytes)
+        # An empty list is two bytes there and fifty here. Commas in texts count along.
+        if line.count(b",") + line.count(b"[") + line.count(b"{") > most_values:
+            self._lost("it wrote too much")
+        try:
+            message = json.loads(line)
+            if b"\\ud" in line.lower():
+                # Half a surrogate pair is legal in JSON, but no notebook holding one can be saved.
+                text = json.dumps(message, ensure_ascii=False).encode(errors="replace")
+                message = json.loads(text)
+        except (ValueError, RecursionError):
+            message = None
+        if not isinstance(message, dict):
+            self._lost("it wrote what is no reply")
+        return message
+
+    def _read_line(self, seconds: float, clock: float, most_bytes: int) -> bytes:
+        deadline = time.monotonic() + clock
+        stdout = self._process.replies
+        searched, most = 0, None
+        while (end := self._buffer.find(b"\n", searched)) < 0:
+            searched = len(self._buffer)
+            if searched > most_bytes:
+                self._lost("it wrote too much")
+            left = deadline - time.monotonic()
+            if left <= 0:
+                self._lost(f"no reply within {max(clock, 0):g} s", StarvedError)
+            if not select.select([stdout], [], [], min(left, LOOK_SECONDS))[0]:
+                self._look()
+                # Of calls, what the last reply left was not asked for: it is taken as of now.
+                most = self._used + seconds if most is None else most
+                if self._used > most:
+                    self._lost(f"no reply within {seconds:g} s of processor time", TooLongError)
+                continue
+            chunk = os.read(stdout, 1 << 16)
+            if not chunk:
+                self._lost("it ended")
+            self._buffer += chunk
+        line = bytes(self._buffer[:end])
+        del self._buffer[: end + 1]
+        if len(line) > most_bytes:
+            self._lost("it wrote too much")
+        return line
+
+    def _lost(self, why: str, kind: type[RoomLostError] = RoomLostError):
+        said = self._process.said()
+        innocent = self._process.outlived_its_keeper()
+        self.close()
+        if innocent:
+            raise OSError("the process that keeps the sandboxes ended, and this one with it")
+        raise kind(f"{why}: {said}" if said else why)
+
+
+def _best_way() -> Way:
+    warm_way, cold_way = Way.UNWALLED, Way.UNWALLED_COLD
+    if has_bubblewrap():
+        warm_way, cold_way = Way.WARM, Way.COLD
+    return warm_way if _works(warm_way) else cold_way
+
+
+@cache
+def _works(way: Way) -> bool:
+    """Whether rooms can be forked this way here; a word in the log where not."""
+    if sys.platform != "linux":
+        return False
+    try:
+        with Room(way):
+            return True
+    except OSError as error:
+        log.warning("each notebook starts a Python of its own, which takes longer: %s", error)
+        return False
+
+
+def _start(way: Way):
+    if not way.warm:
+        return ColdProcess(way.walled)
+    own = _nursery(way)
+    return nursery.WarmProcess(own) if way.walled else UnwalledProcess(own)
+
+
+def _nursery(way: Way) -> nursery.Nursery:
+    if way.walled:
+        return nursery.running(way, lambda: nursery.Nursery(*bubblewrapped("forks.py")))
+    return nursery.running(way, UnwalledNursery)
+
+
+@dataclass(frozen=True)
+class Lent:
+    """A process's warm process, for the processes that work for it."""
+
+    way: Way
+    channel: socket.socket
+
+    def close(self) -> None:
+        self.channel.close()
+
+
+def lend() -> Lent | None:
+    """What lets another process `borrow` this one's warm process; None where rooms are not warm."""
+    way = _best_way()
+    return Lent(way, _nursery(way).lend()) if way.warm else None
+
+
+def borrow(lent: Lent | None) -> None:
+    if lent is not None:
+        nursery.borrow(lent.way, lent.channel)

@@ -1,0 +1,85 @@
+"""What a student's cell calls, and how the verdict shows there."""
+
+import os
+import sys
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from autograder.judging import card
+from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
+from autograder.judging.verdict import State, Verdict
+from autograder.problems import CHECKS, known_check
+from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
+from autograder.student.definitions import watched
+
+# A visible check tries the same cases each time, so that a student can see an error change.
+VISIBLE_SEED = 20260101
+_definitions = watched({check.name for check in CHECKS.values()})
+
+
+class NotCorrectError(Exception):
+    """The answer is not correct yet. Its traceback is the verdict, not the way through our code."""
+
+    def __init__(self, verdict: Verdict):
+        super().__init__(verdict.headline)
+        self.verdict = verdict
+
+    def _render_traceback_(self):
+        # `nbgrader validate` shows errors alone, not the card above them.
+        if os.environ.get("NBGRADER_EXECUTION"):
+            return str(self.verdict).splitlines()
+        return [f"{self.verdict.headline}: see the card above."]
+
+
+def check(id: str | None = None, fresh: bool = False) -> None:
+    """Judge the function that the check `id` asks for, as this notebook defines it, and show it.
+
+    The visible check tries a few fixed cases; `fresh=True` draws new ones each time, as the grader
+    does. Raises NotCorrectError after showing a verdict that is not "correct", and UnknownCheckError
+    for what is no check's id.
+    """
+    verdict = _with_word_of_old(verdict_on(known_check(id), sys._getframe(1).f_globals, fresh))
+    _show(verdict)
+    if verdict.state is not State.CORRECT:
+        raise NotCorrectError(verdict)
+
+
+def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
+    """The verdict on the function in a namespace that a known check asks for."""
+    rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
+    count = HIDDEN_CASES if fresh else VISIBLE_CASES
+    name = CHECKS[id].name
+
+    def ask(calls: list[Call]) -> list[Reply]:
+        replies = answer_all(calls, namespace)
+        error = _definitions.missing(name) if _definitions else ""
+        if error and replies[0].fault and replies[0].fault.kind is FaultKind.MISSING:
+            return [Reply(fault=Fault(FaultKind.CELL_FAILED, f"{error}."))]
+        return replies
+
+    return CHECKS[id].run(ask, rng, count)
+
+
+def _with_word_of_old(verdict: Verdict) -> Verdict:
+    """The verdict, and first of all that the function is an old one, where it is."""
+    name = CHECKS[verdict.check].name
+    error = _definitions.old(name) if _definitions else ""
+    if not error:
+        return verdict
+    said = f"This is your old {name}: the cell that was to define it anew stopped with {error}."
+    return replace(verdict, problem=f"{said} {verdict.problem}".rstrip())
+
+
+def _show(verdict: Verdict) -> None:
+    try:
+        from IPython import get_ipython
+        from IPython.display import display
+    except ImportError:
+        print(verdict)
+        return
+    if get_ipython() is None:
+        print(verdict)
+    else:
+        display(card.mimebundle(verdict), raw=True)

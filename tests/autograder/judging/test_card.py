@@ -1,0 +1,279 @@
+"""The card: every verdict readable without its colour, and nothing of a student's runs as HTML."""
+
+import math
+import re
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from autograder.judging.card import LOOKS, drawing, html_card, mimebundle
+from autograder.judging.verdict import Row, State, Verdict, Witness
+from autograder.problems.material.planar_2r import joints
+
+TEXT = st.text(max_size=120) | st.sampled_from(
+    ["<script>alert(1)</script>", "\"' onload='x", "</p></div>", "&lt;", "<img src=x onerror=x>"]
+)
+LENGTHS = st.floats(0.01, 10)
+ANGLES = st.floats(-7, 7)
+
+
+def pose_of(links) -> tuple[tuple[float, float], ...]:
+    """The joints of a chain from the origin; links: (length, m, angle to the one before, rad)."""
+    points, direction = [0j], 0.0
+    for length, angle in links:
+        direction += angle
+        points.append(points[-1] + length * complex(math.cos(direction), math.sin(direction)))
+    return tuple((point.real, point.imag) for point in points)
+
+
+POSES = st.lists(st.tuples(LENGTHS, ANGLES), min_size=1, max_size=4).map(pose_of)
+VERDICTS = st.builds(
+    Verdict,
+    check=TEXT,
+    state=st.sampled_from(State),
+    credit=st.floats(0, 1),
+    rows=st.lists(st.builds(Row, TEXT, st.floats(0, 1), st.booleans()), max_size=3).map(tuple),
+    witness=st.none() | st.builds(Witness, TEXT, TEXT, TEXT, st.just(()) | POSES),
+    problem=TEXT,
+    diagnosis=st.lists(TEXT, max_size=2).map(tuple),
+    remark=TEXT,
+    next_step=TEXT,
+)
+MARK = '<b>"it\'s"&</b>'
+
+
+class Card(HTMLParser):
+    """The tags, the attributes and the words of a card."""
+
+    def __init__(self, html: str):
+        super().__init__()
+        # A picture's own title is for who cannot see it, or points at it.
+        html = re.sub("<title>.*?</title>", "", html)
+        self.tags, self.attributes, self.words = [], [], []
+        self.feed(html)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        self.attributes.append(dict(attributes))
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def squeezed(text: str) -> str:
+    """Without the blanks, which differ where lines are filled."""
+    return re.sub(r"\s+", "", text)
+
+
+def full(state: State) -> Verdict:
+    return Verdict(
+        "p3-g_vec",
+        state,
+        0.5,
+        (Row("kinetic part", 0.5, True), Row("potential part", 0.5, False)),
+        Witness("g_vec([0.3], m=1)", "2.1 N·m", "0.3 N·m (14% of the right value)"),
+        "It raised ValueError.",
+        ("The sign is wrong.", "And the unit."),
+        "It changes q.",
+        "Change your function.",
+    )
+
+
+@given(VERDICTS)
+def test_the_card_has_only_its_own_tags(verdict):
+    text, _, picture = html_card(verdict).partition("<svg ")
+    card = Card(text)
+    assert set(card.tags) <= {"div", "p", "strong", "span", "ul", "li", "code"}
+    names = {name for attributes in card.attributes for name in attributes}
+    assert names <= {"class", "data-state", "role", "aria-label", "style", "aria-hidden"}
+    if picture:
+        svg = ElementTree.fromstring(f"<svg {picture.removesuffix('</div></div>')}")
+        assert {part.tag for part in svg} <= {"title", "line", "path", "circle"}
+
+
+@pytest.mark.parametrize(
+    "verdict",
+    [
+        Verdict(MARK, State.ERROR),
+        Verdict("a", State.ERROR, problem=MARK),
+        Verdict("a", State.INCORRECT, diagnosis=(MARK,)),
+        Verdict("a", State.CORRECT, remark=MARK),
+        Verdict("a", State.INCORRECT, next_step=MARK),
+        Verdict("a", State.INCORRECT, rows=(Row(MARK, 1.0, False),)),
+        Verdict("a", State.INCORRECT, witness=Witness(MARK, "1", "2")),
+        Verdict("a", State.INCORRECT, witness=Witness("f", MARK, "2")),
+        Verdict("a", State.INCORRECT, witness=Witness("f", "1", MARK)),
+    ],
+)
+def test_what_comes_from_a_student_is_shown_as_it_is(verdict):
+    html = html_card(verdict)
+    assert "<b>" not in html
+    assert MARK in "".join(Card(html).words)
+    assert MARK in str(verdict)
+    assert Card(html).attributes[0]["aria-label"] == verdict.headline
+
+
+@pytest.mark.parametrize("state", State)
+def test_every_state_has_a_mark_a_text_and_a_name(state):
+    card = Card(html_card(full(state)))
+    mark, _ = LOOKS[state]
+    first, second, *_ = card.words
+    assert (first, second) == (f"{mark} ", full(state).headline)
+    assert str(state) in full(state).headline
+    assert card.attributes[0]["data-state"] == state.name.lower().replace("_", "-")
+    assert card.attributes[0]["role"] == "group"
+    assert card.attributes[0]["aria-label"] == full(state).headline
+
+
+def test_states_differ_in_mark_colour_and_name():
+    assert LOOKS.keys() == set(State)
+    marks, colours = zip(*LOOKS.values(), strict=True)
+    assert len(set(marks)) == len(set(colours)) == len(State)
+
+
+@pytest.mark.parametrize("state", State)
+def test_the_mark_is_not_read_aloud(state):
+    html = html_card(full(state))
+    assert f'<span aria-hidden="true">{LOOKS[state][0]} </span>' in html
+
+
+def test_partial_credit_is_in_the_headline():
+    assert full(State.PARTLY_CORRECT).headline == "p3-g_vec: partly correct (50%)"
+    assert full(State.INCORRECT).headline == "p3-g_vec: incorrect"
+
+
+@given(VERDICTS)
+def test_plain_text_and_card_say_the_same_sentences(verdict):
+    bundle = mimebundle(verdict)
+    assert bundle.keys() == {"text/plain", "text/html"}
+    card = squeezed("".join(Card(bundle["text/html"]).words))
+    plain = squeezed(bundle["text/plain"])
+    for sentence in [verdict.headline, *verdict.lines(), *(row.text for row in verdict.rows)]:
+        assert squeezed(sentence) in card
+        assert squeezed(sentence) in plain
+
+
+@pytest.mark.parametrize("state", State)
+def test_sentences_come_in_the_order_of_their_use(state):
+    verdict = full(state)
+    assert verdict.lines() == [
+        "It raised ValueError.",
+        "The sign is wrong.",
+        "And the unit.",
+        "It changes q.",
+        "Worst case: g_vec([0.3], m=1) gave 2.1 N·m, off by 0.3 N·m (14% of the right value).",
+        "Change your function.",
+    ]
+    for text in (str(verdict), " ".join(Card(html_card(verdict)).words)):
+        places = [squeezed(text).index(squeezed(line)) for line in verdict.lines()]
+        assert places == sorted(places)
+
+
+def test_rows_are_marked_in_words_and_in_plain_text():
+    words = Card(html_card(full(State.PARTLY_CORRECT))).words
+    assert "met: kinetic part (50%)" in words
+    assert "not met: potential part (50%)" in words
+    plain = str(full(State.PARTLY_CORRECT))
+    assert "  [x] kinetic part (50%)\n  [ ] potential part (50%)\n" in plain
+    alone = Verdict("a", State.CORRECT, 1.0, (Row("kinetic part", 1.0, True),))
+    assert str(alone) == "a: correct\n  [x] kinetic part"
+
+
+def test_without_inputs_only_the_size_of_the_error_is_told():
+    verdict = full(State.INCORRECT).without_inputs()
+    for text in (str(verdict), html_card(verdict)):
+        assert "Worst case: off by 0.3 N·m" in text
+        assert "m=1" not in text
+        assert "2.1" not in text
+    assert Verdict("a", State.CORRECT).without_inputs() == Verdict("a", State.CORRECT)
+
+
+@given(VERDICTS)
+def test_plain_text_is_narrow(verdict):
+    for line in str(verdict).splitlines():
+        if line.startswith("  ") and "[" not in line:
+            assert len(line) <= 78
+
+
+def svg_of(pose, **size):
+    return ElementTree.fromstring(drawing(pose, **size))
+
+
+def points_of(svg) -> np.ndarray:
+    """Where joints and hand are drawn, y up, px."""
+    return np.array([[float(c.get("cx")), -float(c.get("cy"))] for c in svg.iter("circle")])
+
+
+@given(POSES)
+def test_the_arm_is_drawn_to_scale_and_upright(pose):
+    drawn, pose = points_of(svg_of(pose)), np.array(pose)
+    drawn, pose = drawn - drawn[0], pose - pose[0]
+    scale = np.linalg.norm(np.diff(drawn, axis=0)) / np.linalg.norm(np.diff(pose, axis=0))
+    np.testing.assert_allclose(drawn, scale * pose, atol=0.3)  # px
+
+
+@given(POSES, st.integers(60, 300))
+def test_the_drawing_fits_its_frame_and_fills_it(pose, size):
+    svg = svg_of(pose, size=size)
+    width, height = float(svg.get("width")), float(svg.get("height"))
+    assert max(width, height) == size + 20
+    ends = [(float(line.get(f"x{k}")), float(line.get(f"y{k}")))
+            for line in svg.iter("line") for k in (1, 2)]  # fmt: skip
+    for x, y in ends:
+        assert 9 < x < width - 9
+        assert 9 < y < height - 9
+
+
+@given(ANGLES, ANGLES)
+def test_dashed_lines_show_from_where_the_angles_are_counted(q1, q2):
+    svg = svg_of(pose_of([(1.0, q1), (0.8, q2)]))
+    dashed = [line for line in svg.iter("line") if line.get("stroke-dasharray")]
+    ways = [
+        complex(
+            float(line.get("x2")) - float(line.get("x1")),
+            float(line.get("y1")) - float(line.get("y2")),
+        )
+        for line in dashed
+    ]
+    for way, angle in zip(ways, (0.0, q1), strict=True):
+        assert abs(way / abs(way) - complex(math.cos(angle), math.sin(angle))) < 0.02
+
+
+@given(ANGLES, ANGLES)
+def test_the_drawing_is_said_in_words(q1, q2):
+    arm = type("Arm", (), {"l1": 0.9, "l2": 0.7})
+    svg = svg_of(joints(np.array([q1, q2]), arm))
+    assert svg.get("role") == "img"
+    said = svg.get("aria-label")
+    assert said == svg.find("title").text
+    found = re.fullmatch(
+        r"The arm in the worst case: link 1 at (−?\d+)° from the x axis, "
+        r"link 2 at (−?\d+)° from link 1\.",
+        said,
+    )
+    for degrees, angle in zip(found.groups(), (q1, q2), strict=True):
+        off = math.radians(float(degrees.replace("−", "-"))) - angle
+        assert abs(math.remainder(off, math.tau)) <= math.radians(0.501)
+
+
+def test_the_drawing_stands_after_the_text_and_not_without_a_pose():
+    verdict = full(State.INCORRECT)
+    assert "<svg" not in html_card(verdict)
+    posed = Verdict("a", State.INCORRECT, witness=Witness("f", "1", "2", pose_of([(1, 0.3)])),
+                    next_step="Go on.")  # fmt: skip
+    html = html_card(posed)
+    assert html.index("Go on.") < html.index("<svg")
+    assert "<svg" not in html_card(posed.without_inputs())
+
+
+@given(TEXT.filter(bool))
+def test_the_call_stands_as_code(call):
+    card = html_card(Verdict("a", State.INCORRECT, witness=Witness(call, "1 N·m", "2 N·m")))
+    words = Card(card).words
+    assert "".join(words).endswith(f"Worst case: {call} gave 1 N·m, off by 2 N·m.")
+    assert card.count("<code ") == card.count("</code>") == 1

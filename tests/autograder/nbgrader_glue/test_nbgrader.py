@@ -1,0 +1,228 @@
+"""The course as an instructor runs it: nbgrader's own commands, from a folder of the course's files.
+
+One course is set up for the whole file. One student works through the exchange; the others' notebooks
+are put where `nbgrader collect` would put them.
+"""
+
+import csv
+import getpass
+import html
+import json
+import re
+import shutil
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbgrader.api import Gradebook
+
+from tests.autograder import courses
+from tests.submissions import p3_pendulum
+from tests.submissions.dressed import dressed
+from tests.submissions.p3_pendulum import BAD_ANSWERS, POINTS
+
+ROOT = Path(__file__).parents[3]
+P3 = "p3-pendulum"
+NOTEBOOK = f"{P3}/{P3}.ipynb"
+WHOLE = ("right", "wrong", "partly_right", "blank", "crashing", "mangled")
+NOTHING = dict.fromkeys(POINTS, 0.0)
+
+
+class Course:
+    """A course folder on which nbgrader is run."""
+
+    def __init__(self, root: Path):
+        self.root = root
+        shutil.copy(ROOT / "nbgrader_config.py", root)
+        shutil.copytree(ROOT / "solutions", root / "solutions")
+
+    def nbgrader(self, *arguments: str, status: int = 0) -> str:
+        """What the command printed; it must end with this status."""
+        return courses.run(self.root, "nbgrader", *arguments, status=status)
+
+    def notebook(self, path: str):
+        return nbformat.read(self.root / path, as_version=4)
+
+    def submit(self, student: str, notebook) -> None:
+        folder = self.root / "course" / "submitted" / student / P3
+        folder.mkdir(parents=True)
+        # As it is: nbformat would put damaged cells right on writing.
+        (folder / f"{P3}.ipynb").write_text(json.dumps(notebook))
+
+    def scores(self, student: str) -> dict[str, float | None]:
+        """The automatic score of each grade cell in the gradebook."""
+        with Gradebook(f"sqlite:///{self.root / 'course' / 'gradebook.db'}") as gradebook:
+            notebook = gradebook.find_submission_notebook(P3, P3, student)
+            return {grade.name: grade.auto_score for grade in notebook.grades}
+
+    def feedback(self, student: str) -> str:
+        """The words on the student's feedback page."""
+        page = (self.root / "course" / "feedback" / student / P3 / f"{P3}.html").read_text()
+        words = html.unescape(re.sub(r"<[^>]+>", " ", page))
+        return re.sub(r"\s+", " ", words)
+
+
+@pytest.fixture(scope="module")
+def course(tmp_path_factory):
+    course = Course(tmp_path_factory.mktemp("course"))
+    course.nbgrader("generate_assignment", P3)
+    course.nbgrader("release_assignment", P3)
+    release = course.notebook(f"course/release/{NOTEBOOK}")
+
+    course.nbgrader("fetch_assignment", P3)
+    mine = course.root / "problems" / NOTEBOOK
+    nbformat.write(p3_pendulum.right(course.notebook(f"problems/{NOTEBOOK}")), mine)
+    course.validated = course.nbgrader("validate", str(mine))
+    course.nbgrader("submit", P3)
+    course.nbgrader("collect", P3)
+
+    for name in WHOLE:
+        made = p3_pendulum.CLASS[name](release)
+        course.submit(name, dressed(made) if name == "right" else made)
+    for name, (answer, _) in BAD_ANSWERS.items():
+        course.submit(name, p3_pendulum.right_but(release, g_vec=answer))
+    course.log = course.nbgrader("autograde", P3)
+    course.nbgrader("generate_feedback", P3)
+    course.nbgrader("export")
+    course.release = release
+    return course
+
+
+def test_release_holds_no_solution_and_no_hidden_check(course):
+    text = "\n".join(cell.source for cell in course.release.cells)
+    assert "SOLUTION" not in text
+    assert "HIDDEN" not in text
+    assert "fresh" not in text
+    assert text.count("raise NotImplementedError") == len(POINTS)
+
+
+def test_points_in_gradebook(course):
+    with Gradebook(f"sqlite:///{course.root / 'course' / 'gradebook.db'}") as gradebook:
+        cells = {cell.name: cell.max_score for cell in gradebook.find_notebook(P3, P3).grade_cells}
+    assert cells == POINTS | {"p3-derivation": 5.0}
+
+
+def test_student_through_the_exchange(course):
+    assert "Success! Your notebook passes all the tests." in course.validated
+    assert automatic(course.scores(getpass.getuser())) == POINTS
+
+
+def automatic(scores):
+    return {name: score for name, score in scores.items() if name in POINTS}
+
+
+@pytest.mark.parametrize(
+    ("student", "expected"),
+    [
+        ("right", POINTS),
+        ("wrong", NOTHING),
+        ("partly_right", POINTS | {"p3-lagrangian": 1.5, "p3-g_vec": 0.0}),
+        ("blank", NOTHING),
+        ("crashing", POINTS | {"p3-M": 0.0, "p3-g_vec": 0.0, "p3-C": 0.0}),
+        ("mangled", POINTS),
+        *((name, POINTS | {"p3-g_vec": 0.0}) for name in BAD_ANSWERS),
+    ],
+)
+def test_scores(course, student, expected):
+    assert automatic(course.scores(student)) == expected
+
+
+@pytest.mark.parametrize(
+    ("student", "sentences"),
+    [
+        ("right", ["p3-M: correct", "p3-lagrangian: correct", "p3-g_vec: correct"]),
+        (
+            "wrong",
+            [
+                "The kinetic part of your L is twice the right one.",
+                "The potential part of your L varies with −sin q.",
+                "pend.I is about the pivot already.",
+                "C is not zero here, but proportional to m ℓc q̇.",
+                "You have the cosine of q where the sine belongs",
+                "This is the inertia about the centre of mass, as it was given.",
+                "This is the frequency of a point mass on a string.",
+            ],
+        ),
+        (
+            "partly_right",
+            [
+                "p3-lagrangian: partly correct (50%)",
+                "met: kinetic part of L (50%)",
+                "not met: potential part of L (50%)",
+                "The potential part of your L has the wrong sign.",
+                "Your gravity torque has the wrong sign",
+            ],
+        ),
+        ("blank", [f"{name}: not attempted" for name in POINTS]),
+        (
+            "crashing",
+            [
+                "Python itself stopped while M(q, pend) was running",
+                "this cell ended Python itself",
+                "C(q, qd, pend) raised AttributeError",
+                "pend.J * qd",
+            ],
+        ),
+        ("mangled", [f"{name}: correct" for name in POINTS]),
+        *((name, [sentence]) for name, (_, sentence) in BAD_ANSWERS.items()),
+    ],
+)
+def test_feedback_says(course, student, sentences):
+    page = course.feedback(student)
+    for sentence in sentences:
+        assert sentence in page
+
+
+def test_feedback_shows_no_hidden_input_and_no_reference(course):
+    page = course.feedback("wrong")
+    assert "Worst case: off by" in page
+    assert "gave" not in page.partition("p3-g_vec: incorrect")[2].partition("Change your")[0]
+    assert "autograder/problems" not in page
+    assert "p3_pendulum.py" not in page
+
+
+def test_instructor_is_told_what_was_mended(course):
+    for note in (
+        "p3-M was there more than once; the last one counts",
+        "answer-M was there more than once; the last one counts",
+        "p3-g_vec was missing; it was put back",
+        "the nbgrader settings of p3-C had been changed",
+        "p3-lagrangian had been made a markdown cell",
+        "answer-small_angle_frequency had lost its nbgrader settings; they were put back",
+        "the text of p3-inertia_about_pivot had been changed; it was put back",
+    ):
+        assert f"mangled: {note}" in course.log
+
+
+def test_derivation_waits_for_a_person(course):
+    assert course.scores("right")["p3-derivation"] is None
+    assert course.scores("blank")["p3-derivation"] == 0
+
+
+def test_export(course):
+    with (course.root / "course" / "grades.csv").open(newline="") as file:
+        rows = {row["student_id"]: row for row in csv.DictReader(file)}
+    assert float(rows["right"]["score"]) == sum(POINTS.values())
+    assert float(rows["partly_right"]["score"]) == sum(POINTS.values()) - 3.5
+    assert float(rows["blank"]["score"]) == 0
+    assert float(rows["right"]["max_score"]) == sum(POINTS.values()) + 5
+
+
+def test_same_seed_gives_the_same_notebooks_again(course):
+    path = f"course/autograded/wrong/{NOTEBOOK}"
+    before = course.notebook(path)
+    course.nbgrader("autograde", P3, "--student=wrong", "--force")
+    assert course.notebook(path).cells == before.cells
+
+
+def test_damaged_file_stops_nobody_else(course):
+    for student in ("a_before", "z_after"):
+        course.submit(student, p3_pendulum.right(course.release))
+    folder = course.root / "course" / "submitted" / "damaged" / P3
+    folder.mkdir(parents=True)
+    (folder / f"{P3}.ipynb").write_text('{"cells": [')
+    said = course.nbgrader("autograde", P3, status=1)
+    assert "error processing assignment 'p3-pendulum' for student 'damaged'" in said
+    assert (folder / f"{P3}.ipynb").read_text() == '{"cells": ['
+    for student in ("a_before", "z_after"):
+        assert automatic(course.scores(student)) == POINTS

@@ -1,0 +1,359 @@
+"""The wall: what goes in comes out the same, only numbers come back, and nothing breaks the judge."""
+
+import json
+import linecache
+import signal
+import time
+from fractions import Fraction
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from autograder import protocol
+from autograder.protocol import (
+    Call,
+    Fault,
+    FaultKind,
+    NotNumbersError,
+    Reply,
+    Symbol,
+    arguments,
+    calls,
+    readings,
+)
+
+FLOATS = st.floats(allow_nan=False)
+ARRAYS = hnp.arrays(float, hnp.array_shapes(min_dims=0, max_side=4), elements=FLOATS)
+NAMES = st.text(st.characters(categories=["L"]), min_size=1, max_size=5)
+SYMBOLS = NAMES.map(Symbol)
+ARGUMENTS = st.recursive(
+    FLOATS | ARRAYS | SYMBOLS,
+    lambda inner: st.dictionaries(NAMES, inner, max_size=3).map(lambda d: SimpleNamespace(**d)),
+    max_leaves=6,
+)
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
+    lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner),
+    max_leaves=12,
+)
+
+
+def same(one, other) -> bool:
+    if isinstance(one, SimpleNamespace):
+        return vars(one).keys() == vars(other).keys() and all(
+            same(value, vars(other)[name]) for name, value in vars(one).items()
+        )
+    if isinstance(one, np.ndarray):
+        return other.dtype == one.dtype and np.array_equal(one, other)
+    return type(one) is type(other) and one == other
+
+
+def ask(source: str, *args, at=()) -> Reply:
+    """The reply of the student's function f, defined in a cell, to one call."""
+    namespace = {"__name__": "__main__", "np": np, "sp": sp}
+    exec(compile(source, "<ipython-input-1-0>", "exec"), namespace)
+    return protocol.answer(Call("f", args, at), namespace)
+
+
+@given(ARGUMENTS)
+def test_arguments_cross_unchanged(value):
+    assert same(arguments.decode(json.loads(json.dumps(arguments.encode(value)))), value)
+
+
+@given(
+    NAMES,
+    st.lists(ARGUMENTS, max_size=4).map(tuple),
+    st.lists(st.dictionaries(NAMES, FLOATS, max_size=3), max_size=3).map(tuple),
+)
+def test_calls_cross_unchanged(name, args, at):
+    call = protocol.decode_call(json.loads(json.dumps(protocol.encode_call(Call(name, args, at)))))
+    assert (call.name, call.at) == (name, at)
+    assert len(call.args) == len(args)
+    assert all(map(same, call.args, args))
+
+
+@given(hnp.arrays(float, hnp.array_shapes(min_dims=0, max_side=4)))
+def test_numbers_come_back_unchanged(value):
+    reply = protocol.decode_reply(json.loads(json.dumps(protocol.encode_reply(Reply(value=value)))))
+    assert reply.fault is None
+    np.testing.assert_array_equal(reply.value, value)
+
+
+@pytest.mark.parametrize("kind", FaultKind)
+def test_faults_come_back_unchanged(kind):
+    fault = Fault(kind, "a message", "line 3: return q")
+    message = json.loads(json.dumps(protocol.encode_reply(Reply(fault=fault))))
+    assert protocol.decode_reply(message) == Reply(fault=fault)
+
+
+@given(JSON)
+@settings(max_examples=60)
+def test_no_message_makes_the_judge_raise(message):
+    if not isinstance(message, dict) or not message.keys() & {"value", "fault"}:
+        assert protocol.decode_reply(message) == Reply(fault=Fault(FaultKind.GARBLED))
+    for reply in map(protocol.decode_reply, (message, {"value": message}, {"fault": message})):
+        assert (reply.value is None) != (reply.fault is None)
+        assert reply.fault or reply.value.dtype == float
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        {"value": {}},
+        {"value": [[1.0], [1.0, 2.0]]},
+        {"value": ["one"]},
+        {"value": 10**400},
+        {"fault": {"kind": "raised", "message": "m"}},
+        {"fault": {"kind": "clever", "message": "m", "line": ""}},
+        {"fault": {"kind": [], "message": "m", "line": ""}},
+        {"fault": {"kind": "raised", "message": 1, "line": ""}},
+    ],
+)
+def test_what_is_no_reply_is_garbled(message):
+    assert protocol.decode_reply(message) == Reply(fault=Fault(FaultKind.GARBLED))
+
+
+def test_a_forged_fault_cannot_flood_the_verdict():
+    message = {"fault": {"kind": "raised", "message": "x" * 10**6, "line": "y" * 10**6}}
+    fault = protocol.decode_reply(message).fault
+    assert len(fault.message) == len(fault.line) == readings.MOST_CHARACTERS
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (2, 2.0),
+        (True, 1.0),
+        (10**300, 1e300),
+        ([1, 2.5], [1.0, 2.5]),
+        (((1, 2), [3, 4]), [[1.0, 2.0], [3.0, 4.0]]),
+        ([np.array([1.0]), [2]], [[1.0], [2.0]]),
+        (np.float32(0.5), 0.5),
+        (np.array([[1, 2]], dtype=np.int8), [[1.0, 2.0]]),
+        (Fraction(1, 4), 0.25),
+        ([Fraction(1, 4), 2], [0.25, 2.0]),
+        (sp.Rational(1, 2), 0.5),
+        (sp.pi, np.pi),
+        (sp.Matrix([[sp.sqrt(2)]]), [[np.sqrt(2)]]),
+        ([[sp.Integer(1), 2.0]], [[1.0, 2.0]]),
+        ([], []),
+    ],
+)
+def test_whatever_holds_numbers_is_read(value, expected):
+    array = readings.read_numbers(value)
+    assert array.dtype == float
+    assert array.shape == np.shape(expected)
+    np.testing.assert_array_equal(array, expected)
+
+
+@pytest.mark.parametrize(
+    ("value", "kind", "message"),
+    [
+        (None, FaultKind.NOTHING, ""),
+        ("m g lc sin q", FaultKind.NOT_NUMBERS, "str 'm g lc sin q'"),
+        (b"12", FaultKind.NOT_NUMBERS, "bytes b'12'"),
+        (1j, FaultKind.NOT_NUMBERS, "complex 1j"),
+        ([1.0, None], FaultKind.NOT_NUMBERS, "NoneType None"),
+        ([1.0, "2"], FaultKind.NOT_NUMBERS, "list [1.0, '2']"),
+        ({"q": 1.0}, FaultKind.NOT_NUMBERS, "dict {'q': 1.0}"),
+        ({1.0}, FaultKind.NOT_NUMBERS, "set {1.0}"),
+        ([[1.0], [1.0, 2.0]], FaultKind.NOT_NUMBERS, "rows of different lengths"),
+        (ask, FaultKind.NOT_NUMBERS, "a function"),
+        (np.sin, FaultKind.NOT_NUMBERS, "a function"),
+        (10**400, FaultKind.NOT_NUMBERS, f"int 1{'0' * 58}…"),
+        (sp.I, FaultKind.NOT_NUMBERS, "ImaginaryUnit I"),
+        (
+            sp.Symbol("q") * sp.Symbol("m"),
+            FaultKind.NOT_NUMBERS,
+            "an expression that still holds m, q",
+        ),
+        (
+            sp.Matrix([[1, sp.Symbol("q")]]),
+            FaultKind.NOT_NUMBERS,
+            "an expression that still holds q",
+        ),
+        (np.zeros(readings.MOST_NUMBERS + 1), FaultKind.NOT_NUMBERS, "50001 entries, far too many"),
+        (np.datetime64("2026-01-01"), FaultKind.NOT_NUMBERS, "datetime64"),
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_whatever_is_no_number_is_refused_and_named(value, kind, message):
+    with pytest.raises(NotNumbersError) as refused:
+        readings.read_numbers(value)
+    assert refused.value.kind is kind
+    assert str(refused.value).startswith(message)
+    assert len(str(refused.value)) < 100
+
+
+def test_an_object_can_pose_as_an_array_but_gives_numbers_all_the_same():
+    value = ask(
+        "class A:\n"
+        "    __array__ = lambda self, *a, **k: np.array([[7]])\n"
+        "    __eq__ = __le__ = lambda self, other: True\n"
+        "def f(): return A()"
+    ).value
+    assert type(value) is np.ndarray
+    assert value.dtype == float
+    np.testing.assert_array_equal(value, [[7.0]])
+    posing = "class A:\n    def __array__(self, *a, **k): return %s\ndef f(): return A()"
+    assert ask(posing % "np.array(['7'])").fault.kind is FaultKind.NOT_NUMBERS
+    assert ask(posing % "'7'").fault.kind is FaultKind.NOT_NUMBERS
+
+
+@pytest.mark.parametrize(
+    ("source", "fault"),
+    [
+        ("def g(): return 1", Fault(FaultKind.MISSING)),
+        ("def f_(): return 1", Fault(FaultKind.MISSING, "f_")),
+        ("f = 3.0", Fault(FaultKind.NOT_CALLABLE, "float")),
+        ("def f():\n    raise NotImplementedError", Fault(FaultKind.NOT_IMPLEMENTED)),
+        ("def f(): pass", Fault(FaultKind.NOTHING)),
+        ("def f(): return 'one'", Fault(FaultKind.NOT_NUMBERS, "str 'one'")),
+        ("def f():\n    exit(3)", Fault(FaultKind.RAISED, "SystemExit: 3", "line 2")),
+        ("def f(q): return q", Fault(FaultKind.RAISED, "TypeError: f() missing 1 required")),
+        ("def f():\n    return f()", Fault(FaultKind.RAISED, "RecursionError: ", "line 2")),
+        (
+            "def f():\n    import nothing",
+            Fault(FaultKind.RAISED, "ModuleNotFoundError: ", "line 2"),
+        ),
+        ("def f():\n    return 1 / 0", Fault(FaultKind.RAISED, "ZeroDivisionError: ", "line 2")),
+    ],
+)
+def test_faults_of_a_call(source, fault):
+    given = ask(source).fault
+    assert given.kind is fault.kind
+    assert given.message.startswith(fault.message)
+    assert given.line == fault.line
+
+
+def test_the_failing_line_is_the_students_own_with_its_text():
+    source = "def inner(q):\n    return np.linalg.inv(q)\n\ndef f(q):\n    return inner(q)\n"
+    namespace = {"__name__": "__main__", "np": np}
+    name = "ipykernel_1/1.py"  # as JupyterLab's kernel names and caches a cell
+    linecache.cache[name] = (len(source), None, source.splitlines(True), name)
+    exec(compile(source, name, "exec"), namespace)
+    fault = protocol.answer(Call("f", (np.zeros((2, 2)),)), namespace).fault
+    assert fault.message == "LinAlgError: Singular matrix"
+    assert fault.line == "line 2: return np.linalg.inv(q)"
+
+
+def test_long_messages_are_cut():
+    fault = ask("def f(): raise ValueError('x' * 10**6)").fault
+    assert len(fault.message) == readings.MOST_CHARACTERS
+
+
+def test_symbols_come_as_real_symbols_and_the_answer_is_evaluated_at_each_point():
+    points = ({"q": 0.0, "m": 2.0}, {"q": np.pi / 2, "m": 3.0})
+    source = "def f(q, m):\n    assert q.is_real\n    return m * sp.sin(q) + {}"
+    args = (Symbol("q"), Symbol("m"))
+    np.testing.assert_allclose(ask(source.format("1"), *args, at=points).value, [1.0, 4.0])
+    np.testing.assert_allclose(
+        ask("def f(q, m): return sp.Matrix([[q, m]])", *args, at=points).value,
+        [[[0.0, 2.0]], [[np.pi / 2, 3.0]]],
+    )
+    np.testing.assert_array_equal(ask("def f(q, m): return 5", *args, at=points).value, [5.0, 5.0])
+
+
+@pytest.mark.parametrize(
+    ("result", "fault"),
+    [
+        ("q * sp.Symbol('l')", Fault(FaultKind.NOT_NUMBERS, "an expression that still holds l")),
+        ("None", Fault(FaultKind.NOTHING)),
+        ("'q'", Fault(FaultKind.NOT_NUMBERS, "str 'q'")),
+        ("[1, 'q']", Fault(FaultKind.NOT_NUMBERS, "list [1, 'q']")),
+        ("f", Fault(FaultKind.NOT_NUMBERS, "a function")),
+    ],
+)
+def test_symbolic_answers_that_give_no_numbers(result, fault):
+    given = ask(f"def f(q):\n    return {result}", Symbol("q"), at=({"q": 1.0},)).fault
+    assert given == fault
+
+
+def test_a_function_that_changes_its_arguments_harms_no_later_call():
+    q, pend = np.array([1.0, 2.0]), SimpleNamespace(m=1.0, axis=np.array([0.0, 1.0]))
+    source = (
+        "def f(q, pend):\n    value = q.sum() + pend.m + pend.axis.sum()\n"
+        "    q *= 0; pend.m = 9.0; pend.axis[:] = 5\n    return value"
+    )
+    call = Call("f", (q, pend))
+    namespace = {"__name__": "__main__"}
+    exec(source, namespace)
+    values = [float(reply.value) for reply in protocol.answer_all([call] * 3, namespace)]
+    assert values == [5.0, 5.0, 5.0]
+    np.testing.assert_array_equal(q, [1.0, 2.0])
+    np.testing.assert_array_equal(pend.axis, [0.0, 1.0])
+    assert pend.m == 1.0
+
+
+def test_warnings_numpy_errors_and_prints_are_harmless(capsys):
+    reply = ask(
+        "import sys, warnings\n"
+        "def f():\n"
+        "    print('out'); print('err', file=sys.stderr); warnings.warn('w')\n"
+        "    np.array([1.0]) / np.zeros(1); np.log(np.zeros(1))\n"
+        "    return 1"
+    )
+    assert reply.value == 1.0
+    assert np.geterr()["divide"] == "raise"
+
+
+def test_answers_stop_at_the_first_fault():
+    namespace = {"__name__": "__main__", "calls": []}
+    exec("def f(q):\n    calls.append(q)\n    return None if q > 1 else q", namespace)
+    replies = protocol.answer_all([Call("f", (q,)) for q in (0.0, 1.0, 2.0, 3.0)], namespace)
+    assert [reply.fault and reply.fault.kind for reply in replies] == [None, None, "nothing"]
+    assert namespace["calls"] == [0.0, 1.0, 2.0]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "while True: pass",
+        "while True:\n        try:\n            while True: sum(())\n        except Exception: pass",
+        "try:\n        while True: sum(())\n    except BaseException:\n        while True: pass",
+    ],
+)
+def test_the_time_limit_ends_a_loop_that_swallows_errors(monkeypatch, body):
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
+    monkeypatch.setattr(calls, "PATIENCE", 1000.0)  # a busy machine must not end it first
+    before = [signal.getsignal(number) for number in (signal.SIGALRM, signal.SIGPROF)]
+    assert ask(f"def f():\n    {body}").fault == Fault(FaultKind.TIMED_OUT, "0.2 s")
+    assert [signal.getsignal(number) for number in (signal.SIGALRM, signal.SIGPROF)] == before
+    for timer in (signal.ITIMER_REAL, signal.ITIMER_PROF):
+        assert signal.getitimer(timer) == (0.0, 0.0)
+
+
+def test_time_that_the_processor_spends_elsewhere_is_not_the_calls(monkeypatch):
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.1)
+    body = "import time\ndef f():\n    time.sleep({})\n    return 1"
+    assert ask(body.format(0.25)).value == 1.0
+    assert ask(body.format(9)).fault == Fault(FaultKind.STARVED, "0.5 s")
+
+
+def test_no_except_exception_sees_the_time_limit(monkeypatch):
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
+    monkeypatch.setattr(calls, "PATIENCE", 1000.0)
+    namespace = {"__name__": "__main__", "seen": []}
+    exec(
+        "def f():\n    try:\n        while True: sum(())\n    except Exception: seen.append(1)",
+        namespace,
+    )
+    assert protocol.answer(Call("f", ()), namespace).fault.kind is FaultKind.TIMED_OUT
+    assert namespace["seen"] == []
+
+
+def test_the_time_limit_leaves_a_quick_block_alone():
+    with protocol.time_limit(0.02):
+        pass
+    time.sleep(0.12)  # an alarm left behind would end the test run here
+
+
+@pytest.mark.parametrize(("most", "text"), [(5, "abcde"), (4, "abc…"), (1, "…")])
+def test_shortened(most, text):
+    assert readings.shortened("abcde", most) == text

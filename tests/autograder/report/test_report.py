@@ -1,0 +1,124 @@
+"""The page of a class: what it counts, and that it shows names and sentences as text only."""
+
+from html.parser import HTMLParser
+
+import pytest
+
+from autograder import report
+from autograder.cli import main
+from autograder.judging.verdict import State
+from autograder.notebook.grade import grade
+from autograder.problems import CHECKS
+from autograder.report import Student
+from tests.autograder import courses
+from tests.autograder.courses import P3
+from tests.submissions import p3_pendulum
+
+M = CHECKS["p3-M"].mistakes
+
+
+def verdict(state: State, *sentences: str) -> dict:
+    return {
+        "p3-M": {"check": "p3-M", "state": state.value, "credit": 0.0, "diagnosis": [*sentences]}
+    }
+
+
+CLASS = [
+    Student("ada", 10.0, 1, verdict(State.CORRECT)),
+    Student("bob", 4.0, 0, verdict(State.INCORRECT, M[0].sentence)),
+    Student("cem", 1.0, 0, verdict(State.INCORRECT, M[1].sentence)),
+    Student("dee", 1.0, 0, verdict(State.INCORRECT, M[1].sentence, "What is off varies like <b>.")),
+    Student("<i>eve</i>", note="the notebook is not valid JSON"),
+]
+
+
+class Text(HTMLParser):
+    """The words of a page, and its tags."""
+
+    def __init__(self, page: str):
+        super().__init__()
+        self.words, self.tags, self._style = [], [], False
+        self.feed(page)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self._style = tag == "style"
+
+    def handle_data(self, data):
+        if not self._style:
+            self.words += data.split()
+
+    def __str__(self):
+        return " ".join(self.words).replace(" .", ".")
+
+
+def test_mistakes_are_counted_the_most_frequent_first():
+    made = report.mistakes_made(CLASS)
+    assert [(one.name, one.students) for one in made] == [
+        (M[1].name, ("cem", "dee")),
+        (M[0].name, ("bob",)),
+        ("", ("dee",)),
+    ]
+
+
+def test_the_page_says_it_all():
+    text = str(Text(report.page("p3-pendulum", 15.0, CLASS)))
+    assert "4 of 5 submissions graded; mean 4, median 2.5 of 15 points" in text
+    assert "without points so far: 1 answer." in text
+    assert f"2 p3-M {M[1].name}. {M[1].sentence} who cem, dee" in text
+    assert "bob 4" in text
+    assert "<i>eve</i> the notebook is not valid JSON" in text
+    assert "p3-M 1 3" in text
+
+
+def test_nothing_of_a_student_becomes_markup():
+    tags = Text(report.page("p3-pendulum", 15.0, CLASS)).tags
+    assert not {"b", "i", "script"} & set(tags)
+
+
+def test_the_terminal_gets_the_same_counts():
+    lines = report.summary(15.0, CLASS).splitlines()
+    assert lines[0] == "4 of 5 graded, mean 4, median 2.5 of 15 points"
+    assert lines[1:] == [
+        f"   2 × p3-M: {M[1].name}",
+        f"   1 × p3-M: {M[0].name}",
+        "   1 × p3-M: What is off varies like <b>.",
+    ]
+
+
+def test_an_empty_class_has_a_page_too():
+    assert "0 of 0 submissions graded." in str(Text(report.page("p3-pendulum", 15.0, [])))
+    assert report.summary(15.0, []) == "0 of 0 graded"
+
+
+def test_a_damaged_notebook_is_refused_by_name(tmp_path):
+    path = tmp_path / "p3-pendulum.ipynb"
+    path.write_text("{")
+    with pytest.raises(ValueError, match=r"p3-pendulum\.ipynb cannot be read"):
+        report.read_verdicts(path)
+
+
+def test_the_command_reports_what_grading_left(tmp_path, monkeypatch, capsys):
+    root = courses.new_course(tmp_path / "course")
+    release = courses.release(root)
+    for student, made in (("ada", p3_pendulum.right), ("bob", p3_pendulum.wrong)):
+        courses.submit(root, student, made(release))
+    monkeypatch.chdir(root)
+    assert main(["grade", P3, "--jobs", "1"]) == 0
+    courses.submit(root, "cem", "no notebook")
+    capsys.readouterr()
+    assert main(["report", P3]) == 0
+    said = capsys.readouterr().out
+    assert "2 of 3 graded, mean 5, median 5 of 15 points" in said
+    wrong = grade(p3_pendulum.wrong(release), release, "seed").verdicts
+    text = str(Text((root / "course" / "report" / f"{P3}.html").read_text(encoding="utf-8")))
+    for check, verdict in wrong.items():
+        for sentence in verdict.diagnosis:
+            assert f"{sentence} who bob" in text, check
+    assert "cem not graded yet, or could not be" in text
+
+
+def test_an_unknown_assignment_is_refused_by_name(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(courses.new_course(tmp_path / "course"))
+    assert main(["report", "p9-flying"]) == 2
+    assert "the gradebook does not know p9-flying" in capsys.readouterr().err
