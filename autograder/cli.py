@@ -62,7 +62,7 @@ def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: 
     if not (root / "solutions" / assignment / f"{assignment}.ipynb").exists():
         return _complain(f"there is no solutions/{assignment}/{assignment}.ipynb")
     try:
-        lines = pipeline.grade_all(root, assignment, jobs, scheduler, force)
+        lines = pipeline.grade_all(root, assignment, open_recorder, jobs, scheduler, force)
     except (OSError, ValueError) as error:
         return _complain(str(error))
     except KeyboardInterrupt:
@@ -71,6 +71,13 @@ def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: 
         return _complain(f"nobody has handed in {assignment}")
     say(pipeline.table(lines))
     return 0 if all(line.graded for line in lines) else 1
+
+
+def open_recorder(root: Path, assignment: str):
+    """nbgrader's gradebook and folders, for one assignment."""
+    from autograder.nbgrader_glue.recorder import Recorder  # imports nbgrader, which takes seconds
+
+    return Recorder(root, assignment)
 
 
 def report(root: Path, assignment: str) -> int:

@@ -15,7 +15,6 @@ from autograder.nbgrader_glue.steps import (
     sanitize_preprocessors,
 )
 from autograder.notebook.released import CODE_STUB, TEXT_STUB
-from autograder.notebook.scores import outputs_for, with_verdicts
 
 __all__ = [
     "CODE_STUB",
@@ -27,8 +26,6 @@ __all__ = [
     "TEXT_STUB",
     "autograde_preprocessors",
     "generate_preprocessors",
-    "outputs_for",
     "sanitize_preprocessors",
-    "with_verdicts",
     "write_problem",
 ]

@@ -14,9 +14,9 @@ from nbgrader.converters import Autograde
 from nbgrader.coursedir import CourseDirectory
 from traitlets.config import Config
 
+from autograder.digest import digest
 from autograder.nbgrader_glue import handed_in, names, submitted
 from autograder.notebook.beside import Beside
-from autograder.pipeline.cache import digest
 
 QUIET = logging.getLogger("autograder.nbgrader")
 QUIET.setLevel(logging.CRITICAL)  # what is mended stands in the summary table

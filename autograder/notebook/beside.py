@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
-from autograder.pipeline.cache import digest
+from autograder.digest import digest
 from autograder.protocol import Reply, one_line
 
 MOST_FILES = 100

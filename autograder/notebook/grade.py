@@ -11,6 +11,7 @@ from functools import partial
 import numpy as np
 from nbformat import NotebookNode
 
+from autograder.digest import digest
 from autograder.judging.check import HIDDEN_CASES, CannotRunError, Check
 from autograder.judging.faults import said_of
 from autograder.judging.verdict import State, Verdict
@@ -19,7 +20,6 @@ from autograder.notebook.beside import Beside
 from autograder.notebook.blame import Ran, explained, ran, stale
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
-from autograder.pipeline.cache import digest
 from autograder.problems import CHECKS
 from autograder.protocol import (
     CALL_SECONDS,

@@ -4,7 +4,6 @@ A result's name is a digest of all that decides it: the submission, the source, 
 settings and this code. So nothing in the cache is ever out of date, and it may be deleted at any time.
 """
 
-import hashlib
 import json
 import sys
 from collections.abc import Iterator
@@ -13,6 +12,7 @@ from importlib import metadata
 from importlib.util import find_spec
 from pathlib import Path
 
+from autograder.digest import digest
 from autograder.files import PART, put_in_place
 
 SOURCES = {".py", ".cpp", ".hpp", ".java", ".m"}  # some are built around students' answers
@@ -43,15 +43,6 @@ class Cache:
 
     def _path(self, name: str) -> Path:
         return self._folder / f"{name}.json"
-
-
-def digest(*parts: str | bytes) -> str:
-    """A name for these parts: different for different parts, wherever one ends and the next begins."""
-    whole = hashlib.sha256()
-    for part in parts:
-        data = part.encode(errors="surrogatepass") if isinstance(part, str) else part
-        whole.update(len(data).to_bytes(8, "big") + data)
-    return whole.hexdigest()
 
 
 @cache

@@ -5,16 +5,19 @@ was judged is in the cache before it is recorded, so that a killed run goes on w
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tqdm import tqdm
 
+from autograder.digest import digest
 from autograder.pipeline.alike import alike
-from autograder.pipeline.cache import Cache, code_version, digest
+from autograder.pipeline.cache import Cache, code_version
 from autograder.pipeline.executors import Cluster, Processes, outcomes
 from autograder.pipeline.lock import locked
+from autograder.pipeline.recorder import Recorder, Standing
 from autograder.pipeline.worker import judge, load
 from autograder.protocol import one_line
 from autograder.sandbox.room import borrow, lend
@@ -49,32 +52,32 @@ class OtherVersionError(Exception):
 def grade_all(
     root: Path,
     assignment: str,
+    open_recorder: Callable[[Path, str], AbstractContextManager[Recorder]],
     jobs: int = 2,
     scheduler: str | None = None,
     force: bool = False,
 ) -> list[Line]:
     """Grade each submission of an assignment and record it; a line for each student, in order.
 
-    jobs: how many processes judge. scheduler: the address of a Dask cluster that judges instead.
-    force: judge again what is in the cache. ValueError where the assignment cannot be graded at all,
-    BlockingIOError while another run is at work.
+    open_recorder(root, assignment): gives what knows the submissions and records them; called while
+    the processes that judge get ready. jobs: how many these are. scheduler: the address of a Dask
+    cluster that judges instead. force: judge again what is in the cache. ValueError where the
+    assignment cannot be graded at all, BlockingIOError while another run is at work.
     """
     with (
         locked(root / LOCK, f"another `autograder grade` is at work in {root}"),
         Cluster(scheduler) if scheduler else Processes(jobs, PRELOAD, lend, borrow) as pool,
     ):
         if force or not (root / CACHE / _done(assignment, "anybody")).parent.exists():
-            pool.warm(load)  # while this process loads nbgrader
-        from autograder.nbgrader_glue.recorder import Recorder  # takes seconds
-
-        with Recorder(root, assignment) as recorder:
+            pool.warm(load)
+        with open_recorder(root, assignment) as recorder:
             return _Run(root, recorder, pool, force).lines()
 
 
 class _Run:
     """One pass over an assignment's submissions."""
 
-    def __init__(self, root: Path, recorder, pool, force: bool):
+    def __init__(self, root: Path, recorder: Recorder, pool, force: bool):
         self._cache = Cache(root / CACHE)
         self._recorder, self._pool, self._force = recorder, pool, force
         self._submissions = recorder.submissions()
@@ -144,7 +147,7 @@ class _Run:
         self._note(student, done["states"], done["notes"], standing, redone=False)
         return True
 
-    def _state(self, student: str, standing) -> dict[str, str]:
+    def _state(self, student: str, standing: Standing) -> dict[str, str]:
         """What grading this submission left, by which a later run knows it again."""
         return {
             "key": self._keys[student],

@@ -7,9 +7,9 @@ import nbformat
 from nbformat import NotebookNode
 
 from autograder.judging.verdict import State
-from autograder.nbgrader_glue import with_verdicts
 from autograder.notebook.beside import Beside
 from autograder.notebook.grade import NOTHING, grade
+from autograder.notebook.scores import with_verdicts
 from autograder.pipeline.cache import code_version
 from autograder.sandbox.room import Room
 

@@ -14,10 +14,10 @@ from nbgrader.server_extensions.formgrader.formgrader import FormgradeExtension
 
 from autograder.judging import card
 from autograder.judging.verdict import State, Verdict
-from autograder.nbgrader_glue import with_verdicts
 from autograder.nbgrader_glue.release import configuration
 from autograder.notebook.grade import grade
 from autograder.notebook.repair import NEW_CELL, repair
+from autograder.notebook.scores import with_verdicts
 from tests.autograder.notebook.test_hostile import SOURCE, release  # noqa: F401  a fixture
 from tests.submissions.attack import ROOT
 from tests.submissions.hostile import ATTACKS

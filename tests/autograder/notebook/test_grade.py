@@ -17,10 +17,10 @@ from nbgrader.utils import determine_grade
 
 from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict, Witness
-from autograder.nbgrader_glue import outputs_for
 from autograder.notebook import grade as grading
 from autograder.notebook import outputs
 from autograder.notebook.grade import Sitting, grade, is_judged, of_content, stream
+from autograder.notebook.scores import outputs_for
 from autograder.problems import CHECKS
 from autograder.protocol import Call, Fault, FaultKind, Reply
 from autograder.sandbox.room import RoomLostError, StarvedError, TooLongError

@@ -13,10 +13,10 @@ import nbformat
 import pytest
 
 from autograder.judging.verdict import State
-from autograder.nbgrader_glue import outputs_for
 from autograder.notebook import grade as grading
 from autograder.notebook.grade import grade
 from autograder.notebook.repair import grade_id, is_locked
+from autograder.notebook.scores import outputs_for
 from autograder.sandbox import room as sandbox
 from autograder.sandbox.room import Room, Way
 from tests.autograder.course_problems import problem, without_plots

@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from autograder.cli import main
+from autograder.digest import digest
 from autograder.pipeline import run as pipeline
-from autograder.pipeline.cache import Cache, digest
+from autograder.pipeline.cache import Cache
 from autograder.pipeline.executors import Processes, outcomes
 from autograder.sandbox.room import borrow, lend
 from tests.autograder import courses
