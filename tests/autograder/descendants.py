@@ -16,14 +16,14 @@ class Adopted:
     """The processes below this one that were not there when the block began."""
 
     def __init__(self):
-        self._before = self._below()
+        self._before = below()
 
     def living(self) -> set[int]:
         """Their ids; orphans that have ended are reaped, which adds their time to our children's."""
-        for process in self._below() - self._before:
+        for process in below() - self._before:
             with suppress(ChildProcessError):
                 os.waitpid(process, os.WNOHANG)
-        return self._below() - self._before
+        return below() - self._before
 
     def wait(self) -> None:
         """Until none is left. TimeoutError where they do not end."""
@@ -33,19 +33,21 @@ class Adopted:
                 raise TimeoutError(f"still there after {PATIENCE:g} s: {_said(left)}")
             time.sleep(0.002)
 
-    @staticmethod
-    def _below() -> set[int]:
-        children: dict[int, list[int]] = {}
-        for path in Path("/proc").glob("[0-9]*/stat"):
-            with suppress(OSError):
-                # The name, in parentheses, may hold anything.
-                parent = int(path.read_text().rpartition(")")[2].split()[1])
-                children.setdefault(parent, []).append(int(path.parent.name))
-        found, last = set(), [os.getpid()]
-        while last:
-            last = [child for parent in last for child in children.get(parent, [])]
-            found.update(last)
-        return found
+
+def below(process: int | None = None, ended: bool = True) -> set[int]:
+    """The processes below that one, or this. ended: those as well that nobody has waited for yet."""
+    children: dict[int, list[int]] = {}
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            # The name, in parentheses, may hold anything.
+            state, parent = path.read_text().rpartition(")")[2].split()[:2]
+            if ended or state != "Z":
+                children.setdefault(int(parent), []).append(int(path.parent.name))
+    found, last = set(), [process or os.getpid()]
+    while last:
+        last = [child for parent in last for child in children.get(parent, [])]
+        found.update(last)
+    return found
 
 
 @contextmanager

@@ -1,13 +1,10 @@
 """The zoo: no attack earns a point, harms the next submission or leaves a process behind."""
 
-import ctypes
 import os
 import re
 import shutil
 import signal
 import socket
-import time
-from pathlib import Path
 
 import nbformat
 import pytest
@@ -20,6 +17,8 @@ from autograder.notebook.scores import outputs_for
 from autograder.sandbox import room as sandbox
 from autograder.sandbox.room import Room, Way
 from tests.autograder.course_problems import problem, without_plots
+from tests.autograder.descendants import adopting, below
+from tests.autograder.eventually import eventually
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import cell_of
 from tests.submissions.attack import GOT, LISTENING, OUTSIDE, ROOT
@@ -32,7 +31,6 @@ from tests.submissions.hostile import (
 from tests.submissions.p3_pendulum import POINTS
 
 P3 = "p3-pendulum"
-PR_SET_CHILD_SUBREAPER = 36
 WORDS_OF_THE_GUIDE = {
     "reads_the_solution": "the solutions",
     "hunts_modules": "this project's own modules",
@@ -77,10 +75,8 @@ def next_points(release) -> dict[str, float]:
 @pytest.fixture(scope="module")
 def orphans_come_here():
     """Whatever is left behind becomes a child of this process, so that it can be seen."""
-    prctl = ctypes.CDLL(None).prctl
-    prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
-    yield
-    prctl(PR_SET_CHILD_SUBREAPER, 0, 0, 0, 0)
+    with adopting():
+        yield
 
 
 @pytest.fixture
@@ -93,28 +89,7 @@ def short_limits(monkeypatch):
 
 def descendants() -> set[int]:
     """The living processes below this one."""
-    children = {}
-    for entry in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            state, parent = entry.read_text().rpartition(")")[2].split()[:2]
-        except OSError:
-            continue
-        if state != "Z":
-            children.setdefault(int(parent), []).append(int(entry.parent.name))
-    found, left = set(), [os.getpid()]
-    while left:
-        below = children.get(left.pop(), [])
-        found.update(below)
-        left += below
-    return found
-
-
-def eventually(met) -> bool:
-    for _ in range(100):
-        if met():
-            return True
-        time.sleep(0.05)
-    return False
+    return below(ended=False)
 
 
 def points(graded) -> dict[str, float]:

@@ -1,13 +1,13 @@
 """Rooms of every kind for the tests, and what can be said to them."""
 
 import os
-import time
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
 from autograder.sandbox.room import Room, Way
+from tests.autograder.eventually import eventually
 
 EVERY_WAY = pytest.mark.parametrize("way", list(Way), indirect=True, ids=lambda way: way.name)
 WALLED_WAYS = pytest.mark.parametrize(
@@ -72,11 +72,3 @@ def appears(mark: str) -> bool:
 def gone(mark: str) -> bool:
     """Whether no process carries `mark`, at the latest when the system has cleaned up."""
     return eventually(lambda: not processes_with(mark))
-
-
-def eventually(met) -> bool:
-    for _ in range(200):
-        if met():
-            return True
-        time.sleep(0.05)
-    return False

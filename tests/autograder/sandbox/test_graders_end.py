@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from autograder.sandbox.room import Way
-from tests.autograder.sandbox.rooms import EVERY_WAY, appears, eventually, gone
+from tests.autograder.eventually import eventually
+from tests.autograder.sandbox.rooms import EVERY_WAY, appears, gone
 
 ROOT = Path(__file__).parents[3]
 DEAF = (

@@ -6,7 +6,6 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -14,9 +13,10 @@ import pytest
 from autograder.sandbox import nursery
 from autograder.sandbox import room as sandbox
 from autograder.sandbox.room import Room, Way
+from tests.autograder.descendants import below
+from tests.autograder.eventually import eventually
 from tests.autograder.sandbox.rooms import (
     appears,
-    eventually,
     failed,
     gone,
     printed,
@@ -151,11 +151,11 @@ class TestRights:
 @EITHER
 class TestLife:
     def test_rooms_leave_nothing_behind(self, pair, way):
-        before = _below(_own(way)._process.pid)
+        before = below(_own(way)._process.pid)
         for _ in range(5):
             with Room(way) as room:
                 room.run("import os\nif os.fork() == 0:\n    import time; time.sleep(99)")
-        assert eventually(lambda: _below(_own(way)._process.pid) == before)
+        assert eventually(lambda: below(_own(way)._process.pid) == before)
 
     def test_no_descriptor_is_left_open_here(self, pair, way):
         before = os.listdir("/proc/self/fd")
@@ -308,14 +308,3 @@ def _warm_processes(nursery) -> list[int]:
     monitor = nursery._process.pid
     with open(f"/proc/{monitor}/task/{monitor}/children") as file:
         return [int(pid) for pid in file.read().split()]
-
-
-def _below(process: int) -> list[int]:
-    """The processes below that one, zombies among them."""
-    with open(f"/proc/{process}/task/{process}/children") as file:
-        children = [int(pid) for pid in file.read().split()]
-    found = list(children)
-    for child in children:
-        with suppress(OSError):  # it has just ended
-            found += _below(child)
-    return sorted(found)
