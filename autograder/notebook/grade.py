@@ -13,7 +13,7 @@ from nbformat import NotebookNode
 
 from autograder.digest import digest
 from autograder.judging.check import HIDDEN_CASES, CannotRunError, Check
-from autograder.judging.faults import said_of
+from autograder.judging.faults import describe_fault
 from autograder.judging.verdict import State, Verdict
 from autograder.notebook import outputs
 from autograder.notebook.beside import Beside
@@ -198,7 +198,7 @@ class Sitting:
         earlier = stale(check.name, self._cells)
         if verdict.state not in (State.INCORRECT, State.PARTLY_CORRECT) or earlier is None:
             return verdict
-        said = said_of(earlier, check.name, check.signature)
+        said = describe_fault(earlier, check.name, check.signature)
         return replace(verdict, next_step=f"{said} {verdict.next_step}".strip())
 
     def _asked(self, calls: list[Call]) -> list[Reply]:

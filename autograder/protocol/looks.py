@@ -50,11 +50,11 @@ class Look:
         # The limit of a whole cell is another's to see.
         own = (Exception, SystemExit, *([TimeLimitError] if self._seconds is not None else []))
         if isinstance(error, own):
-            print(self._said_of(error))
+            print(self._describe(error))
         _close_figures(_open_figures() - self._figures)
         return isinstance(error, own)
 
-    def _said_of(self, error: BaseException) -> str:
+    def _describe(self, error: BaseException) -> str:
         raising = self._raising(error)
         if isinstance(error, NotImplementedError):
             names = [_name(raising)] if raising else map(_name, self._ids)
