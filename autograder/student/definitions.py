@@ -63,6 +63,7 @@ def _defines(source: str | None, name: str) -> bool:
 
 
 def _describe(error: BaseException) -> str:
-    syntax = isinstance(error, SyntaxError)
-    said = f"{error.msg}, line {error.lineno}" if syntax else said_by(error)
+    said = said_by(error)
+    if isinstance(error, SyntaxError):
+        said = f"{error.msg}, line {error.lineno}"
     return one_line(f"{kind_of(error)}: {said}", 150)
