@@ -9,7 +9,7 @@ LOG := .venv/install.log
 
 help:
 	@echo 'make lab       open JupyterLab on the first lesson; ARGS="--port=8899" goes to JupyterLab'
-	@echo 'make test      ruff, pytest, and every lesson and solution run again by nbval; ARGS="-k chain"'
+	@echo 'make test      ruff, mypy, pytest; every lesson and solution is run again; ARGS="-k chain"'
 	@echo 'make test-all  the same, and long tests that only repeat what short ones show'
 	@echo 'make bench     time library, ports, grading and feedback; writes docs/benchmarks.md'
 	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md'
@@ -21,19 +21,22 @@ lab: .venv/lab.done
 
 # One run of pytest for all, on as many cores as there are: a part that fails keeps no other from running.
 test: .venv/$(TESTED).done
-	@failed=; \
-	$(lint) || failed=ruff; \
+	@$(lint); \
 	.venv/bin/python -m pytest --nbval --numprocesses=auto --dist=loadfile --no-loadscope-reorder \
 	  tests lessons solutions $(ARGS) || failed="$$failed pytest"; \
-	if [ -n "$$failed" ]; then echo "make test: failed:" $$failed >&2; exit 1; fi
+	$(verdict)
 
 test-all:
 	@$(MAKE) test ARGS='-m "long or not long" $(ARGS)'
 
 lint: .venv/$(TESTED).done
-	$(lint)
+	@$(lint); $(verdict)
 
-lint = .venv/bin/ruff check && .venv/bin/ruff format --check
+# mypy checks the types of armdyn and autograder; pyproject.toml says how.
+lint = failed=; \
+	{ .venv/bin/ruff check && .venv/bin/ruff format --check; } || failed=ruff; \
+	.venv/bin/python -m mypy || failed="$$failed mypy"
+verdict = if [ -n "$$failed" ]; then echo "make $@: failed:" $$failed >&2; exit 1; fi
 
 installed: .venv/$(TESTED).done
 

@@ -3,9 +3,14 @@
 import argparse
 import os
 import sys
+from contextlib import AbstractContextManager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from autograder.terminal import say
+
+if TYPE_CHECKING:
+    from autograder.pipeline.recorder import Recorder
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -73,11 +78,11 @@ def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: 
     return 0 if all(line.graded for line in lines) else 1
 
 
-def open_recorder(root: Path, assignment: str):
+def open_recorder(root: Path, assignment: str) -> "AbstractContextManager[Recorder]":
     """nbgrader's gradebook and folders, for one assignment."""
-    from autograder.nbgrader_glue.recorder import Recorder  # imports nbgrader, which takes seconds
+    from autograder.nbgrader_glue import recorder  # imports nbgrader, which takes seconds
 
-    return Recorder(root, assignment)
+    return recorder.Recorder(root, assignment)
 
 
 def report(root: Path, assignment: str) -> int:

@@ -155,7 +155,7 @@ def _lay_out(workspaces: Path, notebooks: list[str]) -> None:
     from jupyterlab_server.workspaces_handler import WorkspacesManager
 
     widgets = [f"notebook:{path}" for path in notebooks]
-    data = {
+    data: dict[str, dict] = {
         f"notebook:{path}": {"data": {"path": path, "factory": "Notebook"}} for path in notebooks
     }
     data["file-browser-filebrowser:cwd"] = {"path": ""}

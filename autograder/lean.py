@@ -7,7 +7,8 @@ No schema of a notebook asks for one, and jsonschema does without where the pack
 import sys
 
 if "jsonschema" not in sys.modules and "rfc3987_syntax" not in sys.modules:
-    sys.modules["rfc3987_syntax"] = None  # Python's way to say that it cannot be imported
+    # Python's way to say that it cannot be imported, which typeshed does not know.
+    sys.modules["rfc3987_syntax"] = None  # type: ignore[assignment]
     try:
         import jsonschema  # noqa: F401
     except ImportError:

@@ -148,6 +148,26 @@ def test_what_fails_keeps_nothing_else_from_running(machine):
     assert "make test: failed: ruff pytest" in result.stderr
 
 
+@pytest.mark.parametrize(
+    ("ruff", "mypy", "failed"),
+    [(0, 0, ""), (1, 0, "ruff"), (0, 1, "mypy"), (1, 1, "ruff mypy")],
+)
+def test_lint_runs_both_to_the_end_and_says_which_failed(machine, ruff, mypy, failed):
+    machine.python()
+    assert machine.make(".venv/test.done").returncode == 0
+    programs = machine.checkout / ".venv" / "bin"
+    (programs / "ruff").write_text(f'#!/bin/sh\necho "ruff $*" >>made\nexit {ruff}\n')
+    (programs / "ruff").chmod(0o755)
+    with (programs / "python").open("a") as python:
+        python.write(f'case "$*" in *mypy*) echo "$*" >>made; exit {mypy} ;; esac\n')
+    result = machine.make("lint")
+    assert machine.made()[-1] == "-m mypy"
+    assert "ruff check" in machine.made()
+    assert (result.returncode == 0) == (not failed)
+    assert (f"make lint: failed: {failed}\n" if failed else "") in result.stderr
+    assert ("failed:" in result.stderr) == bool(failed)
+
+
 def test_no_target_removes_anything():
     recipes = (ROOT / "Makefile").read_text()
     assert "clean:" not in recipes

@@ -90,7 +90,7 @@ def drawing(pose: tuple[tuple[float, float], ...], size: int = 110) -> str:
     open_joint = 'fill="var(--jp-layout-color0, #fff)" stroke="currentColor"'
     parts += [dot(point, 3.5, open_joint) for point in points[:-1]]
     parts.append(dot(points[-1], 3.5, 'fill="currentColor"'))
-    text = escape(f"The arm in the worst case: {_said_of(links)}.")
+    text = escape(f"The arm in the worst case: {_describe(links)}.")
     return (
         f'<svg role="img" aria-label="{text}" width="{width:.0f}" height="{height:.0f}"'
         f' viewBox="0 0 {width:.1f} {height:.1f}" style="flex: none"><title>{text}</title>'
@@ -98,7 +98,7 @@ def drawing(pose: tuple[tuple[float, float], ...], size: int = 110) -> str:
     )
 
 
-def _said_of(links: list[complex]) -> str:
+def _describe(links: list[complex]) -> str:
     """How the links lie, in whole degrees, each counted from the one before."""
     said = [f"link 1 at {_degrees(links[0])} from the x axis"] if links else []
     for k, (before, link) in enumerate(itertools.pairwise(links), 2):

@@ -11,7 +11,7 @@ SECOND = "on a second call, with its arguments as the first call left them"
 def changed(signature: str, calls: list[Call], replies: list[Reply]) -> tuple[str, ...]:
     """What calls of the function changed, by the names that its signature gives: ("q", "arm.I2")."""
     names = signature.partition("(")[2].removesuffix(")").split(", ")
-    found = {}
+    found: dict[str, None] = {}  # in order, each once
     for call, reply in zip(calls, replies, strict=False):
         for place, entry in reply.changed:
             # What a reply from beyond the wall names counts only where the call has it.

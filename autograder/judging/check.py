@@ -4,6 +4,8 @@ One check serves the student's cell, `nbgrader validate` and the grader; they di
 function runs (`ask`) and in how many cases are drawn.
 """
 
+import math
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from types import FunctionType
@@ -11,18 +13,11 @@ from types import FunctionType
 import numpy as np
 
 from autograder.judging import changes
-from autograder.judging.diagnosis import (
-    TOLERANCE,
-    Known,
-    Mistake,
-    Term,
-    mistakes_shown,
-    relative_errors,
-    terms_off,
-)
-from autograder.judging.faults import said_of, said_of_second
-from autograder.judging.quantities import Quantities, UnfitError, finite, one_number
-from autograder.judging.verdict import Row, State, Verdict
+from autograder.judging.criterion import Criterion, relative_errors
+from autograder.judging.diagnosis import Mistake, Term, explains_all, sentences
+from autograder.judging.faults import describe_fault, describe_second_fault
+from autograder.judging.quantities import Numbers, Quantities, UnfitError, finite, one_number
+from autograder.judging.verdict import Row, State, Verdict, Witness
 from autograder.judging.witness import witness
 from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol, read, real, shortened
 
@@ -36,31 +31,11 @@ class CannotRunError(Exception):
     """An answer cannot be run on the machine that judges, which is not its fault."""
 
 
+class _NoNumbersError(Exception):
+    """An answer gave nothing that can be judged; the text is the sentence for the student."""
+
+
 @dataclass(frozen=True)
-class Criterion:
-    """One thing that is asked of an answer: in words, its unit, its share of the credit.
-
-    otherwise: what to say where it is not met and no known mistake matches. tolerance: the relative
-    error that rounding, or the method that is asked for, explains. matching: the error within which
-    an answer shows a known mistake, where that must be less, as wrong answers lie close together;
-    by default the same. is_property: true of the answer
-    as a whole, as skew-symmetry is; what breaks it is looked for among the mistakes that are shown
-    already, and not in its own numbers, which many answers share.
-    """
-
-    text: str
-    unit: str
-    share: float = 1.0
-    otherwise: str = ""
-    tolerance: float = TOLERANCE
-    is_property: bool = False
-    matching: float | None = None
-
-    def allows(self, met: bool) -> float:
-        """The relative error within which a mistake's numbers are an answer's, met or not."""
-        return self.tolerance if met or self.matching is None else self.matching
-
-
 class Check:
     """What is asked of one function. A problem makes one instance a graded cell.
 
@@ -70,35 +45,48 @@ class Check:
     back. mistakes: tried in order on each criterion that is not met. terms: the parts of the right
     answer, on which an error that no mistake explains is projected. hints: from a nudge to nearly
     the way. pose(call): the joints of the arm in a call, to be drawn beside the worst case.
+
+    ValueError where the shares of the criteria do not add up to 1, or where two criteria have one
+    text, two mistakes or terms one name, or two hints are the same.
     """
 
-    def __init__(
-        self,
-        id: str,
-        signature: str,
-        reference: Callable,
-        calls: Callable[[np.random.Generator, int], list[Call]],
-        criteria: tuple[Criterion, ...],
-        mistakes: tuple[Mistake, ...] = (),
-        quantities: Quantities = one_number,
-        terms: tuple[Term, ...] = (),
-        hints: tuple[str, ...] = (),
-        pose: Callable[[Call], list] | None = None,
-    ):
-        self.id = id
-        self.signature = signature
-        self.name = signature.partition("(")[0]
-        self.reference = reference
-        self.calls = calls
-        self.criteria = criteria
-        self.mistakes = mistakes
-        self.quantities = quantities
-        self.terms = terms
-        self.hints = hints
-        self.pose = pose
+    id: str
+    signature: str
+    reference: Callable
+    calls: Callable[[np.random.Generator, int], list[Call]]
+    criteria: tuple[Criterion, ...]
+    mistakes: tuple[Mistake, ...] = ()
+    quantities: Quantities = one_number
+    terms: tuple[Term, ...] = ()
+    hints: tuple[str, ...] = ()
+    pose: Callable[[Call], list] | None = None
+
+    def __post_init__(self):
+        if not self.criteria:
+            raise ValueError(f"check {self.id}: it has no criteria")
+        total = sum(criterion.share for criterion in self.criteria)
+        if not math.isclose(total, 1, abs_tol=1e-9):
+            raise ValueError(f"check {self.id}: the shares add up to {total:g}, must be 1")
+        for kind, names in (
+            ("criteria", [criterion.text for criterion in self.criteria]),
+            ("mistakes", [mistake.name for mistake in self.mistakes]),
+            ("terms", [term.name for term in self.terms]),
+            ("hints", self.hints),
+        ):
+            if doubled := [name for name, count in Counter(names).items() if count > 1]:
+                raise ValueError(f"check {self.id}: two of its {kind} are {doubled[0]!r}")
+
+    @property
+    def name(self) -> str:
+        """The name of the function."""
+        return self.signature.partition("(")[0]
 
     def run(self, ask: Ask, rng: np.random.Generator, count: int = VISIBLE_CASES) -> Verdict:
-        """Try the student's function and judge it. Never raises: a fault of ours is its own state."""
+        """Try the student's function and judge it.
+
+        An error in the check, or CannotRunError from `ask`, is a verdict of its own: CHECK_FAILED. Any
+        other error that `ask` raises goes on to the caller, and so does an interrupt.
+        """
         try:
             calls = self.calls(rng, count)
             expected = self._quantities_of(self.reference, calls)
@@ -111,41 +99,48 @@ class Check:
             replies = ask(calls)
         except CannotRunError as error:
             return self._failed(error)
-        fault = next((reply.fault for reply in replies if reply.fault), None)
-        if fault:
-            return self._faulty(fault)
-        changed = changes.changed(self.signature, calls, replies)
         try:
             # Near the largest float, their numbers less ours overflow: wrong, but not our failure.
             with np.errstate(over="ignore", invalid="ignore"):
-                given = self.quantities(calls, [finite(reply.value) for reply in replies])
-                if not any(reply.again for reply in replies):
-                    return self.judge(calls, expected, given, changed=changed)
-        except UnfitError as error:
-            return self._error(f"{self.signature} returned {error}.")
+                return self._judge_replies(calls, expected, replies)
         except Exception as error:
             return self._failed(error)
-        return self._judge_again(calls, expected, given, replies, changed)
 
-    def _judge_again(self, calls, expected, given, replies, changed) -> Verdict:
-        """The verdict where second calls must be right as well."""
-        second = [reply.again or reply for reply in replies]
-        fault = next((reply.fault for reply in second if reply.fault), None)
-        if fault:
-            said = said_of_second(fault, self.name, self.signature)
-            return self._error(f"{changes.remark(self.name, changed, True)} Then {said}")
+    def _judge_replies(self, calls: list[Call], expected: Numbers, replies: list[Reply]) -> Verdict:
+        fault = next((reply.fault for reply in replies if reply.fault), None)
+        if fault and fault.kind is FaultKind.NOT_IMPLEMENTED:
+            return self._not_attempted()
+        changed = changes.changed(self.signature, calls, replies)
         try:
-            with np.errstate(over="ignore", invalid="ignore"):
-                again = self.quantities(calls, [finite(reply.value) for reply in second])
-                return self.judge(calls, expected, given, again, changed)
+            given = self._given(calls, replies, describe_fault)
+        except _NoNumbersError as error:
+            return self._error(str(error))
+        if not any(reply.again for reply in replies):
+            return self.judge(calls, expected, given, changed=changed)
+        second = [reply.again or reply for reply in replies]
+        try:
+            again = self._given(calls, second, describe_second_fault)
+        except _NoNumbersError as error:
+            return self._error(f"{changes.remark(self.name, changed, True)} Then {error}")
+        return self.judge(calls, expected, given, again, changed)
+
+    def _given(
+        self,
+        calls: list[Call],
+        replies: list[Reply],
+        describe: Callable[[Fault, str, str], str],
+    ) -> Numbers:
+        """What is judged in the replies; _NoNumbersError where it cannot be formed."""
+        for reply in replies:
+            if reply.fault:
+                raise _NoNumbersError(describe(reply.fault, self.name, self.signature))
+        try:
+            return self.quantities(calls, [finite(reply.value) for reply in replies])
         except UnfitError as error:
-            said = f"{self.signature} returned {error}."
-            return self._error(f"{changes.remark(self.name, changed, True)} Then {said}")
-        except Exception as error:
-            return self._failed(error)
+            raise _NoNumbersError(f"{self.signature} returned {error}.") from None
 
     def judge(
-        self, calls: list[Call], expected: list, given: list, again: list | None = None,
+        self, calls: list[Call], expected: Numbers, given: Numbers, again: Numbers | None = None,
         changed: tuple[str, ...] = (),
     ) -> Verdict:  # fmt: skip
         """The verdict on quantities given, case by case, against those expected.
@@ -153,97 +148,78 @@ class Check:
         again: the quantities of second calls, where a first one changed its arguments; a criterion is
         met where both are right. changed: the names of these arguments.
         """
-        errors = self._errors(expected, given)
-        right = self._met(errors)
-        met = right
+        right = met = self._met(self._errors(expected, given))
         if again is not None:
-            later = self._errors(expected, again)
-            met = [one and two for one, two in zip(right, self._met(later), strict=True)]
+            later = self._met(self._errors(expected, again))
+            met = [one and two for one, two in zip(right, later, strict=True)]
         remark = changes.remark(self.name, changed, met != right)
         credit = sum(c.share for c, ok in zip(self.criteria, met, strict=True) if ok)
         rows = tuple(Row(c.text, c.share, ok) for c, ok in zip(self.criteria, met, strict=True))
         if all(met):
             return Verdict(self.id, State.CORRECT, 1.0, rows, remark=remark)
-        if all(right):  # only what it does to its arguments is wrong
-            worst, diagnosis = self._witness(calls, expected, again, later, met, changes.SECOND), ()
+        said: tuple[str, ...] = ()
+        if again is not None and all(right):  # only what it does to its arguments is wrong
+            worst = self._witness(calls, expected, again, met, changes.SECOND)
         else:
-            worst = self._witness(calls, expected, given, errors, right)
-            diagnosis = self._diagnosis(calls, expected, given, right)
+            worst = self._witness(calls, expected, given, right)
+            said = self._diagnosis(calls, expected, given, right)
         return Verdict(
             self.id,
             State.PARTLY_CORRECT if credit > 0 else State.INCORRECT,
             credit,
             rows,
             worst,
-            diagnosis=diagnosis,
+            diagnosis=said,
             remark=remark,
             next_step="Change your function, run its cell, then run this cell again.",
         )
 
-    def _errors(self, expected, given) -> list[np.ndarray]:
+    def _errors(self, expected: Numbers, given: Numbers) -> list[np.ndarray]:
         """For each criterion the relative error of each case."""
-        return [self._error_of(k, expected, given) for k in range(len(self.criteria))]
-
-    def _error_of(self, k, expected, given) -> np.ndarray:
-        return relative_errors([e[k] for e in expected], [g[k] for g in given])
-
-    def _same(self, wrong, given, met) -> bool:
-        """Whether a mistake's numbers are those given, asked no further than where they differ."""
-        return all(
-            np.all(self._error_of(k, wrong, given) <= criterion.allows(met[k]))
-            for k, criterion in enumerate(self.criteria)
-        )
-
-    def _met(self, errors) -> list[bool]:
         return [
-            bool(np.all(error <= criterion.tolerance))
-            for error, criterion in zip(errors, self.criteria, strict=True)
+            relative_errors([e[k] for e in expected], [g[k] for g in given])
+            for k in range(len(self.criteria))
         ]
 
-    def _quantities_of(self, model: Callable, calls: list[Call]) -> list[tuple[np.ndarray, ...]]:
+    def _met(self, errors: list[np.ndarray]) -> list[bool]:
+        return [
+            criterion.met(error) for error, criterion in zip(errors, self.criteria, strict=True)
+        ]
+
+    def _quantities_of(self, model: Callable, calls: list[Call]) -> Numbers:
         return self.quantities(calls, [_evaluated(model, call) for call in calls])
 
-    def _diagnosis(self, calls, expected, given, met) -> tuple[str, ...]:
-        """What to say of each criterion that is not met."""
+    def _diagnosis(
+        self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool]
+    ) -> tuple[str, ...]:
+        """What to say of the criteria that are not met."""
         wrong = [(mistake, self._quantities_of(mistake.wrong, calls)) for mistake in self.mistakes]
-        for mistake, values in wrong:
-            if self._same(values, given, met):  # it explains the whole answer
+        for mistake, numbers in wrong:
+            if explains_all(self.criteria, numbers, given, met):
                 return (mistake.sentence,)
         parts = [(term, self._quantities_of(term.model, calls)) for term in self.terms]
-        sentences = []
-        for k, (criterion, ok) in enumerate(zip(self.criteria, met, strict=True)):
-            if ok:
-                continue
-            right, theirs = [e[k] for e in expected], [g[k] for g in given]
-            known = [Known(mistake, [value[k] for value in values]) for mistake, values in wrong
-                     if mistake.sentence in sentences or not criterion.is_property]  # fmt: skip
-            shown = mistakes_shown(right, theirs, known, criterion.allows(met=False))
-            sentences += [mistake.sentence for mistake in shown]
-            if not shown:
-                known = [Known(term, [value[k] for value in values]) for term, values in parts
-                         if not criterion.is_property]  # fmt: skip
-                off = terms_off(right, theirs, known)
-                sentences += [_where(criterion, off)] if off else [criterion.otherwise]
-        return tuple(dict.fromkeys(filter(None, sentences)))
+        return sentences(self.criteria, expected, given, met, wrong, parts)
 
-    def _witness(self, calls, expected, given, errors, met, when=""):
+    def _witness(
+        self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool], when: str = ""
+    ) -> Witness:
         k = met.index(False)
-        worst = int(np.argmax(errors[k]))
+        criterion = self.criteria[k]
+        worst = int(np.argmax(self._errors(expected, given)[k]))
         # A quantity formed from several values is not what the function returned.
-        what = "" if len(self.criteria) == 1 else self.criteria[k].text
+        what = "" if len(self.criteria) == 1 else criterion.text
         what = ", ".join(filter(None, [what, when]))
-        unit = self.criteria[k].unit
-        return witness(calls[worst], expected[worst][k], given[worst][k], unit, what, self.pose)
+        return witness(
+            calls[worst], expected[worst][k], given[worst][k], criterion, what, self.pose
+        )
 
-    def _faulty(self, fault: Fault) -> Verdict:
-        if fault.kind is FaultKind.NOT_IMPLEMENTED:
-            return Verdict(
-                self.id,
-                State.NOT_ATTEMPTED,
-                next_step=f"Write {self.signature} where it says NotImplementedError, "
-                "run its cell, then run this cell again.",
-            )
-        return self._error(said_of(fault, self.name, self.signature))
+    def _not_attempted(self) -> Verdict:
+        return Verdict(
+            self.id,
+            State.NOT_ATTEMPTED,
+            next_step=f"Write {self.signature} where it says NotImplementedError, "
+            "run its cell, then run this cell again.",
+        )
 
     def _error(self, problem: str) -> Verdict:
         step = "Mend this first; then the check can look at the physics."
@@ -256,12 +232,6 @@ class Check:
             problem=f"{type(error).__name__} in the check {self.id}: {shortened(str(error))}.",
             next_step="This is not your fault. Please tell your instructor.",
         )
-
-
-def _where(criterion: Criterion, off: list[tuple[Term, float, float]]) -> str:
-    """No known mistake, but the error is made of known terms: their names, and by how much."""
-    said = " and ".join(f"{term.name} ({factor:+.2g} times it)" for term, _, factor in off)
-    return f"What is off in your {criterion.text} varies like {said}."
 
 
 def _evaluated(model: Callable, call: Call):

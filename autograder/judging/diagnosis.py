@@ -6,15 +6,13 @@ case, or those of two mistakes at once. Where none does, the error is projected 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 import numpy as np
 
-# An answer is right to rounding. Single precision through a few operations leaves 4e-6 of the scale
-# below; a wrong formula shows at 1e-4 or more.
-TOLERANCE = 1e-5
-# A case counts at no less than this share of the largest one, so that a value near zero, where
-# single precision has no digits left, is not judged by itself.
-LEAST_SCALE = 0.05
+from autograder.judging.criterion import TOLERANCE, Criterion, relative_errors
+from autograder.judging.quantities import Numbers
+
 # The share of an error that lies along the known terms, above which it is said to sit in them.
 MOSTLY = 0.95
 # A term with less than this share of the error is not spoken of.
@@ -45,24 +43,55 @@ class Term:
     model: Callable
 
 
+Named = TypeVar("Named", Mistake, Term)
+
+
 @dataclass(frozen=True)
-class Known:
+class Known(Generic[Named]):
     """A mistake's or a term's numbers: one array a case, for one criterion."""
 
-    of: Mistake | Term
+    of: Named
     values: list[np.ndarray]
 
 
-def relative_errors(expected: list, given: list) -> np.ndarray:
-    """The largest error of each case over the scale of its expected value."""
-    size = _largest(expected)
-    scale = np.maximum(size, LEAST_SCALE * np.max(size))
-    error = _largest([g - e for e, g in zip(expected, given, strict=True)])
-    return error / np.where(scale > 0, scale, 1.0)
+def explains_all(
+    criteria: tuple[Criterion, ...], wrong: Numbers, given: Numbers, met: list[bool]
+) -> bool:
+    """Whether a mistake's numbers are those given; it is asked no further than where they differ."""
+    return all(
+        np.all(_errors_in(k, wrong, given) <= criterion.allows(met[k]))
+        for k, criterion in enumerate(criteria)
+    )
+
+
+def sentences(
+    criteria: tuple[Criterion, ...],
+    expected: Numbers,
+    given: Numbers,
+    met: list[bool],
+    mistakes: list[tuple[Mistake, Numbers]],
+    terms: list[tuple[Term, Numbers]],
+) -> tuple[str, ...]:
+    """What to say of each criterion that is not met, where no mistake explains the whole answer."""
+    said: list[str] = []
+    for k, criterion in enumerate(criteria):
+        if met[k]:
+            continue
+        right, theirs = _part(k, expected), _part(k, given)
+        wrong = [Known(mistake, _part(k, numbers)) for mistake, numbers in mistakes
+                 if mistake.sentence in said or not criterion.is_property]  # fmt: skip
+        shown = mistakes_shown(right, theirs, wrong, criterion.allows(met=False))
+        said += [mistake.sentence for mistake in shown]
+        if not shown:
+            parts = [Known(term, _part(k, numbers)) for term, numbers in terms
+                     if not criterion.is_property]  # fmt: skip
+            off = terms_off(right, theirs, parts)
+            said += [_where(criterion, off)] if off else [criterion.otherwise]
+    return tuple(dict.fromkeys(filter(None, said)))
 
 
 def mistakes_shown(
-    expected: list, given: list, mistakes: list[Known], tolerance: float = TOLERANCE
+    expected: list, given: list, mistakes: list[Known[Mistake]], tolerance: float = TOLERANCE
 ) -> tuple[Mistake, ...]:
     """The first mistake whose numbers these are; or the first two whose errors add up to theirs."""
 
@@ -90,7 +119,9 @@ def mistakes_shown(
     return ()
 
 
-def terms_off(expected: list, given: list, terms: list[Known]) -> list[tuple[Term, float, float]]:
+def terms_off(
+    expected: list, given: list, terms: list[Known[Term]]
+) -> list[tuple[Term, float, float]]:
     """The terms in which an error sits: each with its share of the error, and the error's size as a
     multiple of the term (−1: the term is missing). Empty where the terms do not explain it.
     """
@@ -112,11 +143,19 @@ def terms_off(expected: list, given: list, terms: list[Known]) -> list[tuple[Ter
     return sorted(found, key=lambda one: -one[1])
 
 
-def _largest(values: list) -> np.ndarray:
-    """The largest entry of each; one array of all where they have one shape, as that is faster."""
-    if len({np.shape(value) for value in values}) == 1:
-        return np.max(np.abs(np.reshape(values, (len(values), -1))), axis=1, initial=0.0)
-    return np.array([np.max(np.abs(value), initial=0.0) for value in values])
+def _where(criterion: Criterion, off: list[tuple[Term, float, float]]) -> str:
+    """No known mistake, but the error is made of known terms: their names, and by how much."""
+    said = " and ".join(f"{term.name} ({factor:+.2g} times it)" for term, _, factor in off)
+    return f"What is off in your {criterion.text} varies like {said}."
+
+
+def _part(k: int, numbers: Numbers) -> list[np.ndarray]:
+    """The numbers of one criterion, case by case."""
+    return [case[k] for case in numbers]
+
+
+def _errors_in(k: int, expected: Numbers, given: Numbers) -> np.ndarray:
+    return relative_errors(_part(k, expected), _part(k, given))
 
 
 def _flat(values: list) -> np.ndarray:

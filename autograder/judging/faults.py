@@ -3,7 +3,7 @@
 from autograder.protocol import Fault, FaultKind
 
 
-def said_of(fault: Fault, name: str, signature: str) -> str:
+def describe_fault(fault: Fault, name: str, signature: str) -> str:
     """The sentence for a student whose function `name` should be callable as `signature`."""
     where = f" ({fault.line})" if fault.line else ""
     left_out = f" Before that, {fault.line}." if fault.line else ""
@@ -33,8 +33,8 @@ def said_of(fault: Fault, name: str, signature: str) -> str:
     }[fault.kind]
 
 
-def said_of_second(fault: Fault, name: str, signature: str) -> str:
+def describe_second_fault(fault: Fault, name: str, signature: str) -> str:
     """The sentence for a second call, after a first one that gave numbers."""
     if fault.kind in (FaultKind.RAISED, FaultKind.NOTHING, FaultKind.NOT_NUMBERS):
-        return said_of(fault, name, signature)
+        return describe_fault(fault, name, signature)
     return f"{signature} gave no numbers."

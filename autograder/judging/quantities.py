@@ -10,7 +10,8 @@ import numpy as np
 
 from autograder.protocol import Call
 
-Quantities = Callable[[list[Call], list], list[tuple[np.ndarray, ...]]]
+Numbers = list[tuple[np.ndarray, ...]]  # for each call, one array a criterion
+Quantities = Callable[[list[Call], list], Numbers]
 
 
 class UnfitError(Exception):

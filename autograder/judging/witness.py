@@ -5,30 +5,30 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from autograder.judging.criterion import Criterion
 from autograder.judging.verdict import Witness
 from autograder.protocol import Call, Expressions, Function, Symbol
 
 LONGEST_ARRAY = 12  # entries; a longer one is shown by its shape
-TRUTH = "True or False"  # the unit of a criterion whose quantities are 1 and 0
 
 
 def witness(
-    call: Call, right: np.ndarray, given: np.ndarray, unit: str, what: str = "",
-    pose: Callable | None = None,
+    call: Call, right: np.ndarray, given: np.ndarray, criterion: Criterion,
+    what: str = "", pose: Callable[[Call], list] | None = None,
 ) -> Witness:  # fmt: skip
     """The entry of one case that is furthest off. what: of which quantity, where it is not plain.
 
     pose: gives the joints of the arm in this call, one (x, y) in m each, to be drawn.
     """
     at = np.unravel_index(np.argmax(np.abs(given - right)), np.shape(right))
-    joints = tuple(tuple(map(float, point)) for point in pose(call)) if pose else ()
-    if unit == TRUTH:
+    joints = tuple((float(x), float(y)) for x, y in pose(call)) if pose else ()
+    if criterion.is_truth:
         asked = f" ({what})" if what else ""
         said = f"{bool(given[at])}, where {bool(right[at])} is right{asked}"
         return Witness(shown_call(call), said, "", joints)
     off, size = abs(float(given[at] - right[at])), abs(float(right[at]))
     share = f" ({_percent(off / size)} of the right value)" if size > 0 else ""
-    unit = f" {unit}".rstrip()
+    unit = f" {criterion.unit}".rstrip()
     entry = "" if np.size(right) == 1 else f" in entry {', '.join(map(str, at))}"
     of = f" ({what})" if what else ""
     return Witness(

@@ -121,7 +121,7 @@ class Rows:
     def standings(self) -> dict[str, Standing]:
         """What the gradebook holds, by student."""
         mine = api.SubmittedNotebook.notebook_id == self._notebook
-        rows = {}
+        rows: dict[type, dict[str, list]] = {}
         for table in (api.Grade, api.Comment):
             columns = [column for column in table.__table__.columns if column.name != "id"]
             wanted = select(*columns).join(

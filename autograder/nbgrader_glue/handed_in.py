@@ -58,7 +58,7 @@ def beside(folder: Path, source: Path, ignore: list[str], kept: list[str]) -> Be
         ours.pop(Path(name).as_posix(), None)
     chosen = choose(theirs | ours, own)
     notebooks = dict.fromkeys(found.keys() - theirs.keys(), "it is a notebook")
-    return replace(chosen, left_out=chosen.left_out | notebooks)
+    return replace(chosen, left_out={**chosen.left_out, **notebooks})
 
 
 def _files(folder: Path, ignore: list[str]) -> dict[str, Path]:
@@ -83,8 +83,8 @@ def _is_text(parts) -> bool:
 def _few(notebooks: list[Path]) -> list[Path]:
     """As many as one hand-in may have read, in order of their names."""
     sizes = {path: path.stat().st_size for path in notebooks}
-    smallest = sorted(notebooks, key=sizes.get)[:MOST_LOOKED_AT]
-    totals = accumulate(map(sizes.get, smallest))
+    smallest = sorted(notebooks, key=lambda path: sizes[path])[:MOST_LOOKED_AT]
+    totals = accumulate(sizes[path] for path in smallest)
     return sorted(path for path, total in zip(smallest, totals, strict=True) if total <= MOST_BYTES)
 
 

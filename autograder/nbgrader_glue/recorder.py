@@ -3,6 +3,7 @@
 import copy
 from functools import cached_property
 from pathlib import Path
+from typing import Self
 
 import nbformat
 from nbformat import NotebookNode
@@ -23,8 +24,10 @@ from autograder.notebook.beside import Beside
 from autograder.notebook.recognise import grade_id
 
 # Steps whose work is done here or by `repair`, with no regard to their settings.
-REPLACED = ("ClearOutput", "DeduplicateIds", "OverwriteKernelspec", "OverwriteCells")
-REPLACED += ("CheckCellMetadata", "SaveAutoGrades", "ClearOutputPreprocessor", "RepairCells")
+REPLACED = (
+    *("ClearOutput", "DeduplicateIds", "OverwriteKernelspec", "OverwriteCells"),
+    *("CheckCellMetadata", "SaveAutoGrades", "ClearOutputPreprocessor", "RepairCells"),
+)
 # Steps that run as they are, on the judged notebook.
 RUN = ("IgnorePattern", "ClearMetadataPreprocessor", "LimitOutput")
 
@@ -56,14 +59,14 @@ class Recorder:
         except BaseException:
             self._rows.close()
             raise
-        self.max_score = sum(self._rows.points.values())
+        self.max_score: float = sum(self._rows.points.values())
         # What decides a submission's grade beside the submission, the source and the seed.
         self.settings = repr((config, self._rows.source_cells, self._rows.points))
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *exception):
+    def __exit__(self, *exception: object) -> None:
         self._rows.close()
 
     def submissions(self) -> dict[str, Path]:

@@ -83,12 +83,17 @@ class SubmissionExporter(NotebookExporter):
         leave_out_unfit(self.parent)
         can_start(self.parent, lambda: Room().close())
         for folder, notebooks in getattr(self.parent, "assignments", {}).items():
-            name = self.parent.coursedir.assignment_id
+            name = self._course.assignment_id
             if (
                 f"{name}.ipynb" not in map(os.path.basename, notebooks)
                 and self._source(name).exists()
             ):
                 self._look_for(Path(folder), name, notebooks)
+
+    @property
+    def _course(self):
+        assert self.parent is not None  # `autograde` makes the exporter
+        return self.parent.coursedir
 
     def _look_for(self, folder: Path, name: str, notebooks: list[str]) -> None:
         try:
@@ -103,16 +108,16 @@ class SubmissionExporter(NotebookExporter):
         return counted(folder, name, nbformat.read(self._source(name), as_version=4))[0]
 
     def _source(self, name: str) -> Path:
-        course = self.parent.coursedir
+        course = self._course
         folder = course.format_path(course.source_directory, ".", course.assignment_id)
         return Path(folder) / f"{name}.ipynb"
 
     def _check(self, folder: Path) -> None:
-        course = self.parent.coursedir
+        course = self._course
         check(folder, Path(course.root) / course.submitted_directory)
 
     def from_filename(self, filename, resources=None, **kw):
-        course, names = self.parent.coursedir, resources["nbgrader"]
+        course, names = self._course, resources["nbgrader"]
         folder = Path(
             course.format_path(course.submitted_directory, names["student"], names["assignment"])
         )

@@ -23,8 +23,12 @@ DOCUMENTS = (
     ".png",
     ".rtf",
     ".svg",
+    ".tex",
+    ".tif",
+    ".tiff",
+    ".txt",
+    ".webp",
 )
-DOCUMENTS += (".tex", ".tif", ".tiff", ".txt", ".webp")
 # What a cell imports under these names is the grader's own.
 RESERVED = ("armdyn", "autograder", "protocol", "toolchain")
 # How Python, IPython and NumPy name a file or a module that is not there.
@@ -94,7 +98,8 @@ def choose(files: Mapping[str, Path], own: Collection[str] = ()) -> Beside:
         name: "the grader has a module of this name" for name in files if _is_reserved(name)
     }
     sizes = {name: path.stat().st_size for name, path in files.items() if name not in left_out}
-    laid, total = {}, 0
+    laid: dict[str, bytes] = {}
+    total = 0
     for name in sorted(sizes, key=lambda name: (sizes[name], name)):
         total += sizes[name]
         if len(laid) == MOST_FILES:

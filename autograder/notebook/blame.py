@@ -71,13 +71,14 @@ def explained(name: str, fault: Fault, cells: list[Ran]) -> Fault:
 
 def stale(name: str, cells: list[Ran]) -> Fault | None:
     """The fault of an earlier `name`, where the last cell that defines it stopped before it did."""
-    *_, last = [None, *_defining(name, cells)]
-    if last is None or not _stopped_before(name, last):
+    defining = _defining(name, cells)
+    if not defining or not _stopped_before(name, defining[-1]):
         return None
+    last = defining[-1]
     return Fault(FaultKind.STALE, last.error, last.line)
 
 
-def _defining(name, cells):
+def _defining(name: str, cells: list[Ran]) -> list[Ran]:
     return [cell for cell in cells if next(_lines_that_define(name, cell.source), 0)]
 
 

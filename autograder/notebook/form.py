@@ -34,10 +34,15 @@ def _replaced(value):
 
 
 # What nbformat has rules for; a cell's settings that break them would stop its student's grading.
-RULED = ("collapsed", "deletable", "editable", "execution", "format", "jupyter", "name")
-RULED += ("scrolled", "source_hidden", "tags", "title")
+RULED = (
+    *("collapsed", "deletable", "editable", "execution", "format", "jupyter", "name"),
+    *("scrolled", "source_hidden", "tags", "title"),
+)
 PARTS = ("cell_type", "id", "metadata", "source")
-PARTS_OF = {"code": ("outputs", "execution_count"), "markdown": ("attachments",)}
+PARTS_OF: dict[str, tuple[str, ...]] = {
+    "code": ("outputs", "execution_count"),
+    "markdown": ("attachments",),
+}
 PARTS_OF["raw"] = PARTS_OF["markdown"]
 
 

@@ -13,7 +13,7 @@ from nbformat import NotebookNode
 
 from autograder.digest import digest
 from autograder.judging.check import HIDDEN_CASES, CannotRunError, Check
-from autograder.judging.faults import said_of
+from autograder.judging.faults import describe_fault
 from autograder.judging.verdict import State, Verdict
 from autograder.notebook import outputs
 from autograder.notebook.beside import Beside
@@ -84,7 +84,8 @@ def grade(
 
 def _graded(submission, source, seed, beside, said) -> Graded:
     notebook, notes = repair(submission, source, said, beside.documents)
-    verdicts, seed = {}, of_content(seed, notebook, beside)
+    verdicts: dict[str, Verdict] = {}
+    seed = of_content(seed, notebook, beside)
     allowance = outputs.Allowance()
     with Sitting(partial(Room.loaded, files=beside.laid)) as sitting:
 
@@ -99,7 +100,7 @@ def _graded(submission, source, seed, beside, said) -> Graded:
                 cell.outputs = allowance.shown(sitting.run(cell.source))
                 cell.outputs += _explanations(cell.outputs, beside)
                 continue
-            name = grade_id(cell)
+            name = grade_id(cell) or ""
             if name in CHECKS:
                 verdict = CHECKS[name].run(ask, stream(seed, name), HIDDEN_CASES)
                 verdict = sitting.told(CHECKS[name], verdict)
@@ -149,7 +150,7 @@ class Sitting:
 
     def __init__(self, room=Room.loaded):
         self._new_room = room
-        self._room = None
+        self._room: Room | None = None
         self._used = self._clock = 0.0  # s, in earlier rooms, and while student code ran
         self._ran: list[str] = []
         self._cells: list[Ran] = []  # all of them, those that ended a room too
@@ -198,7 +199,7 @@ class Sitting:
         earlier = stale(check.name, self._cells)
         if verdict.state not in (State.INCORRECT, State.PARTLY_CORRECT) or earlier is None:
             return verdict
-        said = said_of(earlier, check.name, check.signature)
+        said = describe_fault(earlier, check.name, check.signature)
         return replace(verdict, next_step=f"{said} {verdict.next_step}".strip())
 
     def _asked(self, calls: list[Call]) -> list[Reply]:
@@ -227,7 +228,7 @@ class Sitting:
             (printed,) = room.run(MISSING)
         return [shortened(line) for line in json.loads(printed["text"])]
 
-    def _current(self):
+    def _current(self) -> Room:
         if self._room is None:
             self._room = self._new_room()
             for source in self._ran:

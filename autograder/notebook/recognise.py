@@ -19,7 +19,7 @@ def grade_id(cell: NotebookNode) -> str | None:
 
 def known_cells(source: NotebookNode) -> dict[str, NotebookNode]:
     """The source's cells that have a grade_id, by it, in order."""
-    return {grade_id(cell): cell for cell in source.cells if grade_id(cell)}
+    return {name: cell for cell in source.cells if (name := grade_id(cell))}
 
 
 @dataclass(frozen=True)

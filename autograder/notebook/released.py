@@ -19,7 +19,7 @@ def released(cell: NotebookNode) -> str:
             part = mark[2] if mark[1] == "BEGIN" else ""
             if part == "SOLUTION":
                 solved = True
-                lines.append(re.match(r"\s*", line)[0] + stub)
+                lines.append(line[: len(line) - len(line.lstrip())] + stub)
         elif not part:
             lines.append(line)
     is_answer = cell.metadata.get("nbgrader", {}).get("solution")

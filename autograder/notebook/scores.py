@@ -20,7 +20,7 @@ def with_verdicts(graded: Graded) -> NotebookNode:
         if is_judged(cell):
             points = cell.metadata["nbgrader"]["points"]
             cell.execution_count = 1
-            cell.outputs = outputs_for(graded.verdicts[grade_id(cell)], points)
+            cell.outputs = outputs_for(graded.verdicts[grade_id(cell) or ""], points)
         if "outputs" in cell:
             cell.outputs = without_surrogates(cell.outputs)  # else no file can hold them
     return graded.notebook

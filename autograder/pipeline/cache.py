@@ -48,9 +48,11 @@ class Cache:
 @cache
 def code_version() -> str:
     """A digest of the code that grades: this package, armdyn, Python and the packages under them."""
-    armdyn = find_spec("armdyn").origin  # importing it would load SciPy
+    armdyn = find_spec("armdyn")  # importing it would load SciPy
+    assert armdyn is not None
+    assert armdyn.origin is not None
     parts = [sys.version, *(f"{name} {metadata.version(name)}" for name in PACKAGES)]
-    for package in (Path(__file__).parents[1], Path(armdyn).parent):
+    for package in (Path(__file__).parents[1], Path(armdyn.origin).parent):
         parts += [f"{name}\0{text}" for name, text in _sources(package)]
     return digest(*parts)
 

@@ -9,40 +9,48 @@ from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
     Executor,
+    Future,
     ProcessPoolExecutor,
     wait,
 )
 from multiprocessing.connection import wait as wait_for_end
+from typing import TypeVar
 
 AHEAD = 3  # submissions under way, a process
 # Inherited by the processes: one thread each, or they take the cores from each other.
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 
 
+Result = TypeVar("Result")
+
+
 def outcomes(
-    work: Callable, tasks: Iterable[tuple[str, tuple]], pool
-) -> Iterator[tuple[str, object]]:
+    work: Callable[..., Result], tasks: Iterable[tuple[str, tuple]], pool
+) -> Iterator[tuple[str, Result | Exception]]:
     """(name, what `work` returned or raised) of each (name, arguments), as they come.
 
     When a process dies, which may be any of those under way, each of these is tried again, alone:
     only the one that kills its process again is given up.
     """
-    tasks, running, suspects = iter(tasks), {}, []
+    waiting = iter(tasks)
+    running: dict[Future, tuple[str, tuple]] = {}
+    suspects: list[tuple[str, tuple]] = []
     while True:
         broken = False
         while len(running) < pool.window and not broken:
-            name, arguments = next(tasks, (None, None))
-            if name is None:
+            task = next(waiting, None)
+            if task is None:
                 break
             try:
-                running[pool.executor().submit(work, *arguments)] = (name, arguments)
+                running[pool.executor().submit(work, *task[1])] = task
             except BrokenExecutor:
-                suspects.append((name, arguments))
+                suspects.append(task)
                 broken = True
         if not running and not broken:
             break
         for future in wait(running, return_when=FIRST_COMPLETED).done:
             name, arguments = running.pop(future)
+            outcome: Result | Exception
             try:
                 outcome = future.result()
             except BrokenExecutor:
@@ -76,7 +84,9 @@ class Processes:
             raise ValueError(f"jobs is {jobs}; at least one process is needed")
         self.window = AHEAD * jobs
         self._jobs, self._preload, self._lend, self._borrow = jobs, preload, lend, borrow
-        self._executor = self._warming = self._lent = None
+        self._executor: Executor | None = None
+        self._warming: threading.Thread | None = None
+        self._lent = None
 
     def __enter__(self):
         return self
@@ -134,10 +144,11 @@ def _begin(borrow: Callable, lent) -> None:
     """First thing in a process: leave Ctrl-C to the parent, and do not outlive it."""
     borrow(lent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process().sentinel
+    parent = multiprocessing.parent_process()
+    assert parent is not None
 
     def follow():
-        wait_for_end([parent])
+        wait_for_end([parent.sentinel])
         os._exit(1)
 
     threading.Thread(target=follow, daemon=True).start()

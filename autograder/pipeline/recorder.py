@@ -1,5 +1,6 @@
 """What the pipeline asks of whatever knows the submissions and keeps their grades."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Protocol
 
@@ -11,9 +12,12 @@ class Standing(Protocol):
     as text.
     """
 
-    score: float
-    to_read: int
-    rows: str
+    @property
+    def score(self) -> float: ...
+    @property
+    def to_read(self) -> int: ...
+    @property
+    def rows(self) -> str: ...
 
 
 class Recorder(Protocol):
@@ -27,7 +31,7 @@ class Recorder(Protocol):
     def submissions(self) -> dict[str, Path]:
         """Student → where that student's notebook is, or should be; in order of the names."""
 
-    def standings(self) -> dict[str, Standing]:
+    def standings(self) -> Mapping[str, Standing]:
         """What is recorded, by student."""
 
     def autograded(self, student: str) -> Path:

@@ -30,7 +30,7 @@ class UnknownCheckError(ValueError):
         return [str(self)]
 
 
-def known_check(id: str) -> str:
+def known_check(id: object) -> str:
     """The id, where a check has it; else UnknownCheckError, with those that are nearest."""
     if not isinstance(id, str):
         name = getattr(id, "__name__", "")

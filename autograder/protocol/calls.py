@@ -95,7 +95,7 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     function = namespace[call.name]
     if not callable(function):
         return Reply(fault=Fault(FaultKind.NOT_CALLABLE, type(function).__name__))
-    given = []
+    given: list = []
     started, clock = time.process_time(), time.monotonic()
     reply = _called(call, function, given, CALL_SECONDS)
     changes = () if reply.fault else _changes(call.args, given)
@@ -104,11 +104,10 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     # Both calls together have the time of one: whoever waits for the reply waits no longer.
     took = max(time.process_time() - started, (time.monotonic() - clock) / PATIENCE)
     again = _called(call, function, given, max(CALL_SECONDS - took, 0.01))
-    if max(_size(reply.value), _size(again.value)) > MOST_TWICE:
-        again = None
-    elif again.fault and again.fault.kind in (FaultKind.TIMED_OUT, FaultKind.STARVED):
-        again = None  # nobody asked for two calls in that time
-    return replace(reply, changed=changes, again=again)
+    too_large = max(_size(reply.value), _size(again.value)) > MOST_TWICE
+    # Nobody asked for two calls in that time.
+    too_long = again.fault and again.fault.kind in (FaultKind.TIMED_OUT, FaultKind.STARVED)
+    return replace(reply, changed=changes, again=None if too_large or too_long else again)
 
 
 def _called(call: Call, function: Callable, given: list, seconds: float) -> Reply:

@@ -5,6 +5,7 @@ import sys
 import traceback
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
+from types import TracebackType
 
 from .calls import TimeLimitError, said_by, time_limit
 from .readings import one_line
@@ -43,24 +44,31 @@ class Look:
         if self._seconds is not None:
             self._limit.enter_context(time_limit(self._seconds))
 
-    def __exit__(self, kind, error, trace) -> bool:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> bool:
         self._limit.close()
         if error is None:
             return False
         # The limit of a whole cell is another's to see.
-        own = (Exception, SystemExit, *([TimeLimitError] if self._seconds is not None else []))
+        own: tuple[type[BaseException], ...] = (Exception, SystemExit)
+        if self._seconds is not None:
+            own += (TimeLimitError,)
         if isinstance(error, own):
-            print(self._said_of(error))
+            print(self._describe(error))
         _close_figures(_open_figures() - self._figures)
         return isinstance(error, own)
 
-    def _said_of(self, error: BaseException) -> str:
+    def _describe(self, error: BaseException) -> str:
         raising = self._raising(error)
         if isinstance(error, NotImplementedError):
             names = [_name(raising)] if raising else map(_name, self._ids)
             return f"Write {_joined(names)} first, then run this cell again."
         missing = [id for id in self._ids if _name(id) not in self._namespace]
-        if isinstance(error, NameError) and error.name in map(_name, missing):
+        if isinstance(error, NameError) and error.name in list(map(_name, missing)):
             return f"The notebook defines no {error.name}: {_cards(missing)}."
         if isinstance(error, TimeLimitError):
             said = f"did not end within {self._seconds:g} s"

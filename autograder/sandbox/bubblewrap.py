@@ -15,7 +15,10 @@ from autograder.sandbox.inside.namespaces import NOBODY, TMPFS_BYTES
 log = logging.getLogger(__name__)
 
 # Importing armdyn would load SciPy.
-TOOLCHAIN = Path(find_spec("armdyn").origin).parent / "ports" / "toolchain"
+_armdyn = find_spec("armdyn")
+assert _armdyn is not None
+assert _armdyn.origin is not None
+TOOLCHAIN = Path(_armdyn.origin).parent / "ports" / "toolchain"
 HERE = Path(__file__).parent / "inside"
 PROTOCOL = Path(protocol.__file__).parent
 INSIDE = {
@@ -58,8 +61,8 @@ def bubblewrapped(script: str) -> tuple[list[str], dict[str, str]]:
         command += [*_parents(path), "--ro-bind", path, path]
     for folder in _installed_packages():
         command += ["--tmpfs", folder]
-    for path, name in INSIDE.items():
-        command += [*_parents(f"/room/{name}"), "--ro-bind", str(path), f"/room/{name}"]
+    for file, name in INSIDE.items():
+        command += [*_parents(f"/room/{name}"), "--ro-bind", str(file), f"/room/{name}"]
     command += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/tmp"]
     # The environment goes in through bwrap's own: what it is started with stays readable inside.
     return [*command, "--", sys.executable, "-I", "-u", f"/room/{script}", "walled"], ENVIRONMENT
@@ -129,7 +132,7 @@ def python_folders() -> list[str]:
     """Where this Python and its packages are, outermost first; folders under /usr come with it."""
     folders = {sys.prefix, sys.base_prefix, str(Path(sys.executable).resolve().parent.parent)}
     folders |= {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
-    kept = []
+    kept: list[str] = []
     for folder in sorted(folders, key=len):
         if not any(Path(folder).is_relative_to(outer) for outer in ["/usr", *kept]):
             kept.append(folder)

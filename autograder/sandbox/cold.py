@@ -35,8 +35,9 @@ class ColdProcess:
                 pass_fds=[watchs.fileno()],
             )
         self._watch = nursery.WatchLine(mine)
-        self.requests = self._process.stdin.fileno()
-        self.replies = self._process.stdout.fileno()
+        pipes = (self._process.stdin, self._process.stdout, self._process.stderr)
+        self._pipes = [pipe for pipe in pipes if pipe is not None]  # as asked for, all three
+        self.requests, self.replies, self._errors = (pipe.fileno() for pipe in self._pipes)
 
     @property
     def folder(self) -> Path:
@@ -50,9 +51,8 @@ class ColdProcess:
         return self._watch.told(request, seconds)
 
     def said(self) -> str:
-        stderr = self._process.stderr
-        ready, _, _ = select.select([stderr], [], [], 0)
-        text = os.read(stderr.fileno(), 4096).decode(errors="replace").strip() if ready else ""
+        ready, _, _ = select.select([self._errors], [], [], 0)
+        text = os.read(self._errors, 4096).decode(errors="replace").strip() if ready else ""
         return self._watch.reason() or text
 
     def outlived_its_keeper(self) -> bool:
@@ -68,7 +68,7 @@ class ColdProcess:
             with suppress(ProcessLookupError):
                 os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
-        for pipe in (self._process.stdin, self._process.stdout, self._process.stderr):
+        for pipe in self._pipes:
             pipe.close()
         self._folder.cleanup()
 

@@ -27,10 +27,10 @@ END_SECONDS = 10.0
 class Nursery:
     """A running warm process. `start_room` forks a room of it; OSError where it cannot.
 
-    command, environment, more: what starts it, and subprocess.Popen's further arguments.
+    command, environment: what starts it.
     """
 
-    def __init__(self, command: list[str], environment: dict[str, str], **more):
+    def __init__(self, command: list[str], environment: dict[str, str]):
         self._lock = threading.Lock()
         self._said = tempfile.TemporaryFile()  # noqa: SIM115  closed in close
         self._channel, inside = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -39,11 +39,10 @@ class Nursery:
                 command,
                 env=environment,
                 cwd="/",
-                stdin=inside,
+                stdin=inside.fileno(),
                 stdout=subprocess.DEVNULL,
                 stderr=self._said,
                 start_new_session=True,
-                **more,
             )
         if not select.select([self._channel], [], [], START_SECONDS)[0] or not self._read_ready():
             said = os.pread(self._said.fileno(), 4096, 0).decode(errors="replace").strip()

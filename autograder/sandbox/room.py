@@ -22,6 +22,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from functools import cache
+from typing import NoReturn
 
 from autograder.protocol import (
     CALL_SECONDS,
@@ -162,7 +163,7 @@ class Room:
         """
         ends, most = time.monotonic() + clock, self._used + seconds
         self._send({"ask": [encode_call(call) for call in calls]})
-        replies = []
+        replies: list[Reply] = []
         while len(replies) < len(calls):
             message = self._receive(
                 min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
@@ -266,7 +267,7 @@ class Room:
             self._lost("it wrote too much")
         return line
 
-    def _lost(self, why: str, kind: type[RoomLostError] = RoomLostError):
+    def _lost(self, why: str, kind: type[RoomLostError] = RoomLostError) -> NoReturn:
         said = self._process.said()
         innocent = self._process.outlived_its_keeper()
         self.close()

@@ -33,7 +33,7 @@ class UnwalledNursery(nursery.Nursery):
     """
 
     def __init__(self):
-        self._rooms = weakref.WeakSet()
+        self._rooms: weakref.WeakSet[UnwalledProcess] = weakref.WeakSet()
         self._folder = tempfile.mkdtemp(prefix="warm-")
         super().__init__(*command("unwalled_forks.py", Path(self._folder)))
 

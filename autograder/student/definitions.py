@@ -43,7 +43,7 @@ class Definitions:
         for name, before in self._before.items():
             if _defines(result.info.raw_cell, name):
                 if error is not None and self._namespace.get(name) is before:
-                    self._failed[name] = before, _said_of(error)
+                    self._failed[name] = before, _describe(error)
                 else:
                     self._failed.pop(name, None)
 
@@ -62,7 +62,8 @@ def _defines(source: str | None, name: str) -> bool:
     return re.search(defined, source or "", re.MULTILINE) is not None
 
 
-def _said_of(error: BaseException) -> str:
-    syntax = isinstance(error, SyntaxError)
-    said = f"{error.msg}, line {error.lineno}" if syntax else said_by(error)
+def _describe(error: BaseException) -> str:
+    said = said_by(error)
+    if isinstance(error, SyntaxError):
+        said = f"{error.msg}, line {error.lineno}"
     return one_line(f"{kind_of(error)}: {said}", 150)

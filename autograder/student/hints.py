@@ -12,7 +12,8 @@ def hint(id: str | None = None) -> None:
 
     The count starts again with the kernel. Nothing is taken off for hints.
     """
-    hints = CHECKS[known_check(id)].hints
+    id = known_check(id)
+    hints = CHECKS[id].hints
     given = min(_given.get(id, 0) + 1, len(hints))
     _given[id] = given
     if not hints:

@@ -157,7 +157,7 @@ def identify(model, q, qd, qdd, u, friction=False, columns=None) -> Identificati
     return Identification(base, names, estimate, standard_error, residual, shown, consistency)
 
 
-def _samples(model, **named) -> list[np.ndarray]:
+def _samples(model, **named) -> tuple[np.ndarray, ...]:
     arrays = np.broadcast_arrays(*state_vectors(model.n, **named))
     if arrays[0].size == 0:
         raise ValueError(
@@ -179,7 +179,7 @@ def _stacked(model, base, q, qd, qdd, friction) -> tuple[np.ndarray, tuple[str, 
 
 def _shortened(sum_: str) -> str:
     """The first term is the base parameter's own; in space dozens may follow."""
-    return sum_ if len(sum_) <= 48 else sum_[: re.search(" [+−] ", sum_).start()] + " + …"
+    return sum_ if len(sum_) <= 48 else re.split(" [+−] ", sum_, maxsplit=1)[0] + " + …"
 
 
 def _excitation(W, names) -> Excitation:

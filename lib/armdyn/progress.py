@@ -44,7 +44,7 @@ def _is_notebook(stream) -> bool:
         return False
     try:
         # IPython itself puts this name there, so that it need not be imported.
-        request = builtins.get_ipython().kernel.get_parent("shell")
+        request = vars(builtins)["get_ipython"]().kernel.get_parent("shell")
         return bool(request["content"]["allow_stdin"])
     except (AttributeError, KeyError, TypeError):
         return False

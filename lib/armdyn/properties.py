@@ -200,7 +200,7 @@ def power_balance(model, q, qd, u) -> Finding:
     )
 
 
-def _states(model, **named) -> list[np.ndarray]:
+def _states(model, **named) -> tuple[np.ndarray, ...]:
     arrays = np.broadcast_arrays(*state_vectors(model.n, **named))
     if arrays[0].size == 0:
         raise ValueError(f"{', '.join(named)}: got shape {arrays[0].shape}, needs at least 1 state")

@@ -25,7 +25,7 @@ class Rate:
         self.latest = -np.inf
         self.samples = None
         self.u = u if callable(u) else all_finite("u", real_array("u", u))
-        if not callable(u) and self.u.ndim > 1:
+        if not callable(self.u) and self.u.ndim > 1:
             if self.u.shape[-2] not in (1, len(t)):
                 raise ValueError(
                     f"u: got shape {self.u.shape}, needs (n,), held constant, or one row per time, "

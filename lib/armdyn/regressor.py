@@ -66,7 +66,8 @@ class _SpatialGeometry:
 
     @property
     def length(self) -> float:
-        return sum(np.linalg.norm(link.translation) for link in self.chain.links) / self.n
+        lengths = [np.linalg.norm(link.translation) for link in self.chain.links]
+        return float(sum(lengths) / self.n)
 
     def regressor(self, q, qd, qdd) -> np.ndarray:
         return _spatial_regressor(self.chain, q, qd, qdd)

@@ -158,9 +158,13 @@ def observed_order(
             raise ValueError(f"{name} = {count!r}: needs a whole number, at least {least}")
     counts = steps * 2 ** np.arange(halvings + 1)
     t_end = positive("t_end", t_end, "s")
-    ends = np.stack(
-        [simulate(f, x0, u, np.linspace(0, t_end, n + 1), method)[..., -1, :] for n in counts]
-    )
+
+    def end(n: int) -> np.ndarray:
+        states = simulate(f, x0, u, np.linspace(0, t_end, n + 1), method)
+        assert isinstance(states, np.ndarray)  # without events, no Trajectory
+        return states[..., -1, :]
+
+    ends = np.stack([end(int(n)) for n in counts])
     errors = np.abs(np.diff(ends, axis=0)).reshape(halvings, -1).max(axis=1)
     # Each step rounds; their sum grows about as the square root of their number.
     floor = 8 * np.finfo(float).eps * np.sqrt(counts[1:]) * np.abs(ends).max()

@@ -11,12 +11,16 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from armdyn.models.link import Link
+from armdyn.models.link import Joint, Link
 from armdyn.models.serial_chain import SerialChain
 from armdyn.parameters import finite, nonnegative
 from armdyn.spatial import skew
 
-MOVING = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}
+MOVING: dict[str, Joint] = {
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "prismatic",
+}
 
 
 class Mass(NamedTuple):
@@ -63,7 +67,7 @@ def read_urdf(path, gravity=(0.0, 0.0, -9.81)) -> SerialChain:
         raise ValueError(f"link {apart[0]!r}: no joints lead to it from the root")
     if not links:
         raise ValueError(f"{os.fspath(path)}: no joint moves")
-    return SerialChain(tuple(links), gravity, viscous, coulomb)
+    return SerialChain(tuple(links), gravity, tuple(viscous), tuple(coulomb))
 
 
 def _parsed(path):
@@ -89,7 +93,8 @@ def _joints_below(robot) -> dict[str, list]:
         twice = [name for name, count in Counter(p.name for p in parts).items() if count > 1]
         if twice:
             raise ValueError(f"{kind} {twice[0]!r}: is there more than once")
-    below, carried = defaultdict(list), {}
+    below: dict[str, list] = defaultdict(list)
+    carried: dict[str, str] = {}
     for joint in robot.joints:
         where = f"joint {joint.name!r}"
         if joint.type not in (*MOVING, "fixed"):

@@ -4,7 +4,10 @@ import base64
 import html
 import io
 import math
+import subprocess
+import sys
 
+import matplotlib
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -160,3 +163,70 @@ def test_pictures_leave_nothing_open():
     ax.plot([0, 1])
     plotting.Picture(fig, "x")._repr_mimebundle_()
     assert plt.get_fignums() == []
+
+
+def test_an_import_leaves_matplotlib_as_it_was():
+    """In a new process: here somebody may have imported it before."""
+    code = (
+        "import matplotlib\n"
+        "before = dict(matplotlib.rcParams)\n"
+        "import armdyn.plotting, autograder, autograder.judging.check\n"
+        "figure, axes = armdyn.plotting.figure()\n"
+        "axes.plot([0, 1])\n"
+        "armdyn.plotting.Picture(figure, 'a line')._repr_mimebundle_()\n"
+        "after = dict(matplotlib.rcParams)\n"
+        "assert [key for key in after if after[key] != before[key]] == []\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def pixels(figure: Figure) -> bytes:
+    file = io.BytesIO()
+    figure.savefig(file, format="png", dpi=60)
+    with Image.open(file) as image:
+        return image.tobytes()
+
+
+def draw_on(ax) -> None:
+    ax.plot([0, 1, 2], label="a")
+    ax.semilogy([1, 2, 1], label="b")
+    ax.axhline(1, color="black")
+    ax.axvline(1)
+    ax.bar([0, 1], [0.5, 0.5], hatch="//", edgecolor="black")
+    ax.contour([[1, 2], [2, 4]])
+    ax.set(xlabel="x", ylabel="y", title="a title")
+    ax.text(1, 1, "text")
+    ax.annotate("note", (1, 1), (2, 2), arrowprops={"arrowstyle": "->"})
+    ax.legend()
+
+
+def test_a_figure_has_the_style_whatever_matplotlib_is_set_to():
+    with matplotlib.rc_context(plotting.STYLE):
+        expected = Figure(figsize=(5, 3))
+        draw_on(expected.subplots())
+        wanted = pixels(expected)
+    plain = Figure(figsize=(5, 3))
+    draw_on(plain.subplots())
+    assert pixels(plain) != wanted
+    figure, ax = plotting.figure(5, 3)
+    draw_on(ax)
+    assert pixels(figure) == wanted
+    with matplotlib.rc_context({"font.size": 17, "lines.linewidth": 9, "axes.grid": False}):
+        figure, ax = plotting.figure(5, 3)
+        draw_on(ax)
+        assert pixels(figure) == wanted
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: plotting.torque_terms(ARM, [0.3, 0.4], [1, 2], [3, 4]),
+        lambda: plotting.inertia_ellipses(ARM, [[0.1, 0.2], [0.3, 0.9]]),
+        lambda: plotting.energy_landscape(ARM),
+        lambda: plotting.phase_portrait(PENDULUM),
+    ],
+)
+def test_figures_of_models_have_the_style(make):
+    with matplotlib.rc_context(plotting.STYLE):
+        wanted = pixels(make())
+    assert pixels(make()) == wanted

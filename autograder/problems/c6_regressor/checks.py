@@ -91,8 +91,8 @@ def _identify_calls(rng, count):
     for place in range(count):
         arm = _measured_arm(rng)
         while True:
-            motion = _motion(rng, int(rng.integers(9, 16)))
-            Y = planar_2r.regressor(*motion, arm)
+            q, qd, qdd = motion = _motion(rng, int(rng.integers(9, 16)))
+            Y = planar_2r.regressor(q, qd, qdd, arm)
             W = mistakes.stacked(Y)[:, planar_2r.BASE_COLUMNS]
             # Well shown as a whole, and by joint 1 alone, so that nothing is judged on luck.
             if max(np.linalg.cond(W), np.linalg.cond(W[::2])) < 40:

@@ -645,7 +645,7 @@ RANK = (
     ),
     Mistake(
         "side by side",
-        lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(np.hstack(regressor(q, qd, qdd, arm)))),
+        lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(np.hstack(list(regressor(q, qd, qdd, arm))))),
         ONE_STATE,
     ),
     Mistake(

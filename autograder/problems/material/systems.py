@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from autograder.judging.diagnosis import TOLERANCE
+from autograder.judging.criterion import TOLERANCE
 from autograder.protocol import Call, Function, real
 
 # RK4's own error, as a share of the largest state: another method of order 4 may leave a few times it.

@@ -12,7 +12,6 @@ from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.problems.p1_inertia import mistakes
 from autograder.judging.quantities import UnfitError, array, each, one_number
 from autograder.protocol import Call
-from autograder.judging.witness import TRUTH
 
 NOTHING = np.empty(0)  # a quantity of a criterion that a call says nothing of
 
@@ -242,10 +241,10 @@ CHECKS = (
         calls=_matrix_calls,
         quantities=_verdicts,
         criteria=(
-            Criterion("positive definite told from indefinite", TRUTH, 0.3),
-            Criterion("semidefinite refused", TRUTH, 0.2),
-            Criterion("non-symmetric refused", TRUTH, 0.3),
-            Criterion("symmetric up to rounding accepted", TRUTH, 0.2),
+            Criterion("positive definite told from indefinite", share=0.3, is_truth=True),
+            Criterion("semidefinite refused", share=0.2, is_truth=True),
+            Criterion("non-symmetric refused", share=0.3, is_truth=True),
+            Criterion("symmetric up to rounding accepted", share=0.2, is_truth=True),
         ),
         mistakes=mistakes.IS_SPD,
         hints=(
@@ -267,8 +266,8 @@ CHECKS = (
         calls=lambda rng, count: [Call("singular_arm", (), parts=True)],
         quantities=_singular_and_allowed,
         criteria=(
-            Criterion("is M(q) singular?", TRUTH, 0.5),
-            Criterion("is it so with allowed parameters?", TRUTH, 0.5),
+            Criterion("is M(q) singular?", share=0.5, is_truth=True),
+            Criterion("is it so with allowed parameters?", share=0.5, is_truth=True),
         ),
         mistakes=mistakes.SINGULAR_ARM,
         hints=(

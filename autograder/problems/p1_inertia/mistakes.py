@@ -106,7 +106,9 @@ INERTIA_FROM_LINKS = (
     ),
     Mistake(
         "links added before they are multiplied",
-        lambda jacobians, inertias: sum(jacobians).T @ sum(inertias) @ sum(jacobians),
+        lambda jacobians, inertias: (
+            np.sum(jacobians, 0).T @ np.sum(inertias, 0) @ np.sum(jacobians, 0)
+        ),
         "You add up the Jacobians and the inertias first, and multiply then. Each link has its own "
         "velocity: what can be added, velocities of different bodies or energies?",
     ),

@@ -9,7 +9,7 @@ import numpy as np
 
 from autograder.problems.material import planar_2r
 from autograder.problems.material import sampling
-from autograder.judging.diagnosis import TOLERANCE, relative_errors
+from autograder.judging.criterion import TOLERANCE, relative_errors
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.problems.p2_energy_skew import mistakes
 from autograder.judging.quantities import array, each

@@ -51,7 +51,7 @@ def _torques(call, value):
 
 
 def _jacobian_calls(rng, count):
-    calls = []
+    calls: list[Call] = []
     for _ in range(count):
         L, n = rng.integers(2, 5), rng.integers(2, 6)
         # Were all of them three, a Jacobian that is not transposed would fit.

@@ -10,7 +10,7 @@ import numpy as np
 
 from autograder.problems.material import planar_2r
 from autograder.problems.material import sampling
-from autograder.judging.diagnosis import TOLERANCE
+from autograder.judging.criterion import TOLERANCE
 from autograder.judging.check import Check, Criterion
 from autograder.problems.p5_state_space import mistakes
 from autograder.judging.quantities import UnfitError, each, vector

@@ -286,7 +286,7 @@ def explicit(rows, weights):
     """One step of the explicit method with these coefficients."""
 
     def step(f, x, u, dt):
-        slopes = []
+        slopes: list = []
         for row in rows:
             ahead = sum((a * k for a, k in zip(row, slopes, strict=True) if a), 0.0)
             slopes.append(f(x + dt * ahead, u))

@@ -7,6 +7,7 @@ import tempfile
 import weakref
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -73,7 +74,8 @@ class Function:
         self._arguments = ARGUMENTS[name].split(", ")
         self._language, self._toolchain = language, toolchain
         self._files = language.files(name, text)
-        self._command = self._program = self._failed = None
+        self._program: Any = None  # a Conversation of the toolchain, which is imported late
+        self._failed: Exception | None = None
         try:
             self._build()
             self._start()

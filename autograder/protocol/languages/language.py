@@ -7,7 +7,7 @@ from pathlib import Path
 try:
     from armdyn.ports import toolchain
 except ImportError:  # in the room, which armdyn is kept out of, it lies beside the wall
-    import toolchain
+    import toolchain  # type: ignore[import-not-found, no-redef]
 
 HERE = Path(__file__).parent
 # The arguments of the functions that may be answered so.

@@ -115,7 +115,7 @@ def _mounted_under(folder):
     with open("/proc/self/mountinfo") as file:
         places = [line.split()[4] for line in file]
     places = [place.encode().decode("unicode_escape") for place in places]
-    outermost = []
+    outermost: list[str] = []
     for place in sorted(places, key=len):
         if place.startswith(folder + "/") and not any(
             place.startswith(outer + "/") or place == outer for outer in outermost

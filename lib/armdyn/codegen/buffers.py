@@ -34,7 +34,11 @@ def in_buffers(
     """
     three_address = _ThreeAddress(arrays)
     for statement in ast.parse("\n".join(statements)).body:
-        three_address.assign(statement.targets[0].id, statement.value)
+        match statement:
+            case ast.Assign(targets=[ast.Name(id=name)], value=value):
+                three_address.assign(name, value)
+            case _:
+                raise ValueError(f"{ast.unparse(statement)}: needs name = expression")
     results = [three_address.operand(ast.parse(r, mode="eval").body, {}) for r in results]
     lines, count = _placed(three_address.operations, results, arrays)
     return lines, results, count
@@ -112,7 +116,10 @@ def _placed(operations, results, arguments):
     last = {name: at for at, o in enumerate(operations) for name in o.reads}
     # What is not elementwise may give a view of what it reads.
     kept = {*results, *(name for o in operations if not o.out for name in o.reads)}
-    lines, places, free, count = [], {}, [], 0
+    lines: list[str] = []
+    places: dict[str, str] = {}
+    free: list[str] = []
+    count = 0
 
     def place(name, text):
         nonlocal count

@@ -10,6 +10,7 @@ import sys
 import sysconfig
 import tempfile
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 
@@ -23,7 +24,7 @@ FLAGS = {
     ),
 }
 MODULE = "armdyn_compiled"
-_loaded = {}
+_loaded: dict[str, ModuleType] = {}
 
 
 class NoCompilerError(RuntimeError):
@@ -62,6 +63,8 @@ def compiled(source: str):
         if not path.is_file():
             _compile(source, path)
         spec = importlib.util.spec_from_file_location(MODULE, path)
+        if spec is None or spec.loader is None:
+            raise ImportError(f"{path}: is no module that this Python can load")
         _loaded[key] = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(_loaded[key])
     return _loaded[key]

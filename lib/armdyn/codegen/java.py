@@ -87,7 +87,7 @@ class _JavaPrinter(ShortFloats, C89CodePrinter):
     """SymPy's C printer with the functions of java.lang.Math."""
 
     language = "Java"
-    reserved_words = frozenset()  # what is reserved has another name by now
+    reserved_words: frozenset[str] = frozenset()  # what is reserved has another name by now
     _ns = "Math."
     _kf = {name: f"Math.{name}" for name in FUNCTIONS_OF_MATH} | {
         "Abs": "Math.abs",

@@ -77,9 +77,9 @@ class TermNames:
         if isinstance(term, sp.sin | sp.cos | sp.tan):
             angle = self._sum(meaning.args[0])
             if angle:
-                prefix, index = re.fullmatch(r"(\D+)([\d_]*)", angle).groups()
+                index = re.fullmatch(r"q(\d[\d_]*)", angle)
                 head = type(term).__name__
-                return f"{head[0]}{index}" if prefix == "q" and index else f"{head}{angle}"
+                return f"{head[0]}{index[1]}" if index else f"{head}{angle}"
         if isinstance(term, sp.Add):
             return self._sum(meaning)
         if isinstance(term, sp.Mul | sp.Pow):
@@ -89,8 +89,9 @@ class TermNames:
     def _sum(self, expression):
         """q1 + q2 as q12, m2 + m3 as m23; '' for what is not a sum of one kind of symbol."""
         terms = sp.Add.make_args(expression)
-        parts = [re.fullmatch(r"(\D+)(\d*)", s.name) for s in terms if s in self.symbols]
-        if len(parts) < len(terms) or not all(parts):
+        found = [re.fullmatch(r"(\D+)(\d*)", s.name) for s in terms if s in self.symbols]
+        parts = [part for part in found if part]
+        if len(parts) < len(terms):
             return ""
         if len(parts) == 1:
             return parts[0][0]

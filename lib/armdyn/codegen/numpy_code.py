@@ -51,7 +51,7 @@ class NumpyModel(Manipulator):
         return type(self), (self.derivation, self.values)
 
     @property
-    def n(self) -> int:
+    def n(self) -> int:  # type: ignore[override]  # read only here, and nobody writes it
         """The number of coordinates."""
         return self.derivation.n
 
@@ -73,7 +73,7 @@ class NumpyModel(Manipulator):
 
     def dynamics(self, q, qd, u) -> np.ndarray:
         """q̈ = M⁻¹ (u − C q̇ − g), (n,), by M = L D Lᵀ written out; raises as `Manipulator`."""
-        states = (q, qd, u)
+        states = [q, qd, u]
         # Plain arrays need no look before: what is not finite shows in q̈.
         if not all(_plain(s, self.n) for s in states):
             states = state_vectors(self.n, q=q, qd=qd, u=u)
@@ -132,9 +132,9 @@ class _Callable:
         self.size = math.prod(shape)
         given = [f"{name}_{i}" for name in arguments for i in range(n)]
         self.on_floats = _compiled(_FLOATS, numbers, given, *_lines(program, _sincos_call))
-        *lines, self.buffers = in_buffers(*_lines(program, _half_angle), given)
+        statements, results, self.buffers = in_buffers(*_lines(program, _half_angle), given)
         given += [f"b_{i}" for i in range(self.buffers)]
-        self.on_arrays = _compiled(vars(np), numbers, given, *lines)
+        self.on_arrays = _compiled(vars(np), numbers, given, statements, results)
 
     def __call__(self, *states):
         batch = np.broadcast_shapes(*(s.shape[:-1] for s in states))
@@ -246,7 +246,7 @@ class _Printer(NumPyPrinter):
         return text
 
 
-def _lines(program, sincos):
+def _lines(program, sincos) -> tuple[list[str], list[str]]:
     """(statements, results) of the program, as Python expressions."""
     text = _Printer().doprint
     lines = [f"{s} = {text(e)}" for s, e in program.angle_steps]

@@ -121,12 +121,13 @@ def _routine(part, expression, q, qd, parameters, taken) -> Routine:
         (sp.cse(form, symbols=sp.numbered_symbols(cls=sp.Dummy)) for form in _forms(entries)),
         key=_operations,
     )
-    wanted = {}
+    wanted: dict = {}
     for out, place in zip(outs, places, strict=True):
         wanted.setdefault(out, place)  # a symmetric entry has the name of the first
 
     names = TermNames((*q, *qd, *parameters), taken)
-    new, steps = {}, []
+    new: dict = {}
+    steps = []
     for dummy, term in shared:
         term = term.xreplace(new)
         new[dummy] = names.give(term, wanted.get(dummy, ""))

@@ -61,7 +61,9 @@ def forward_dynamics(derivation: Derivation) -> StraightLine:
         return symbol
 
     # Column by column: W = L D as it comes, before its division by the pivot.
-    L, W, inverse, pivots = {}, {}, [], []
+    L: dict = {}
+    W: dict = {}
+    inverse, pivots = [], []
     M = {at: keep("M_{}_{}".format(*at), entry) for at, entry in M.items()}
     for j in range(n):
         pivots.append(keep(f"D_{j}", M[j, j] - _sum([L[j, k] * W[j, k] for k in range(j)])))
@@ -169,7 +171,8 @@ def _angle_sums(angles):
     Where an angle is the sum of two others, as q1 + q2 beside q1 and q2, the addition formulas
     take six operations; a sine and a cosine take many more.
     """
-    computed, added = {}, []
+    computed: dict = {}
+    added = []
     for angle in sorted(angles, key=lambda a: (a.count_ops(), angles[a][0].name)):
         first = next((a for a in computed if angle - a in computed), None)
         if first is None:

@@ -16,16 +16,17 @@ class Link:
     The joint's frame lies in the frame of the link before it (or the base) at `position`, turned by
     `rotation`; the joint turns about, or slides along, `axis` in that frame. The link's own frame is
     the joint's, moved by q. `com` and `inertia` (about the centre of mass) are in the link's frame.
+    Vectors may be given as tuples; they are kept as (3, 1) matrices.
     Raises ValueError, naming the argument, for another joint or shape, an inertia that is not
     symmetric, or a numeric axis that is not of length 1.
     """
 
     joint: str = field(metadata={"doc": "'revolute' or 'prismatic'"})
     mass: sp.Expr = field(metadata={"unit": "kg"})
-    axis: tuple = (0, 0, 1)
-    position: tuple = field(default=(0, 0, 0), metadata={"unit": "m"})
+    axis: sp.Matrix = (0, 0, 1)
+    position: sp.Matrix = field(default=(0, 0, 0), metadata={"unit": "m"})
     rotation: sp.Matrix = field(default=None, metadata={"doc": "(3, 3), identity where not given"})
-    com: tuple = field(default=(0, 0, 0), metadata={"unit": "m"})
+    com: sp.Matrix = field(default=(0, 0, 0), metadata={"unit": "m"})
     inertia: sp.Matrix = field(default=None, metadata={"unit": "kg·m²", "doc": "(3, 3), or zero"})
 
     def __post_init__(self):

@@ -25,7 +25,7 @@ def planar_chain(n: int, offsets: bool = False) -> Derivation:
     if isinstance(n, bool) or not isinstance(n, int) or n < 1:
         raise ValueError(f"n = {n!r}: needs a positive integer, the number of links")
     q, qd, l, lc, m, I = (_numbered(name, n) for name in ("q", "qd", "l", "lc", "m", "I"))
-    ly = _numbered("ly", n) if offsets else None
+    ly = _numbered("ly", n) if offsets else ()
     g = sp.Symbol("g", real=True)
 
     angle, turn = sp.S.Zero, sp.S.Zero
@@ -39,8 +39,11 @@ def planar_chain(n: int, offsets: bool = False) -> Derivation:
 
     # From the last link inwards: mass beyond joint j, first moment, its rate, inertia, ½ its rate.
     beyond = sp.S.Zero
-    h, hd, J, Jd = [None] * n, [None] * n, [None] * n, [None] * n
-    next_h = next_hd = (sp.S.Zero, sp.S.Zero)
+    h: list[tuple] = [()] * n
+    hd: list[tuple] = [()] * n
+    J, Jd = [sp.S.Zero] * n, [sp.S.Zero] * n
+    next_h: tuple = (sp.S.Zero, sp.S.Zero)
+    next_hd: tuple = (sp.S.Zero, sp.S.Zero)
     next_J = next_Jd = sp.S.Zero
     for j in reversed(range(n)):
         e, ed = along[j], along_rate[j]
@@ -68,7 +71,8 @@ def planar_chain(n: int, offsets: bool = False) -> Derivation:
     M, C = sp.zeros(n, n), sp.zeros(n, n)
     for j in range(n):
         M[j, j], C[j, j] = J[j], Jd[j]
-        d = dd = (sp.S.Zero, sp.S.Zero)
+        d: tuple = (sp.S.Zero, sp.S.Zero)
+        dd: tuple = (sp.S.Zero, sp.S.Zero)
         for i in reversed(range(j)):
             d = tuple(map(_sum, d, _scaled(l[i], along[i])))
             dd = tuple(map(_sum, dd, _scaled(l[i], along_rate[i])))
@@ -77,7 +81,7 @@ def planar_chain(n: int, offsets: bool = False) -> Derivation:
             C[j, i] = _sum(Jd[j], _dot(dd, h[j]))
     gravity = sp.ImmutableMatrix(n, 1, [g * h[j][0] for j in range(n)])
     P = g * h[0][1]
-    parameters = (*l, *lc, *(ly or ()), *m, *I, g)
+    parameters = (*l, *lc, *ly, *m, *I, g)
     return Derivation(q, qd, parameters, sp.ImmutableMatrix(M), sp.ImmutableMatrix(C), gravity, P)
 
 
@@ -103,8 +107,8 @@ def _numbered(name, n):
 
 def _sum(*terms):
     """Σ terms, kept as one node: SymPy would flatten a sum of sums, and what they share is lost."""
-    terms = [term for term in terms if term != 0]
-    return sp.Add(*terms, evaluate=False) if len(terms) > 1 else sum(terms, sp.S.Zero)
+    kept = [term for term in terms if term != 0]
+    return sp.Add(*kept, evaluate=False) if len(kept) > 1 else sum(kept, sp.S.Zero)
 
 
 def _scaled(factor, vector):

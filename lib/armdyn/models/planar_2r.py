@@ -57,7 +57,8 @@ class Planar2R(Manipulator):
         super().__init_subclass__(**keywords)
         # A subclass with another M, C, g or f moves by them, not by the closed form of this one.
         if {"M", "C", "g_vec", "f_vec"} & vars(cls).keys():
-            cls.dynamics = vars(cls).get("dynamics", Manipulator.dynamics)
+            own = vars(cls).get("dynamics", Manipulator.dynamics)
+            cls.dynamics = own  # type: ignore[method-assign]  # what this method is for
 
     def __post_init__(self):
         checks = {"l1": positive, "l2": positive, "lc1": finite, "lc2": finite, "g": finite}

@@ -67,7 +67,7 @@ class PlanarChain(Manipulator):
             object.__setattr__(self, name, value)
 
     @property
-    def n(self) -> int:
+    def n(self) -> int:  # type: ignore[override]  # read only here, and nobody writes it
         return len(self.l)
 
     def M(self, q) -> np.ndarray:

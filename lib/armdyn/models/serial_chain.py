@@ -72,7 +72,7 @@ class SerialChain(Manipulator):
             object.__setattr__(self, name, value)
 
     @property
-    def n(self) -> int:
+    def n(self) -> int:  # type: ignore[override]  # read only here, and nobody writes it
         return len(self.links)
 
     def M(self, q) -> np.ndarray:
@@ -215,7 +215,7 @@ class SerialChain(Manipulator):
             drifts.append(np.matvec(motion_cross(v), moved))
             biases.append(np.matvec(force_cross(v), np.matvec(I, v)))
         effort = u - self.f_vec(qd)
-        outwards = []
+        outwards: list = []
         inertia, bias = np.zeros((6, 6)), np.zeros(6)
         for k in reversed(range(self.n)):
             inertia, bias = inertia + self._inertias[k], bias + biases[k]

@@ -1,9 +1,9 @@
 """Figures of arms, of the terms of their equation of motion and of how they move.
 
-The only part of armdyn with matplotlib. Importing it sets the course's figure style in
-matplotlib.rcParams. No pyplot: a figure is an object like any other, drawn when it is asked for,
-with nothing to close. A notebook shows one as a `Picture`, or a motion as an `Animation`, which
-carry a description for those who do not see them.
+The only part of armdyn with matplotlib, whose settings (matplotlib.rcParams) it leaves alone: the
+course's style is in the figures that `figure` makes. No pyplot: a figure is an object like any
+other, drawn when it is asked for, with nothing to close. A notebook shows one as a `Picture`, or a
+motion as an `Animation`, which carry a description for those who do not see them.
 
 Colours: M. Okabe, K. Ito (2008), Color Universal Design, told apart with any colour vision; maps
 of a quantity use cividis, whose lightness rises evenly. Lines also differ by dashes, bars by hatch

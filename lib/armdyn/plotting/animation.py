@@ -4,6 +4,7 @@ import hashlib
 import json
 from dataclasses import dataclass
 from importlib import resources
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -40,7 +41,7 @@ class Animation:
     another model.
     """
 
-    model: object
+    model: Any
     t: np.ndarray
     q: np.ndarray
     alt: str

@@ -23,7 +23,7 @@ def draw_block_diagram(ax: Axes, diagram) -> None:
     run above.
     """
     columns = _columns(diagram)
-    places = {}
+    places: dict = {}
     for column in sorted(set(columns.values())):
         _place(diagram, columns, column, places)
     for block, (x, y) in places.items():
@@ -40,7 +40,9 @@ def _columns(diagram) -> dict:
     for wire in diagram.wirelist:
         following[wire.start.block].append(wire.end.block)
     fed = {block for blocks in following.values() for block in blocks}
-    finished, open_ = [], set()
+    finished: list = []
+    open_ = set()
+    back = set()  # the wires that close a loop
 
     def visit(block):
         open_.add(block)
@@ -52,7 +54,6 @@ def _columns(diagram) -> dict:
         open_.remove(block)
         finished.append(block)
 
-    back = set()
     for block in sorted(diagram.blocklist, key=lambda block: block in fed):
         if block not in finished:
             visit(block)

@@ -1,5 +1,7 @@
 """The potential energy over the two joint angles, with the equilibria in it."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -33,7 +35,11 @@ def energy_landscape(model, limits: tuple[float, float] = (-np.pi, np.pi)) -> Fi
         places = [
             place for point in found if point.kind == kind for place in _seen(point.q, limits)
         ]
-        style = {"markersize": 11, "markerfacecolor": "white", "markeredgecolor": "black"}
+        style: dict[str, Any] = {
+            "markersize": 11,
+            "markerfacecolor": "white",
+            "markeredgecolor": "black",
+        }
         if places:
             ax.plot(
                 *np.transpose(places),

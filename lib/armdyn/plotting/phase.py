@@ -1,5 +1,7 @@
 """The phase plane: angle against velocity."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -44,7 +46,8 @@ def phase_portrait(
         full = "black" if point.kind == "minimum" else "white"
         turns = point.q[0] + 2 * np.pi * np.arange(-9, 10)
         places = turns[(turns >= low - 1e-9) & (turns <= high + 1e-9)]
-        style = {"markerfacecolor": full, "markeredgecolor": "black", "clip_on": False, "zorder": 5}
+        style: dict[str, Any] = {"markerfacecolor": full, "markeredgecolor": "black"}
+        style |= {"clip_on": False, "zorder": 5}
         ax.plot(
             places, 0 * places, "D", markersize=8, label=f"equilibrium: {point.kind} of P", **style
         )
@@ -70,7 +73,7 @@ def draw_phase(ax: Axes, model, x, joint: int = 0, **line) -> None:
         raise ValueError(f"joint = {joint!r}: needs a whole number from 0 to {model.n - 1}")
     q, qd = x[:, joint], x[:, model.n + joint]
     (drawn,) = ax.plot(q, qd, **line)
-    ends = {"color": drawn.get_color(), "markersize": 7}
+    ends: dict[str, Any] = {"color": drawn.get_color(), "markersize": 7}
     ax.plot(q[0], qd[0], "o", markerfacecolor="white", **ends)
     ax.plot(q[-1], qd[-1], "s", **ends)
     number = f"_{joint + 1}" if model.n > 1 else ""

@@ -1,8 +1,12 @@
 """The course's figure style: colours, dashes, fonts, axes of angles."""
 
 import math
+from collections.abc import Callable
+from functools import wraps
+from typing import Any
 
 import matplotlib
+from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
@@ -22,12 +26,10 @@ OKABE_ITO = {
 LINES = ("blue", "vermilion", "green", "purple", "black")
 DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)))
 
-STYLE = {
+STYLE: Any = {
     "axes.axisbelow": True,
     "axes.grid": True,
-    "axes.prop_cycle": matplotlib.cycler(
-        color=[OKABE_ITO[name] for name in LINES], linestyle=DASHES
-    ),
+    "axes.prop_cycle": cycler(color=[OKABE_ITO[name] for name in LINES], linestyle=DASHES),
     "axes.spines.right": False,
     "axes.spines.top": False,
     "axes.titlesize": 11,
@@ -39,13 +41,45 @@ STYLE = {
     "hatch.linewidth": 0.8,
     "lines.linewidth": 2,
 }
-matplotlib.rcParams.update(STYLE)
 
 
-def figure(width: float = 7.0, height: float = 3.2, columns: int = 1) -> tuple[Figure, Axes]:
+def styled(method: Callable) -> Callable:
+    """The method, run in the course's style; what matplotlib is set to elsewhere stays."""
+
+    @wraps(method)
+    def run(*args, **kwargs):
+        with matplotlib.rc_context(STYLE):
+            return method(*args, **kwargs)
+
+    return run
+
+
+class StyledAxes(Axes):
+    """Axes that draw in the course's style, whatever matplotlib is set to."""
+
+
+# matplotlib looks up widths, sizes and fonts when something is drawn on axes, not when they are made.
+for _name in (
+    *("annotate", "axhline", "axvline", "bar", "contour", "errorbar", "fill_between", "hlines"),
+    *("legend", "plot", "set_title", "set_xlabel", "set_ylabel", "streamplot", "text", "vlines"),
+):
+    setattr(StyledAxes, _name, styled(getattr(Axes, _name)))
+
+
+class StyledFigure(Figure):
+    """A figure in the course's style, whatever matplotlib is set to."""
+
+    __init__ = styled(Figure.__init__)
+    colorbar = styled(Figure.colorbar)
+    draw = styled(Figure.draw)  # ticks and their grid lines are made when they are drawn
+    legend = styled(Figure.legend)
+    subplots = styled(Figure.subplots)
+
+
+def figure(width: float = 7.0, height: float = 3.2, columns: int = 1) -> tuple[Figure, Any]:
     """A figure in the course's style, and its axes (an array of axes where columns > 1); inches."""
-    fig = Figure(figsize=(width, height))
-    return fig, fig.subplots(1, columns)
+    fig = StyledFigure(figsize=(width, height))
+    return fig, fig.subplots(1, columns, subplot_kw={"axes_class": StyledAxes})
 
 
 def angle_ticks(axis: Axis, limits: tuple[float, float]) -> None:

@@ -1,11 +1,13 @@
 """The terms of the equation of motion as bars."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
 from armdyn.parameters import state_vector
 from armdyn.plotting.arm import draw_arm
-from armdyn.plotting.style import OKABE_ITO
+from armdyn.plotting.style import OKABE_ITO, StyledFigure, styled
 
 # The terms of the equation of motion: name in mathtext, colour, hatch.
 TERMS = (
@@ -17,6 +19,7 @@ TERMS = (
 )
 
 
+@styled
 def torque_terms(model, q, qd, qdd, limit: float | None = None) -> Figure:
     """The arm at q, and beside it each joint's M q̈, C q̇, g, f and their sum u as bars, in N·m.
 
@@ -25,8 +28,9 @@ def torque_terms(model, q, qd, qdd, limit: float | None = None) -> Figure:
     """
     values = terms(model, q, qd, qdd)
     limit = 1.25 * max(np.abs(values).max(), 1e-9) if limit is None else limit
-    fig = Figure(figsize=(8, 3.8))
-    arm, bars = fig.subfigures(1, 2, width_ratios=(1, 1.15))
+    fig = StyledFigure(figsize=(8, 3.8))
+    parts: Any = fig.subfigures(1, 2, width_ratios=(1, 1.15))
+    arm, bars = parts
     draw_arm(arm.subplots(), model, q)
     axes = bars.subplots(model.n, 1, sharex=True, squeeze=False)[:, 0]
     for joint, ax in enumerate(axes):

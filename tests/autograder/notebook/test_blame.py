@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from autograder.judging.faults import said_of
+from autograder.judging.faults import describe_fault
 from autograder.notebook.blame import Ran, explained, ran
 from autograder.protocol import Fault, FaultKind
 
@@ -89,7 +89,7 @@ def test_a_cell_that_may_define_anything_is_blamed_where_no_other_is(source):
 
 def test_a_line_that_was_left_out_is_told():
     fault = explained("M", MISSING, [Ran("%run m.py", left_out=("%run m.py was left out: no",))])
-    said = said_of(fault, "M", "M(q, arm)")
+    said = describe_fault(fault, "M", "M(q, arm)")
     assert said.endswith("was its cell run? Before that, %run m.py was left out: no.")
 
 

@@ -1,5 +1,6 @@
 """Hints: one more each time, three for each check, and none of them the answer."""
 
+import dataclasses
 import inspect
 import re
 from html.parser import HTMLParser
@@ -116,7 +117,7 @@ def test_under_ipython_a_card_says_what_the_text_says(shown):
 
 def test_a_hint_is_escaped(shown, monkeypatch):
     said = 'is a < b & "c" > <b>?'
-    monkeypatch.setattr(CHECKS["p1-M"], "hints", (said,))
+    monkeypatch.setitem(CHECKS, "p1-M", dataclasses.replace(CHECKS["p1-M"], hints=(said,)))
     html = shown("p1-M")["text/html"]
     assert "<b>" not in html
     assert said in Words(html).words

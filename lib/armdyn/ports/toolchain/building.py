@@ -61,7 +61,8 @@ def _run(command, folder, seconds) -> str:
         raise BuildError(f"{Path(command[0]).name} took more than {seconds:g} s") from None
     finally:
         processes.end(process)
-        process.stdout.close()
+        if process.stdout is not None:
+            process.stdout.close()
     said = output.decode(errors="replace").replace(f"{folder}{os.sep}", "").strip()
     if process.returncode:
         told = said or f"{Path(command[0]).name} ended with exit status {process.returncode}"

@@ -53,6 +53,9 @@ class Conversation:
         except OSError as error:
             self._errors.close()
             raise ProgramError(f"the program does not start: {error}") from error
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._stdin, self._stdout = self._process.stdin, self._process.stdout
 
     def ask(self, numbers, at_most: int) -> np.ndarray:
         """The program's answer to these numbers, an array of at most so many.
@@ -69,9 +72,9 @@ class Conversation:
         threading.Thread(target=self._watch, args=arguments, daemon=True).start()
         try:
             with contextlib.suppress(OSError):  # its end is seen where it is read
-                self._process.stdin.write(np.array([numbers.size], DOUBLE).tobytes())
-                self._process.stdin.write(numbers.tobytes())
-                self._process.stdin.flush()
+                self._stdin.write(np.array([numbers.size], DOUBLE).tobytes())
+                self._stdin.write(numbers.tobytes())
+                self._stdin.flush()
             answer = self._answer(at_most)
         except BaseException:  # an interrupt too: half an answer would be read as the next
             self.close()
@@ -95,7 +98,7 @@ class Conversation:
         """End the program and all that it started."""
         if self._process.returncode is None:
             processes.end(self._process)
-        for stream in (self._process.stdin, self._process.stdout):
+        for stream in (self._stdin, self._stdout):
             with contextlib.suppress(OSError):
                 stream.close()
 
@@ -135,7 +138,7 @@ class Conversation:
         return np.frombuffer(self._read(int(count) * DOUBLE.itemsize), DOUBLE)
 
     def _read(self, size):
-        found = self._process.stdout.read(size)
+        found = self._stdout.read(size)
         if len(found) == size:
             return found
         self._printed += found

@@ -7,7 +7,8 @@ intent.
 import numpy as np
 import pytest
 
-from autograder.judging.diagnosis import TOLERANCE, Known, mistakes_shown
+from autograder.judging.criterion import TOLERANCE
+from autograder.judging.diagnosis import Known, mistakes_shown
 from autograder.judging.check import VISIBLE_CASES
 from autograder.problems import CHECKS
 from autograder.judging.verdict import State

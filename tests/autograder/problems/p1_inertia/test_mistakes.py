@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from autograder.problems.material.definiteness import MATRICES, Kind, is_symmetric, least_eigenvalue
-from autograder.judging.diagnosis import TOLERANCE
+from autograder.judging.criterion import TOLERANCE
 from autograder.problems.p1_inertia import mistakes as p1_inertia
 from autograder.judging.verdict import State
 from tests.autograder.verdicts import assert_named, judged, sentences_of

@@ -6,7 +6,7 @@ intent.
 
 import pytest
 
-from autograder.judging.diagnosis import TOLERANCE
+from autograder.judging.criterion import TOLERANCE
 from autograder.problems import CHECKS
 from autograder.judging.verdict import State
 from tests.autograder.verdicts import assert_named, judged

@@ -6,7 +6,7 @@ intent.
 
 import pytest
 
-from autograder.judging.diagnosis import TOLERANCE
+from autograder.judging.criterion import TOLERANCE
 from autograder.problems.p3_pendulum import mistakes as p3_pendulum
 from autograder.problems.start_here import mistakes as start_here
 from autograder.judging.verdict import State

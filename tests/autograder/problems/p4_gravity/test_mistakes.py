@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from autograder.judging.diagnosis import TOLERANCE
+from autograder.judging.criterion import TOLERANCE
 from autograder.problems.p4_gravity import mistakes as p4_gravity
 from autograder.problems import CHECKS
 from autograder.judging.verdict import State

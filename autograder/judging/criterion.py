@@ -1,0 +1,65 @@
+"""What is asked of an answer, and whether its numbers meet it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+# An answer is right to rounding. Single precision through a few operations leaves 4e-6 of the scale
+# below; a wrong formula shows at 1e-4 or more.
+TOLERANCE = 1e-5
+# A case counts at no less than this share of the largest one, so that a value near zero, where
+# single precision has no digits left, is not judged by itself.
+LEAST_SCALE = 0.05
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """One thing that is asked of an answer: in words, its unit, its share of the credit.
+
+    otherwise: what to say where it is not met and no known mistake matches. tolerance: the relative
+    error that rounding, or the method that is asked for, explains. matching: the error within which
+    an answer shows a known mistake, where that must be less, as wrong answers lie close together;
+    by default the same. is_property: true of the answer as a whole, as skew-symmetry is; what breaks
+    it is looked for among the mistakes that are shown already, and not in its own numbers, which many
+    answers share. is_truth: the numbers are 1 for True and 0 for False, and have no unit.
+
+    ValueError where the share is not in (0, 1], or a truth value has a unit.
+    """
+
+    text: str
+    unit: str = ""
+    share: float = 1.0
+    otherwise: str = ""
+    tolerance: float = TOLERANCE
+    is_property: bool = False
+    matching: float | None = None
+    is_truth: bool = False
+
+    def __post_init__(self):
+        if not 0 < self.share <= 1:
+            raise ValueError(f"criterion {self.text!r}: share is {self.share}, must be in (0, 1]")
+        if self.is_truth and self.unit:
+            raise ValueError(f"criterion {self.text!r}: a truth value has no unit {self.unit!r}")
+
+    def met(self, errors: np.ndarray) -> bool:
+        """Whether no case's relative error is more than may be."""
+        return bool(np.all(errors <= self.tolerance))
+
+    def allows(self, met: bool) -> float:
+        """The relative error within which a mistake's numbers are an answer's, met or not."""
+        return self.tolerance if met or self.matching is None else self.matching
+
+
+def relative_errors(expected: list, given: list) -> np.ndarray:
+    """The largest error of each case over the scale of its expected value."""
+    size = _largest(expected)
+    scale = np.maximum(size, LEAST_SCALE * np.max(size))
+    error = _largest([g - e for e, g in zip(expected, given, strict=True)])
+    return error / np.where(scale > 0, scale, 1.0)
+
+
+def _largest(values: list) -> np.ndarray:
+    """The largest entry of each; one array of all where they have one shape, as that is faster."""
+    if len({np.shape(value) for value in values}) == 1:
+        return np.max(np.abs(np.reshape(values, (len(values), -1))), axis=1, initial=0.0)
+    return np.array([np.max(np.abs(value), initial=0.0) for value in values])
