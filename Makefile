@@ -1,4 +1,4 @@
-.PHONY: help lab test test-all lint lessons bench installed
+.PHONY: help lab test test-all coverage lint hooks lessons bench installed
 .SUFFIXES:
 
 ARGS =
@@ -11,6 +11,8 @@ help:
 	@echo 'make lab       open JupyterLab on the first lesson; ARGS="--port=8899" goes to JupyterLab'
 	@echo 'make test      ruff, mypy, pytest; every lesson and solution is run again; ARGS="-k chain"'
 	@echo 'make test-all  the same, and long tests that only repeat what short ones show'
+	@echo 'make coverage  which lines the tests run; fails below the floor in pyproject.toml'
+	@echo 'make hooks     have git run "make lint" before each commit'
 	@echo 'make bench     time library, ports, grading and feedback; writes docs/benchmarks.md'
 	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
@@ -28,6 +30,19 @@ test: .venv/$(TESTED).done
 
 test-all:
 	@$(MAKE) test ARGS='-m "long or not long" $(ARGS)'
+
+# Slower than `make test`, and without the notebooks: it says what the tests see.
+coverage: .venv/dev.done
+	@rm -f .coverage .coverage.*
+	@failed=; \
+	.venv/bin/python -m coverage run -m pytest --numprocesses=auto --dist=loadfile --no-loadscope-reorder \
+	  tests $(ARGS) || failed=pytest; \
+	.venv/bin/python -m coverage combine --quiet && \
+	.venv/bin/python -m coverage report || failed="$$failed coverage"; \
+	if [ -n "$$failed" ]; then echo "make coverage: failed:" $$failed >&2; exit 1; fi
+
+hooks: .venv/dev.done
+	.venv/bin/pre-commit install
 
 lint: .venv/$(TESTED).done
 	@$(lint); $(verdict)
@@ -62,7 +77,7 @@ endef
 	$(call install,lab)
 
 # One after the other, also with -j: two installations into one .venv break each other.
-.venv/$(TESTED).done .venv/bench.done: .venv/lab.done
+.venv/$(TESTED).done .venv/dev.done .venv/bench.done: .venv/lab.done
 	$(call install,$(basename $(@F)))
 
 # An environment knows its own path and its Python: when either has gone, it is made anew.

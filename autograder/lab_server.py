@@ -17,10 +17,12 @@ from traitlets import Bool
 # What a student has no use for. What a student adds to the course's folder is shown.
 NOT_FOR_STUDENTS = (
     "CHANGELOG.md",
+    "CITATION.cff",
     "CONTRIBUTING.md",
     "LICENSE",
     "Makefile",
     "README.md",
+    "SECURITY.md",
     "armdyn.egg-info",
     "autograder",
     "build",

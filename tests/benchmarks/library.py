@@ -241,7 +241,7 @@ def main(files: list[str]) -> None:
     text = f"{HOW}{report.machine()}.\n\n{table(rows)}\n{drifted}{counted}"
     print(text)
     for file in files:
-        report.put(Path(file), "The library", text)
+        report.put(Path(file), "The library", text, measured=("ours", "ratio"))
 
 
 if __name__ == "__main__":
