@@ -287,7 +287,9 @@ class _Printer(C99CodePrinter):
         base, power = expr.as_base_exp()
         if power in (-1, 2, 3):
             text = f"({self._print(base)})"
-            return f"(1.0/{text})" if power == -1 else "*".join([text] * int(power))
+            product = "*".join([text] * abs(int(power)))
+            # In brackets, as it may come to stand below a fraction line.
+            return f"(1.0/{text})" if power == -1 else f"({product})"
         return super()._print_Pow(expr)
 
     def _print_Symbol(self, expr):
