@@ -1,4 +1,4 @@
-"""Random expressions over every node that the printers of code accept, and derivations that hold them."""
+"""Random expressions over every node that code can compute, and derivations that hold them."""
 
 import sympy as sp
 from hypothesis import strategies as st

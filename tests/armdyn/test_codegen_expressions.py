@@ -17,7 +17,7 @@ ISSUES = [
     (A + 1 / (1 + X**2)) * B / 2,
     A / (X**2 * B**3),
     sp.sin(X) / X,
-    sp.sqrt(sp.Integer(10) ** 21 * sp.Abs(X) + 1) * sp.sqrt(sp.Integer(10) ** 21 + 1),
+    sp.sqrt(sp.Integer(10) ** 21 * sp.Abs(X) + 1) / sp.sqrt(sp.Integer(10) ** 21 + 1),
     sp.Max(X, A, B) + sp.Min(X, A, B),
 ]
 

@@ -15,6 +15,7 @@ from sympy.printing.precedence import PRECEDENCE
 
 from armdyn.codegen import straight_line
 from armdyn.codegen.buffers import in_buffers
+from armdyn.codegen.program import ShortFloats, unknown_function
 from armdyn.derive import Derivation
 from armdyn.manipulator import Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
@@ -233,7 +234,7 @@ def _refuse_unknown(derivation):
         _compiled(_FLOATS, numbers, given, *_lines(program, _sincos_call))
 
 
-class _Printer(NumPyPrinter):
+class _Printer(ShortFloats, NumPyPrinter):
     def __init__(self):
         super().__init__({"fully_qualified_modules": False, "strict": True})
 
@@ -241,7 +242,8 @@ class _Printer(NumPyPrinter):
         try:
             return self.doprint(e)
         except PrintMethodNotImplementedError as error:
-            raise ValueError(f"derivation: holds {error}, which NumPy does not have") from None
+            name = unknown_function(error)
+            raise ValueError(f"derivation: holds {name}, which NumPy does not have") from None
 
     def _print_Pow(self, expr, rational=False, **kwargs):
         base, power = expr.as_base_exp()
@@ -261,10 +263,6 @@ class _Printer(NumPyPrinter):
             size = -term if sign == "-" else term
             text += f" {sign} {self.parenthesize(size, PRECEDENCE['Mul'])}"
         return text
-
-    def _print_Integer(self, expr):
-        # NumPy has no function of an integer beyond 64 bits.
-        return str(expr.p) if abs(expr.p) < 2**53 else repr(float(expr.p))
 
     def _print_Min(self, expr):
         return self._nested("minimum", expr.args)
