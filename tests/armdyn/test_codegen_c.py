@@ -1,3 +1,4 @@
+import decimal
 import pickle
 import sys
 
@@ -277,7 +278,7 @@ def test_cache_folder_has_an_override(monkeypatch, tmp_path):
 
 def test_what_c_cannot_say_is_named():
     q, qd = sp.symbols("q qd", real=True)
-    with pytest.raises(ValueError, match="not a function of C"):
+    with pytest.raises(ValueError, match="holds besselj"):
         c_model(from_energies(qd**2, sp.besselj(0, q), [q], [qd]), {})
 
 
@@ -291,3 +292,10 @@ def test_an_inertia_singular_by_cancellation_is_refused(seed):
     q = np.array([0.3, 0.0])
     with pytest.raises(np.linalg.LinAlgError, match="singular at q"):
         model.dynamics(q, q, q)
+
+
+@pytest.mark.usefixtures("compiler")
+def test_decimals_keep_their_precision():
+    before = decimal.getcontext().prec
+    c_model(planar_2r(), values(planar_2r(), 0))
+    assert decimal.getcontext().prec == before

@@ -1,12 +1,13 @@
 """The C source of a derivation's forward dynamics and RK4 loop."""
 
 import math
-from decimal import Decimal, getcontext
+from decimal import Decimal, localcontext
 
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
+from armdyn.codegen.program import ShortFloats, unknown_function
 from armdyn.codegen.straight_line import StraightLine
 
 # States worked through side by side, one per lane of the processor's vector registers.
@@ -262,18 +263,19 @@ def _horner(coefficients):
 
 def _half_pi_parts():
     """π/2 as a sum of three floats, the first two of 33 bits: times 2²⁰ they are still exact."""
-    getcontext().prec = 60
     rest = Decimal("1.57079632679489661923132169163975144209858469968755291")
     parts = []
-    for _ in range(2):
-        mantissa, exponent = math.frexp(float(rest))
-        part = math.ldexp(math.floor(mantissa * 2**33), exponent - 33)
-        parts.append(part)
-        rest -= Decimal(part)
+    with localcontext() as context:
+        context.prec = 60
+        for _ in range(2):
+            mantissa, exponent = math.frexp(float(rest))
+            part = math.ldexp(math.floor(mantissa * 2**33), exponent - 33)
+            parts.append(part)
+            rest -= Decimal(part)
     return (*parts, float(rest))
 
 
-class _Printer(C99CodePrinter):
+class _Printer(ShortFloats, C99CodePrinter):
     def __init__(self):
         super().__init__({"strict": True})
 
@@ -281,13 +283,16 @@ class _Printer(C99CodePrinter):
         try:
             return self.doprint(e)
         except PrintMethodNotImplementedError as error:
-            raise ValueError(f"derivation: holds {error}, which is not a function of C") from None
+            name = unknown_function(error)
+            raise ValueError(f"derivation: holds {name}, which is not a function of C") from None
 
     def _print_Pow(self, expr):
         base, power = expr.as_base_exp()
         if power in (-1, 2, 3):
             text = f"({self._print(base)})"
-            return f"(1.0/{text})" if power == -1 else "*".join([text] * int(power))
+            product = "*".join([text] * abs(int(power)))
+            # In brackets, as it may come to stand below a fraction line.
+            return f"(1.0/{text})" if power == -1 else f"({product})"
         return super()._print_Pow(expr)
 
     def _print_Symbol(self, expr):

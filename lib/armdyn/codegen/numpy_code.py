@@ -1,17 +1,21 @@
 """A derivation as NumPy callables, with batch axes."""
 
+import builtins
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from types import CodeType
 
 import numpy as np
 import sympy as sp
+from sympy.printing.codeprinter import PrintMethodNotImplementedError
 from sympy.printing.numpy import NumPyPrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from armdyn.codegen import straight_line
 from armdyn.codegen.buffers import in_buffers
+from armdyn.codegen.program import ShortFloats, unknown_function
 from armdyn.derive import Derivation
 from armdyn.manipulator import Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
@@ -46,6 +50,7 @@ class NumpyModel(Manipulator):
 
     def __post_init__(self):
         object.__setattr__(self, "values", _checked(self.derivation, self.values))
+        _refuse_unknown(self.derivation)
 
     def __reduce__(self):
         return type(self), (self.derivation, self.values)
@@ -218,15 +223,35 @@ def _checked(derivation, values):
     }
 
 
-class _Printer(NumPyPrinter):
+def _refuse_unknown(derivation):
+    """ValueError for a function that has no code, now and not when it is first called."""
+    parts = [*derivation.M, *derivation.C, *derivation.g_vec, derivation.P]
+    functions = {type(f): f for part in parts for f in sp.sympify(part).atoms(sp.Function)}
+    for function in functions.values():
+        program = straight_line.terms(derivation, [function])
+        given = [f"{name}_{i}" for name in "qv" for i in range(derivation.n)]
+        numbers = [0.0] * len(program.constants)
+        _compiled(_FLOATS, numbers, given, *_lines(program, _sincos_call))
+
+
+class _Printer(ShortFloats, NumPyPrinter):
     def __init__(self):
-        super().__init__({"fully_qualified_modules": False})
+        super().__init__({"fully_qualified_modules": False, "strict": True})
+
+    def expression(self, e):
+        try:
+            return self.doprint(e)
+        except PrintMethodNotImplementedError as error:
+            name = unknown_function(error)
+            raise ValueError(f"derivation: holds {name}, which NumPy does not have") from None
 
     def _print_Pow(self, expr, rational=False, **kwargs):
         base, power = expr.as_base_exp()
         if power in (-1, 2, 3):
             text = f"({self._print(base)})"
-            return f"(1/{text})" if power == -1 else "*".join([text] * int(power))
+            product = "*".join([text] * abs(int(power)))
+            # In brackets, as it may come to stand below a fraction line.
+            return f"(1/{text})" if power == -1 else f"({product})"
         return super()._print_Pow(expr, rational=rational)
 
     def _print_Add(self, expr, order=None):
@@ -240,15 +265,21 @@ class _Printer(NumPyPrinter):
         return text
 
     def _print_Min(self, expr):
-        text = self._print(expr.args[0])
-        for arg in expr.args[1:]:
-            text = f"minimum({text}, {self._print(arg)})"
+        return self._nested("minimum", expr.args)
+
+    def _print_Max(self, expr):
+        return self._nested("maximum", expr.args)
+
+    def _nested(self, function, arguments):
+        text = self._print(arguments[0])
+        for argument in arguments[1:]:
+            text = f"{function}({text}, {self._print(argument)})"
         return text
 
 
 def _lines(program, sincos) -> tuple[list[str], list[str]]:
     """(statements, results) of the program, as Python expressions."""
-    text = _Printer().doprint
+    text = _Printer().expression
     lines = [f"{s} = {text(e)}" for s, e in program.angle_steps]
     for s, c, angle in program.angles:
         lines += sincos(s, c, text(angle))
@@ -279,9 +310,19 @@ def _compiled(names, numbers, given, lines, results):
         f"    def compute({', '.join(given)}):\n{body}        return ({', '.join(results)},)\n"
         "    return compute\n"
     )
+    code = compile(source, "<armdyn.codegen>", "exec")
+    if unknown := sorted(_read(code) - names.keys() - vars(builtins).keys()):
+        raise ValueError(f"derivation: holds {', '.join(unknown)}, which NumPy does not have")
     space = dict(names)
-    exec(compile(source, "<armdyn.codegen>", "exec"), space)
+    exec(code, space)
     return space["with_constants"](*numbers)
+
+
+def _read(code) -> set[str]:
+    """The global names that the functions defined in this code read."""
+    inner = [constant for constant in code.co_consts if isinstance(constant, CodeType)]
+    names = {name for function in inner for name in function.co_names}
+    return names.union(*map(_read, inner))
 
 
 _FLOATS = {
@@ -289,5 +330,6 @@ _FLOATS = {
     **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan")},
     **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh", "pi")},
     "minimum": min,
+    "maximum": max,
     "sincos": lambda x: (math.sin(x), math.cos(x)),
 }

@@ -188,13 +188,25 @@ class ShortFloats:
     def _print_Float(self, expression):
         return repr(float(expression))
 
+    def _print_Integer(self, expression):
+        # As an integer it would be beyond what the language's integers hold.
+        value = int(expression)
+        return str(value) if abs(value) < 2**31 else repr(float(value))
+
+
+def unknown_function(error) -> str:
+    """What a strict printer of SymPy's has no code for."""
+    return str(error).splitlines()[0].rpartition(": ")[2]
+
 
 def code(printer, expression, language: str) -> str:
     """The expression on one line; ValueError for a function that the language does not have."""
     try:
         text = printer.doprint(expression)
     except PrintMethodNotImplementedError as error:
-        raise ValueError(f"no {language} for {expression}: {error}") from None
+        raise ValueError(
+            f"no {language} for {expression}: it has no {unknown_function(error)}"
+        ) from None
     return re.sub(r"\s+", " ", text.replace("...\n", " ")).strip()
 
 
