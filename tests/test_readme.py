@@ -1,11 +1,16 @@
-"""The README's example runs as it stands."""
+"""What the README and the guides show works: the example, and every command by its name."""
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+from nbgrader.apps.nbgraderapp import NbGraderApp
 
-README = Path(__file__).parents[1] / "README.md"
+ROOT = Path(__file__).parents[1]
+README = ROOT / "README.md"
+GUIDES = [README, ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
 # Its model is in C, or in NumPy with a word on what to install.
@@ -18,3 +23,35 @@ def test_example_runs(capsys, monkeypatch, tmp_path):
     assert "holds" in capsys.readouterr().out
     assert abs(names["energy_drift"](names["arm"], names["x"])).max() < 1e-5
     assert names["fast"].n == 3
+
+
+def subcommands(program: str) -> set[str]:
+    if program == "nbgrader":
+        return set(NbGraderApp.subcommands)
+    ran = subprocess.run(
+        [Path(sys.executable).with_name(program), "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return set(re.search(r"\{([\w,]+)\}", ran.stdout)[1].split(","))
+
+
+@pytest.mark.parametrize("program", ["nbgrader", "autograder"])
+def test_every_command_that_a_guide_shows_is_one(program):
+    shown = {
+        (path.name, name)
+        for path in GUIDES
+        for code in re.findall(r"```.*?```|`[^`]+`", path.read_text(encoding="utf-8"), re.S)
+        for name in re.findall(rf"^[`\s]*{program} ([a-z_]+)", code, re.M)
+    }
+    assert len(shown) > 3
+    # `formgrade` only says that the Formgrader is in Jupyter.
+    known = subcommands(program) - {"formgrade"}
+    assert {(path, name) for path, name in shown if name not in known} == set()
+
+
+def test_feedback_reaches_students_by_the_commands_of_the_readme():
+    commands = re.findall(r"^nbgrader (\w+)", README.read_text(encoding="utf-8"), re.M)
+    steps = ["generate_assignment", "release_assignment", "collect", "autograde"]
+    assert commands == [*steps, "generate_feedback", "release_feedback", "export"]

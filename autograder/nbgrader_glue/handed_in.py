@@ -18,6 +18,8 @@ from autograder.protocol import one_line
 MOST_LOOKED_AT = 20
 MOST_BYTES = 32 << 20
 MOST_NAMES = 5
+# What nbgrader's exchange puts beside each submission.
+OF_THE_EXCHANGE = ("timestamp.txt", "submission_secret.txt")
 UNREADABLE = Likeness(known=False, answered=True)
 
 
@@ -67,7 +69,12 @@ def _files(folder: Path, ignore: list[str]) -> dict[str, Path]:
         path = Path(name)
         parts = path.relative_to(folder).parts
         hidden = any(part.startswith(".") for part in parts)
-        if not hidden and parts != ("timestamp.txt",) and _is_text(parts) and path.is_file():
+        if (
+            not hidden
+            and "/".join(parts) not in OF_THE_EXCHANGE
+            and _is_text(parts)
+            and path.is_file()
+        ):
             found["/".join(parts)] = path
     return found
 
@@ -115,7 +122,7 @@ def _what_is_there(folder: Path, wanted: Path, answered: list[Path]) -> str:
         os.path.relpath(os.path.join(at, file), folder)
         for at, _, files in os.walk(folder)
         for file in files
-        if file != "timestamp.txt" and ".ipynb_checkpoints" not in at
+        if file not in OF_THE_EXCHANGE and ".ipynb_checkpoints" not in at
     )
     if not names:
         return missing

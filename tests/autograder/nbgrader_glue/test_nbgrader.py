@@ -16,6 +16,7 @@ import nbformat
 import pytest
 from nbgrader.api import Gradebook
 
+from autograder.nbgrader_glue import handed_in
 from tests.autograder import courses
 from tests.submissions import p3_pendulum
 from tests.submissions.dressed import dressed
@@ -105,6 +106,14 @@ def test_points_in_gradebook(course):
 def test_student_through_the_exchange(course):
     assert "Success! Your notebook passes all the tests." in course.validated
     assert automatic(course.scores(getpass.getuser())) == POINTS
+
+
+def test_what_the_exchange_puts_beside_a_submission_is_not_the_students(course):
+    submitted = course.root / "course" / "submitted" / getpass.getuser() / P3
+    assert len(list(submitted.glob("*.txt"))) == 2
+    beside = handed_in.beside(submitted, course.root / "solutions" / P3, [], [])
+    assert beside.documents == ()
+    assert not [name for name in beside.laid if name.endswith(".txt")]
 
 
 def automatic(scores):
