@@ -93,7 +93,7 @@ def test_different_parts_have_different_digests(one, other):
 
 def test_a_second_run_at_once_is_told_so(course):
     """The lock ends with its process, so that a killed run holds up nobody."""
-    hold = "import sys; from pathlib import Path; from autograder import lock\n"
+    hold = "import sys; from pathlib import Path; from autograder.pipeline import lock\n"
     hold += "with lock.locked(Path(sys.argv[1]), ''): print('held', flush=True); sys.stdin.read()"
     command = [sys.executable, "-c", hold, course / pipeline.LOCK]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:

@@ -236,7 +236,7 @@ class TestLife:
     def test_a_fork_of_the_grader_has_its_own(self, way):
         code = (
             "import os, sys\n"
-            "from autograder import warm\n"
+            "from autograder.sandbox import nursery\n"
             "from autograder.sandbox.room import Room, Way\n"
             "way = Way[sys.argv[1]]\n"
             "with Room(way) as room:\n"
