@@ -1,7 +1,7 @@
-"""From wrong numbers to a sentence: which known mistake they show, or in which term they differ.
+"""Finds the known mistake that wrong numbers show, or the term in which they are wrong.
 
-A mistake is named only where the student's numbers equal its numbers to rounding in every random
-case, or those of two mistakes at once. Where none does, the error is projected on the known terms.
+A mistake is named only if the student's numbers equal its numbers to rounding in every random case,
+or those of two mistakes at once. If none matches, the error is projected on the known terms.
 """
 
 from collections.abc import Callable
@@ -15,9 +15,9 @@ TOLERANCE = 1e-5
 # A case counts at no less than this share of the largest one, so that a value near zero, where
 # single precision has no digits left, is not judged by itself.
 LEAST_SCALE = 0.05
-# The share of an error that lies along the known terms, above which it is said to sit in them.
+# An error with more than this share along the known terms is said to be in them.
 MOSTLY = 0.95
-# A term with less than this share of the error is not spoken of.
+# A term with less than this share of the error is not named.
 NOTABLE = 0.05
 
 

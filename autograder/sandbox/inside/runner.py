@@ -178,8 +178,8 @@ def _error(shell, source, kind, value, lines, protocol):
         at, line = 0, ""
         value, lines = f"{value.msg}, line {value.lineno}: {(value.text or '').strip()}", []
     elif is_offline:
-        value = f"{protocol.said_by(value)} (a notebook that is graded has no network)"
-    text = protocol.shortened(value if isinstance(value, str) else protocol.said_by(value))
+        value = f"{protocol.message_of(value)} (a notebook that is graded has no network)"
+    text = protocol.shortened(value if isinstance(value, str) else protocol.message_of(value))
     return {
         "output_type": "error",
         "ename": kind.__name__,

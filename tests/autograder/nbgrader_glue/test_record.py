@@ -221,9 +221,9 @@ def test_table_says(pair, line):
         ),
         (
             "files_beside",
-            "The notebook defines no C: the cell that should define it stopped with FileNotFoundError: "
-            "[Errno 2] No such file or directory: 'huge.npy' (huge.npy was handed in, but the notebook "
-            "is graded without it: the files beside it have more than 8 MB)",
+            "The notebook does not define C: the cell that should define it stopped with "
+            "FileNotFoundError: [Errno 2] No such file or directory: 'huge.npy' (huge.npy was handed "
+            "in, but the notebook is graded without it: the files beside it have more than 8 MB)",
         ),
         ("files_beside", "nowhere.csv was not handed in with the notebook"),
     ],

@@ -186,7 +186,7 @@ SIX_WAYS_TO_STOP = {
     "lagrangian": (
         "kappa = kapa\ndef lagrangian(q, qd, m, lc, I, g):\n    return 0",
         "the cell that should define it stopped with NameError: name 'kapa' is not defined "
-        "(line 1: kappa = kapa). Mend that line; what stands below it in the cell runs then.",
+        "(line 1: kappa = kapa). Fix that line, so that the lines below it run as well.",
     ),
     "M": (
         "%matplotlib inline\nI = float(input('I = '))\nM = lambda q, pend: I",
@@ -201,7 +201,7 @@ SIX_WAYS_TO_STOP = {
     ),
     "g_vec": (
         "%run pendulum.py",
-        "by exactly this name; was its cell run? Before that, %run pendulum.py was left out: "
+        "by exactly this name. Did you run its cell? Before that, %run pendulum.py was left out: "
         "Exception: File `'pendulum.py'` not found.",
     ),
     "inertia_about_pivot": (
@@ -210,7 +210,7 @@ SIX_WAYS_TO_STOP = {
     ),
     "small_angle_frequency": (
         "def small_angle_frequency(pend):\n    raise NotImplementedError",
-        "An earlier small_angle_frequency was judged: the cell that defines it again "
+        "The check judged an earlier small_angle_frequency: the cell that defines it again "
         "stopped with SyntaxError: expected ':', line 1: def small_angle_frequency(pend).",
     ),
 }
@@ -234,8 +234,8 @@ def test_a_verdict_on_an_earlier_function_says_so(release):
     verdict = grade(wrong, SOURCE, "seed").verdicts["p3-M"]
     assert verdict.state is State.INCORRECT
     assert verdict.next_step.startswith(
-        "An earlier M was judged: the cell that defines it again stopped with NameError: "
-        "name 'pend' is not defined (line 1: x = pend). Mend that line."
+        "The check judged an earlier M: the cell that defines it again stopped with NameError: "
+        "name 'pend' is not defined (line 1: x = pend). Fix that line."
     )
 
 
