@@ -133,14 +133,18 @@ class Check:
         fault = next((reply.fault for reply in second if reply.fault), None)
         if fault:
             said = said_of_second(fault, self.name, self.signature)
-            return self._error(f"{changes.remark(self.name, changed, True)} Then {said}")
+            return self._error(
+                f"{changes.remark(self.name, changed, True)} On the second call, {said}"
+            )
         try:
             with np.errstate(over="ignore", invalid="ignore"):
                 again = self.quantities(calls, [finite(reply.value) for reply in second])
                 return self.judge(calls, expected, given, again, changed)
         except UnfitError as error:
             said = f"{self.signature} returned {error}."
-            return self._error(f"{changes.remark(self.name, changed, True)} Then {said}")
+            return self._error(
+                f"{changes.remark(self.name, changed, True)} On the second call, {said}"
+            )
         except Exception as error:
             return self._failed(error)
 
@@ -246,7 +250,7 @@ class Check:
         return self._error(said_of(fault, self.name, self.signature))
 
     def _error(self, problem: str) -> Verdict:
-        step = "Mend this first; then the check can look at the physics."
+        step = "Fix this first: the check can't look at the physics until the function runs."
         return Verdict(self.id, State.ERROR, problem=problem, next_step=step)
 
     def _failed(self, error: Exception) -> Verdict:
@@ -261,7 +265,7 @@ class Check:
 def _where(criterion: Criterion, off: list[tuple[Term, float, float]]) -> str:
     """No known mistake, but the error is made of known terms: their names, and by how much."""
     said = " and ".join(f"{term.name} ({factor:+.2g} times it)" for term, _, factor in off)
-    return f"What is off in your {criterion.text} varies like {said}."
+    return f"The error in your {criterion.text} varies like {said}."
 
 
 def _evaluated(model: Callable, call: Call):
