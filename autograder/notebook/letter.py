@@ -1,4 +1,4 @@
-"""What the grader tells a student of the notebook as a whole: a cell that is put before all others."""
+"""The first cell of a graded notebook, in which the grader tells the student about the whole of it."""
 
 import re
 from collections.abc import Iterable

@@ -116,7 +116,7 @@ def reordered_cells(release):
     return notebook
 
 
-@attack(says="a cell that claims to be p3-bonus, which the source does not have")
+@attack(says="a cell claims to be p3-bonus, which this assignment does not have")
 def renamed_cells(release):
     """Renames the grade cell it does not pass, and adds one of its own."""
     notebook = cheat(release)
