@@ -141,7 +141,7 @@ def test_what_was_graded_and_reported_stays(disk, monkeypatch, capsys):
         if status:
             failures += 1
             assert graded == before[0]
-            begun = "could not be graded" in said.out and "its earlier grading stays" in said.out
+            begun = "could not be graded" in said.out and "the earlier result stays" in said.out
             assert begun or re.search(FULL, said.err)
     assert failures >= 2
     assert status == 0
