@@ -104,8 +104,8 @@ def test_an_unfit_name_has_a_line_of_its_own(course, name):
 
 def test_names_that_read_the_same_are_pointed_out(course):
     for name in ("b[1]", "B[1]"):
-        assert f"reads like {name!a}: are these folders one student's?" in course.graded
-    assert course.graded.count("reads like") == 2
+        assert f"looks like {name!a}: do these folders belong to one student?" in course.graded
+    assert course.graded.count("looks like") == 2
 
 
 @pytest.mark.parametrize("other", ["ADA é", "ada\u00a0e\u0301", " Ada É ", "\uff41da é"])
