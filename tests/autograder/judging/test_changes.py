@@ -30,7 +30,7 @@ SIGNATURE = f"g({NAMES})"
 
 
 def reply_to(body: str) -> Reply:
-    """The reply of a function with this body, as it comes through the wall."""
+    """The reply of a function with this body, as it comes from the sandbox."""
     namespace = {"__name__": "__main__", "np": np}
     exec(f"def g({NAMES}):\n    {body}\n    return 1.0", namespace)
     reply = protocol.answer(Call("g", ARGS), namespace)

@@ -190,10 +190,10 @@ def test_what_was_tested_is_not_trivial(pair):
         f"invalid could not be graded {NOTEBOOK} is not valid JSON: ask the student for it again",
         "format_3 10 of 15 6 correct, 1 to be read the notebook was in format 3; it was converted",
         f"other_name 10 of 15 6 correct, 1 to be read there is no {NOTEBOOK}; Pendulum final (2).ipynb",
-        f"two_other_names could not be graded there is no {NOTEBOOK}, and it could be a.ipynb and",
+        f"two_other_names could not be graded there is no {NOTEBOOK}, but there are a.ipynb and",
         f"in_a_subfolder could not be graded there is no {NOTEBOOK}, only my work/{NOTEBOOK}",
         f"as_an_archive could not be graded there is no {NOTEBOOK}, only p3-pendulum.zip",
-        f"copy_beside 0 of 15 6 not attempted, 1 to be read {NOTEBOOK} was graded and has",
+        f"copy_beside 0 of 15 6 not attempted, 1 to be read {NOTEBOOK} was graded but has",
         f"damaged_beside could not be graded {NOTEBOOK} is not valid JSON: ask the student for it "
         f"again; {COPY}",
         "p3-derivation has no answer; it may be in the student's own cell below",
@@ -213,8 +213,8 @@ def test_table_says(pair, line):
 @pytest.mark.parametrize(
     ("student", "sentence"),
     [
-        ("copy_beside", f"{NOTEBOOK} was graded and has no answers, but {COPY} beside it has"),
-        ("other_name", "Pendulum final (2).ipynb was graded in its place"),
+        ("copy_beside", f"{NOTEBOOK} was graded but has no answers; {COPY} beside it has some"),
+        ("other_name", "Pendulum final (2).ipynb was graded instead"),
         ("edited_locked_cells", "the text of p3-setup had been changed; the original was put back"),
         (
             "edited_locked_cells",
@@ -240,9 +240,9 @@ def test_the_student_is_told(pair, student, sentence):
 
 def test_nbgraders_log_says_the_same(pair):
     for said in (
-        "other_name: there is no p3-pendulum.ipynb; Pendulum final (2).ipynb was graded in its place",
-        f"two_other_names/{P3}: there is no p3-pendulum.ipynb, and it could be a.ipynb and b.ipynb",
-        f"copy_beside: {NOTEBOOK} was graded and has no answers, but {COPY} beside it has",
+        "other_name: there is no p3-pendulum.ipynb; Pendulum final (2).ipynb was graded instead",
+        f"two_other_names/{P3}: there is no p3-pendulum.ipynb, but there are a.ipynb and b.ipynb",
+        f"copy_beside: {NOTEBOOK} was graded but has no answers; {COPY} beside it has some",
         "edited_locked_cells: the text of p3-M had been changed",
         "edited_locked_cells: p3-derivation has no answer",
     ):

@@ -14,7 +14,7 @@ FILES = {
     "package/part.py": b"x = 'part'",
     "my data/one.csv": b"1,2",
     "script.py": b"y = 'run'",
-    # Names that the room itself, the wall and Python have.
+    # Names that the room itself, the protocol and Python have.
     "runner.py": b"x = 'not the room'",
     "numpy.py": b"raise SystemExit",
     "sympy.py": b"raise SystemExit",

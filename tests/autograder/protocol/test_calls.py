@@ -1,4 +1,4 @@
-"""The wall: what goes in comes out the same, only numbers come back, and nothing breaks the judge."""
+"""The protocol: what goes in comes out the same, only numbers come back, nothing breaks the judge."""
 
 import json
 import linecache
