@@ -1,4 +1,4 @@
-"""The first cell of a graded notebook, in which the grader tells the student about the whole of it."""
+"""Writes the first cell of a graded notebook: the grader's notes to the student about the notebook."""
 
 import re
 from collections.abc import Iterable

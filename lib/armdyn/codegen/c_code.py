@@ -1,4 +1,4 @@
-"""The C source of a derivation's forward dynamics and RK4 loop."""
+"""Writes the C source of a derivation's forward dynamics and RK4 loop."""
 
 import math
 from decimal import Decimal, getcontext
@@ -281,7 +281,9 @@ class _Printer(C99CodePrinter):
         try:
             return self.doprint(e)
         except PrintMethodNotImplementedError as error:
-            raise ValueError(f"derivation: holds {error}, which is not a function of C") from None
+            raise ValueError(
+                f"derivation: contains {error}, which is not a function of C"
+            ) from None
 
     def _print_Pow(self, expr):
         base, power = expr.as_base_exp()
