@@ -101,7 +101,7 @@ def _graded(submission, source, seed, beside, said) -> Graded:
             name = grade_id(cell)
             if name in CHECKS:
                 verdict = CHECKS[name].run(ask, stream(seed, name), HIDDEN_CASES)
-                verdict = sitting.told(CHECKS[name], verdict)
+                verdict = sitting.naming_an_earlier(CHECKS[name], verdict)
             else:
                 problem = f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
@@ -192,7 +192,7 @@ class Sitting:
             replies[-1] = Reply(fault=explained(calls[0].name, last, self._cells))
         return replies
 
-    def told(self, check: Check, verdict: Verdict) -> Verdict:
+    def naming_an_earlier(self, check: Check, verdict: Verdict) -> Verdict:
         """The verdict; if it is on an earlier function than the notebook's last, it says so."""
         earlier = stale(check.name, self._cells)
         if verdict.state not in (State.INCORRECT, State.PARTLY_CORRECT) or earlier is None:

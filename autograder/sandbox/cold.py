@@ -46,8 +46,8 @@ class ColdProcess:
     def ended(self) -> bool:
         return self._process.returncode is not None
 
-    def told(self, request: str, seconds: float) -> float | None:
-        return self._watch.told(request, seconds)
+    def ask_watch(self, request: str, seconds: float) -> float | None:
+        return self._watch.ask(request, seconds)
 
     def why_ended(self) -> str:
         stderr = self._process.stderr

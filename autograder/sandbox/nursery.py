@@ -144,7 +144,7 @@ class WatchLine:
         self._line, self._received, self._reason = line, b"", ""
         WatchLine._open.add(self)
 
-    def told(self, request: str, seconds: float) -> float | None:
+    def ask(self, request: str, seconds: float) -> float | None:
         """The processor time that the watch answers with, s; None if it has ended or is silent."""
         with suppress(OSError):
             self._line.sendall(request.encode() + b"\n")
@@ -201,8 +201,8 @@ class WarmProcess:
         self._watch = WatchLine(line)
         self.ended = False
 
-    def told(self, request: str, seconds: float) -> float | None:
-        return self._watch.told(request, seconds)
+    def ask_watch(self, request: str, seconds: float) -> float | None:
+        return self._watch.ask(request, seconds)
 
     def why_ended(self) -> str:
         return self._watch.reason()

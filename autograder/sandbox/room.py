@@ -214,13 +214,13 @@ class Room:
 
     def _sweep(self) -> None:
         """End what the student's code started; if that fails, end the room."""
-        used = self._process.told("sweep", WATCH_SECONDS)
+        used = self._process.ask_watch("sweep", WATCH_SECONDS)
         if used is None:
             self._lost("it left processes behind")
         self._used = used
 
     def _look(self) -> None:
-        used = self._process.told("used", WATCH_SECONDS)
+        used = self._process.ask_watch("used", WATCH_SECONDS)
         self._used = self._used if used is None else used
 
     def _forget_time(self) -> None:
