@@ -16,7 +16,7 @@ def said_of(fault: Fault, name: str, signature: str) -> str:
         "run as well.",
         FaultKind.STALE: f"The check judged an earlier {name}: the cell that defines it again "
         f"stopped with {fault.message}{where}. Fix that line.",
-        FaultKind.NOT_CALLABLE: f"{name} is a {fault.message}, not a function that can "
+        FaultKind.NOT_CALLABLE: f"{name} is of type {fault.message}, not a function that can "
         f"be called as {signature}. Did you use the name again further down?",
         FaultKind.RAISED: f"{signature} raised {fault.message}{where}.",
         FaultKind.TIMED_OUT: f"{signature} did not return within {fault.message}. "
