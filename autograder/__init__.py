@@ -1,4 +1,4 @@
-"""Checks, verdicts and grading of the course's problems."""
+"""Checks a student's answers to the course's problems, and grades submissions."""
 
 from autograder.protocol.languages import from_file
 from autograder.student.cell import check

@@ -1,4 +1,4 @@
-"""The `autograder` command."""
+"""The `autograder` command: student notebooks, JupyterLab, grading and reports."""
 
 import argparse
 import os
@@ -21,27 +21,30 @@ def main(arguments: list[str] | None = None) -> int:
     commands.add_parser("problems", help="write the student notebooks to problems/")
     commands.add_parser(
         "lab",
-        help="open JupyterLab on the first lesson, or with --instructor on all of the course; "
-        "further arguments go to JupyterLab",
+        help="open JupyterLab on the first lesson; with --instructor, on the whole course; "
+        "all other arguments go to JupyterLab",
         add_help=False,
     )
     grading = commands.add_parser(
         "grade", help="grade all submissions of an assignment, and record them in the gradebook"
     )
-    grading.add_argument("assignment", help="as it is called in solutions/, such as p3-pendulum")
+    grading.add_argument("assignment", help="its name in solutions/, such as p3-pendulum")
     grading.add_argument(
-        "--jobs", type=int, default=os.cpu_count(), help="processes (default: one a core)"
+        "--jobs",
+        type=int,
+        default=os.cpu_count(),
+        help="number of processes (default: one per core)",
     )
     grading.add_argument(
         "--scheduler", metavar="tcp://…", help="judge on the Dask cluster at this address"
     )
     grading.add_argument(
-        "--force", action="store_true", help="judge again what has been judged before"
+        "--force", action="store_true", help="judge every submission again, changed or not"
     )
     reporting = commands.add_parser(
-        "report", help="write a page on how a class did: scores, and who made which mistake"
+        "report", help="write a page about the class: scores, and who made which mistake"
     )
-    reporting.add_argument("assignment", help="as it is called in solutions/, such as p1-inertia")
+    reporting.add_argument("assignment", help="its name in solutions/, such as p1-inertia")
     if arguments[:1] == ["lab"]:
         from autograder.lab import lab  # imports Jupyter, which takes a second
 
@@ -50,7 +53,7 @@ def main(arguments: list[str] | None = None) -> int:
     root = Path.cwd()
     if not (root / "nbgrader_config.py").exists():
         return _complain(
-            f"{root} is not the course's folder (no nbgrader_config.py); "
+            f"{root} is not the course's folder: it has no nbgrader_config.py; "
             "change to the folder that holds solutions/ and try again"
         )
     if given.command == "grade":
@@ -61,7 +64,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: bool) -> int:
-    """Grade an assignment's submissions; 1 where one could not be graded."""
+    """Grade an assignment's submissions; the exit status is 1 if one could not be graded."""
     from autograder.pipeline import run as pipeline
 
     if not (root / "solutions" / assignment / f"{assignment}.ipynb").exists():
@@ -71,7 +74,7 @@ def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: 
     except (OSError, ValueError) as error:
         return _complain(str(error))
     except KeyboardInterrupt:
-        return _complain("stopped; the same command goes on from here", 130)
+        return _complain("stopped; run the same command again to go on from here", 130)
     if not lines:
         return _complain(f"nobody has handed in {assignment}")
     say(pipeline.table(lines))
@@ -87,7 +90,7 @@ def open_recorder(root: Path, assignment: str) -> "AbstractContextManager[Record
 
 def report(root: Path, assignment: str) -> int:
     """Write the report on an assignment's class to course/report/, and a summary to the terminal."""
-    from autograder import lean  # noqa: F401  lean first
+    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.files import put_in_place
     from autograder.nbgrader_glue.class_list import read_class
     from autograder.report import page, summary
@@ -112,7 +115,7 @@ def problems(root: Path) -> int:
         folder = root / "problems" / source.parent.name
         shown = (folder / source.name).relative_to(root)
         if (folder / source.name).exists():
-            say(f"{shown}: kept as it is, it is yours; move it away for a new one")
+            say(f"{shown}: kept, as it may hold your work; move it away to get a new one")
             continue
         from autograder.nbgrader_glue import write_problem  # imports nbgrader, which takes seconds
 
@@ -122,15 +125,14 @@ def problems(root: Path) -> int:
 
 
 def _tell_jupyter() -> int:
-    """Have plain `jupyter lab` know the course too; 0 also where it can't."""
+    """Let plain `jupyter lab` find the course too; 0 even if it cannot."""
     from autograder import lab_server  # imports Jupyter
 
     try:
         lab_server.enable()
     except OSError as error:
         _complain(
-            f"plain `jupyter lab` will not know the course ({error}); "
-            "start `autograder lab` in its place"
+            f"plain `jupyter lab` will not find the course ({error}); use `autograder lab` instead"
         )
     return 0
 

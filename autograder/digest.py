@@ -1,10 +1,10 @@
-"""A name for contents, by which they are known again."""
+"""Names contents by a hash, so that the same contents are recognised."""
 
 import hashlib
 
 
 def digest(*parts: str | bytes) -> str:
-    """A name for these parts: different for different parts, wherever one ends and the next begins."""
+    """A name for these parts; other parts have another name, even if they join to the same text."""
     whole = hashlib.sha256()
     for part in parts:
         data = part.encode(errors="surrogatepass") if isinstance(part, str) else part

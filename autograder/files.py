@@ -1,16 +1,16 @@
-"""Files that appear whole or not at all: written beside, then put in place."""
+"""Writes a file so that it appears whole or not at all."""
 
 import os
 import secrets
 from pathlib import Path
 
-PART = ".part"  # the end of a file's name that a killed run may leave
+PART = ".part"  # a killed run may leave a file whose name ends so
 
 
 def put_in_place(path: Path, content: str | bytes, mode: int = 0o666) -> None:
-    """Write a file, UTF-8 where it is text; where that fails, what was there before stays.
+    """Write a file, text as UTF-8; if that fails, what was there before stays.
 
-    mode: the permissions of a new file, before the umask. OSError where it cannot be written.
+    mode: the permissions of a new file, before the umask. OSError if it cannot be written.
     """
     data = content.encode("utf-8") if isinstance(content, str) else content
     if path.exists() and not path.is_file():  # a pipe or a terminal, which nothing can replace

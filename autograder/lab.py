@@ -1,4 +1,4 @@
-"""JupyterLab, as `make lab` and `autograder lab` start it: for a student, or for an instructor."""
+"""Starts JupyterLab for a student or an instructor: `make lab` and `autograder lab`."""
 
 import json
 import logging
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 FIRST_LESSON = "lessons/00-start-here.ipynb"
 FIRST_PROBLEM = "problems/p3-pendulum/p3-pendulum.ipynb"
-# Where the libraries below the server write, each its own part of one error.
+# The logs of the libraries under the server, which each write a part of one error.
 OTHERS_LOGS = ("asyncio", "tornado.access", "tornado.application", "tornado.general")
 INSTRUCTORS_EXTENSIONS = (
     "@jupyter/nbgrader:course-list",
@@ -26,22 +26,22 @@ INSTRUCTORS_EXTENSIONS = (
 def lab(arguments: list[str]) -> int:
     """Serve JupyterLab from the course's folder until it is stopped; its exit status.
 
-    With `--instructor`, it shows all of the course, and nbgrader's Formgrader and Create Assignment;
-    without, what a student needs. The other `arguments` go to JupyterLab and win over what is set
-    here. One line on stdout says which address to open; where the server cannot start, one line on
+    With `--instructor`, it shows the whole course, and nbgrader's Formgrader and Create Assignment;
+    without, what a student needs. The other `arguments` go to JupyterLab, and override what is set
+    here. One line on stdout says which address to open; if the server cannot start, one line on
     stderr says what to do.
     """
     root = Path.cwd()
     if not (root / "lessons").is_dir():
-        return _fail(f"no lessons/ in {root}; change to the folder of the course and try again")
+        return _fail(f"there is no lessons/ in {root}; change to the course's folder and try again")
     try:
         port = _port(arguments)
     except ValueError as error:
         return _fail(str(error))
     if port and not _is_free(port):
         return _fail(
-            f"port {port} is taken; stop what runs there, name another one, or leave --port out "
-            "to get one that is free"
+            f"port {port} is in use; stop the program that uses it, choose another port, or leave out "
+            "--port to get a free one"
         )
 
     from jupyterlab.labapp import LabApp  # takes a second
@@ -72,7 +72,7 @@ def lab(arguments: list[str]) -> int:
 
 
 def _is_an_error(record: logging.LogRecord) -> bool:
-    """False where a browser's page was closed or loaded again while something was written to it."""
+    """False if a page was closed or loaded again in the browser while the server wrote to it."""
     from tornado.iostream import StreamClosedError
     from tornado.websocket import WebSocketClosedError
 
@@ -81,8 +81,8 @@ def _is_an_error(record: logging.LogRecord) -> bool:
 
 
 def _write_settings(folder: Path, student: bool) -> None:
-    """JupyterLab's own settings: which of its parts are there, and what they ask for."""
-    # Unasked, it would ask a student first of all whether to fetch Jupyter's news.
+    """Write JupyterLab's own settings: which of its parts are there, and what they ask for."""
+    # Without this, it would first ask a student whether to fetch Jupyter's news.
     overrides = {"@jupyterlab/apputils-extension:notification": {"fetchNews": "false"}}
     page = {"disabledExtensions": list(INSTRUCTORS_EXTENSIONS) if student else []}
     folder.mkdir(parents=True, exist_ok=True)
@@ -91,7 +91,7 @@ def _write_settings(folder: Path, student: bool) -> None:
 
 
 def _settings(root: Path, state: Path, opens: str) -> list[str]:
-    """What JupyterLab is started with: quiet, and asking nothing of any host."""
+    """The arguments that start JupyterLab, quiet and without a request to any other host."""
     settings = [
         f"--ServerApp.root_dir={root}",
         "--ServerApp.jpserver_extensions={'autograder.lab_server': True}",
@@ -125,7 +125,7 @@ def _has_display() -> bool:
 
 
 def _port(arguments: list[str]) -> int | None:
-    """The port that the arguments ask for; ValueError where it is none."""
+    """The port that the arguments ask for; ValueError if it is not a port."""
     found = None
     for position, argument in enumerate(arguments):
         name, equals, value = argument.partition("=")

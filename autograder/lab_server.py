@@ -1,7 +1,7 @@
-"""What every Jupyter server of the course's environment does for a course, however it was started.
+"""Prepares a Jupyter server for the course, however the server was started.
 
-`make lab`, `autograder lab` and plain `jupyter lab` all load this server extension. A server that
-is started outside a course is left as it is.
+`make lab`, `autograder lab` and plain `jupyter lab` all load this server extension. It changes
+nothing in a server that is started outside a course.
 """
 
 import os
@@ -14,7 +14,7 @@ from jupyter_server.serverapp import ServerApp
 from jupyter_server.services.contents.largefilemanager import AsyncLargeFileManager
 from traitlets import Bool
 
-# What a student has no use for. What a student adds to the course's folder is shown.
+# Files that students do not need. Files that they add to the course's folder are shown.
 NOT_FOR_STUDENTS = (
     "CHANGELOG.md",
     "CITATION.cff",
@@ -40,10 +40,10 @@ NOT_FOR_STUDENTS = (
 class CourseContents(AsyncLargeFileManager):
     """The course's files; a notebook that is only opened stays unchanged."""
 
-    for_student = Bool(False, help="Show only what a student has a use for.").tag(config=True)
+    for_student = Bool(False, help="Show only the files that a student needs.").tag(config=True)
 
     async def get(self, path: str, *arguments: Any, **options: Any) -> dict[str, Any]:
-        """The model of a file or a folder; as AsyncLargeFileManager says."""
+        """The model of a file or a folder, as AsyncLargeFileManager gives it."""
         model = await super().get(path, *arguments, **options)
         if model["content"] is None:
             return model
@@ -55,10 +55,10 @@ class CourseContents(AsyncLargeFileManager):
 
 
 def _know_language(metadata: dict[str, Any]) -> None:
-    """Say which Python will run the notebook, if it is this one.
+    """Write this Python's version into a notebook that it will run.
 
-    JupyterLab writes it into each notebook it opens, and takes a notebook where it was not there,
-    or was another version, for changed.
+    JupyterLab writes the version into each notebook that it opens; if there was none, or another one,
+    it takes the notebook for changed.
     """
     from ipykernel.ipkernel import IPythonKernel  # takes half a second
 
@@ -75,7 +75,7 @@ def course_of(folder: Path) -> Path | None:
 
 
 def enable() -> None:
-    """Have every Jupyter server of this environment load this; OSError where it can't be written."""
+    """Let every Jupyter server of this environment load this; OSError if that cannot be written."""
     toggle_server_extension_python(__name__, enabled=True)
 
 
@@ -95,9 +95,9 @@ def _link_jupyter_server_extension(server: ServerApp) -> None:
     if "contents_manager_class" not in server.config.ServerApp:
         server.contents_manager_class = CourseContents
     if zmq.has("curve"):
-        # Without, each kernel warns in the terminal that others could read its traffic.
+        # Without this, each kernel warns in the terminal that others could read its traffic.
         server.config.MappingKernelManager.setdefault("transport_encryption", "auto")
 
 
 def _load_jupyter_server_extension(server: ServerApp) -> None:
-    """Nothing is served beside what Jupyter serves."""
+    """Jupyter calls this; the extension serves nothing of its own."""

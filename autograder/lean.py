@@ -1,7 +1,7 @@
-"""Imported first, this keeps `jsonschema` from loading `rfc3987_syntax`, which takes two seconds.
+"""Import this first: it keeps `jsonschema` from loading `rfc3987_syntax`, which takes two seconds.
 
 nbformat and nbgrader import jsonschema, which builds a grammar for international web addresses.
-No schema of a notebook asks for one, and jsonschema does without where the package is missing.
+No schema of a notebook needs it, and jsonschema does without it if the package is missing.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""What this program says in a terminal: text, and nothing that a terminal obeys."""
+"""Prints text in a terminal without any control sequence that the terminal would obey."""
 
 import sys
 from typing import TextIO
@@ -17,7 +17,7 @@ def say(text: str, to: TextIO | None = None) -> None:
 
 
 def plain(text: str) -> str:
-    """The text with all but line breaks printable: of the rest, each character's code instead."""
+    """The text with the code of each character that is not printable, except for line breaks."""
     return "".join(
         character if character.isprintable() or character == "\n" else repr(character)[1:-1]
         for character in text
@@ -25,10 +25,10 @@ def plain(text: str) -> str:
 
 
 def shown_name(student: str) -> str:
-    """A student's id in a line of ours, whatever it holds."""
+    """A student's id, whatever it holds, as part of one line."""
     return one_line(student, MOST_OF_A_NAME)
 
 
 def shown_note(note: str) -> str:
-    """What the instructor is told of a submission, in a line of ours."""
+    """A note to the instructor, as part of one line."""
     return one_line(note, MOST_OF_A_NOTE)

@@ -1,1 +1,1 @@
-"""From the numbers that came back to a verdict: what is right, and which mistake is not."""
+"""Judges the numbers that come back from a student's function, and names the mistake in them."""

@@ -1,4 +1,4 @@
-"""How a verdict looks in a notebook: a card whose text says everything its colour says."""
+"""Shows a verdict in a notebook as a card; whatever the colour says, the text says too."""
 
 import cmath
 import itertools
@@ -50,10 +50,10 @@ def mimebundle(verdict: Verdict) -> dict[str, str]:
 
 
 def drawing(pose: tuple[tuple[float, float], ...], size: int = 110) -> str:
-    """An arm as an SVG picture, with a text for who cannot see it. Dashed: from where each angle is
-    counted, the x axis and the line of the link before.
+    """An arm as an SVG picture, with a text for those who cannot see it. A dashed line shows where
+    each angle starts: at the x axis, or along the link before.
 
-    pose: its joints and its hand, (x, y) in m, the first at the base. size: of the longer side, px.
+    pose: the arm's joints and its hand, (x, y) in m, from the base. size: the longer side, px.
     """
     points = [complex(*point) for point in pose]
     links = [b - a for a, b in itertools.pairwise(points)]
@@ -99,7 +99,7 @@ def drawing(pose: tuple[tuple[float, float], ...], size: int = 110) -> str:
 
 
 def _describe(links: list[complex]) -> str:
-    """How the links lie, in whole degrees, each counted from the one before."""
+    """The links' directions in whole degrees, each from the link before."""
     said = [f"link 1 at {_degrees(links[0])} from the x axis"] if links else []
     for k, (before, link) in enumerate(itertools.pairwise(links), 2):
         said.append(f"link {k} at {_degrees(link * before.conjugate())} from link {k - 1}")
@@ -121,7 +121,7 @@ def _paragraph(kind: str, text: str) -> str:
     if not text:
         return ""
     weight = "; font-weight: 600" if kind == "diagnosis" else ""
-    # Only there may a student's own words stand. As a formula they could be a link that runs code.
+    # Only a problem may quote a student. As a formula, the quote could be a link that runs code.
     plain = " tex2jax_ignore mathjax_ignore" if kind == "problem" else ""
     return f'<p class="armdyn-{kind}{plain}" style="margin: 0.3em 0{weight}">{escape(text)}</p>'
 

@@ -121,7 +121,9 @@ class Check:
         try:
             again = self._given(calls, second, describe_second_fault)
         except _NoNumbersError as error:
-            return self._error(f"{changes.remark(self.name, changed, True)} Then {error}")
+            return self._error(
+                f"{changes.remark(self.name, changed, True)} On the second call, {error}"
+            )
         return self.judge(calls, expected, given, again, changed)
 
     def _given(
@@ -222,7 +224,7 @@ class Check:
         )
 
     def _error(self, problem: str) -> Verdict:
-        step = "Mend this first; then the check can look at the physics."
+        step = "Fix this first: the check can't look at the physics until the function runs."
         return Verdict(self.id, State.ERROR, problem=problem, next_step=step)
 
     def _failed(self, error: Exception) -> Verdict:

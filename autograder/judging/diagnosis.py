@@ -1,7 +1,7 @@
-"""From wrong numbers to a sentence: which known mistake they show, or in which term they differ.
+"""Finds the known mistake that wrong numbers show, or the term in which they are wrong.
 
-A mistake is named only where the student's numbers equal its numbers to rounding in every random
-case, or those of two mistakes at once. Where none does, the error is projected on the known terms.
+A mistake is named only if the student's numbers equal its numbers to rounding in every random case,
+or those of two mistakes at once. If none matches, the error is projected on the known terms.
 """
 
 from collections.abc import Callable
@@ -13,9 +13,9 @@ import numpy as np
 from autograder.judging.criterion import TOLERANCE, Criterion, relative_errors
 from autograder.judging.quantities import Numbers
 
-# The share of an error that lies along the known terms, above which it is said to sit in them.
+# An error with more than this share along the known terms is said to be in them.
 MOSTLY = 0.95
-# A term with less than this share of the error is not spoken of.
+# A term with less than this share of the error is not named.
 NOTABLE = 0.05
 
 
@@ -146,7 +146,7 @@ def terms_off(
 def _where(criterion: Criterion, off: list[tuple[Term, float, float]]) -> str:
     """No known mistake, but the error is made of known terms: their names, and by how much."""
     said = " and ".join(f"{term.name} ({factor:+.2g} times it)" for term, _, factor in off)
-    return f"What is off in your {criterion.text} varies like {said}."
+    return f"The error in your {criterion.text} varies like {said}."
 
 
 def _part(k: int, numbers: Numbers) -> list[np.ndarray]:

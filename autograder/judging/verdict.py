@@ -6,7 +6,7 @@ from enum import StrEnum
 
 
 class State(StrEnum):
-    """Where an answer stands. The last state is ours: the check failed, the student is not to blame."""
+    """Where an answer stands. In the last state the check failed; the student is not to blame."""
 
     CORRECT = "correct"
     PARTLY_CORRECT = "partly correct"
@@ -27,8 +27,8 @@ class Row:
 
 @dataclass(frozen=True)
 class Witness:
-    """The worst case: what was called, what came back, how far off it was, with the unit; of a truth
-    value, off is empty.
+    """The worst case: the call, what came back, and how far off that was, with the unit. A truth
+    value is right or wrong, so its `off` is empty.
 
     pose: the arm's joints in that call, one (x, y) in m each, where drawing it helps.
     """
@@ -41,11 +41,12 @@ class Witness:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is known of one answer. `credit` is its share of the cell's points, in [0, 1].
+    """What the check found out about one answer.
 
-    `problem` says what is wrong with the code where the state is an error, or that it is not the code
-    on the screen; `diagnosis` says of each criterion that is not met what is known of the reason;
-    `remark` says, of a right answer too, what harms other code; `next_step` is what to do now.
+    credit: its share of the cell's points, in [0, 1]. problem: why the code gave no numbers, or that it
+    is not the code on the screen. diagnosis: for each criterion that is not met, what is known of the
+    reason. remark: what in the answer, even a right one, harms other code. next_step: what the student
+    can do now.
     """
 
     check: str
@@ -81,7 +82,7 @@ class Verdict:
         ]
 
     def __str__(self):
-        # Of one criterion alone the share is plain.
+        # A single criterion has the whole credit, so its share says nothing.
         shares = [f" ({row.share:.0%})" if len(self.rows) > 1 else "" for row in self.rows]
         rows = [f"  [{'x' if row.met else ' '}] {row.text}{share}"
                 for row, share in zip(self.rows, shares, strict=True)]  # fmt: skip

@@ -1,4 +1,4 @@
-"""The only place that knows nbgrader: its preprocessors, its scores, its gradebook, its commands.
+"""Connects the grader to nbgrader; no other package knows nbgrader.
 
 Importing this package does not import nbgrader, which takes seconds; its modules do.
 """

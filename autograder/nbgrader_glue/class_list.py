@@ -1,4 +1,4 @@
-"""A class as the gradebook and the autograded notebooks have it, for its report."""
+"""Reads a class from the gradebook and the autograded notebooks, for its report."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from autograder.terminal import shown_name
 def read_class(root: Path, assignment: str) -> tuple[float, list[Student]]:
     """The assignment's points, and its students in order of their names.
 
-    root: the course's folder. ValueError where the gradebook does not know the assignment.
+    root: the course's folder. ValueError if the gradebook does not know the assignment.
     """
     config = configuration(root)
     config.CourseDirectory.assignment_id = assignment
@@ -33,7 +33,7 @@ def _student(name: str, notebook: Path, standing) -> Student:
     if why := names.refusal(name):
         return Student(shown_name(name), note=why)
     if standing is None or not notebook.exists():
-        return Student(name, note="not graded yet, or could not be")
+        return Student(name, note="not graded yet, or it could not be graded")
     try:
         verdicts = read_verdicts(notebook)
     except ValueError as error:

@@ -1,4 +1,4 @@
-"""The feedback pages of `nbgrader generate_feedback`."""
+"""Writes the feedback pages of `nbgrader generate_feedback`."""
 
 from nbconvert.exporters import HTMLExporter
 
@@ -7,9 +7,9 @@ from autograder.nbgrader_glue.start import can_start
 
 
 class FeedbackExporter(HTMLExporter):
-    """nbconvert's, for the students whose names nbgrader can handle.
+    """nbconvert's exporter, for the students whose names nbgrader can handle.
 
-    It is made when `generate_feedback` has found the graded notebooks and has changed nothing yet.
+    nbgrader makes it when it has found the graded notebooks, and before it changes anything.
     """
 
     def __init__(self, config=None, **kw):

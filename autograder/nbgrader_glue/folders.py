@@ -1,4 +1,4 @@
-"""An assignment's folders in a course, as nbgrader lays them out and writes them."""
+"""Finds and writes an assignment's folders in a course, where nbgrader has them."""
 
 import glob
 import logging
@@ -19,7 +19,7 @@ from autograder.nbgrader_glue import handed_in, names, submitted
 from autograder.notebook.beside import Beside
 
 QUIET = logging.getLogger("autograder.nbgrader")
-QUIET.setLevel(logging.CRITICAL)  # what is mended stands in the summary table
+QUIET.setLevel(logging.CRITICAL)  # the summary table says what was put right
 
 Files = dict[str, tuple[int, int]]  # path in its folder → size, time in ns
 
@@ -53,7 +53,7 @@ class Folders:
         return Path(folder) / f"{self.assignment}.ipynb"
 
     def counted(self, student: str, source: NotebookNode) -> tuple[Path, list[str]]:
-        """The notebook of a submission that is graded, and what to know of the others."""
+        """The notebook of a submission that is graded, and notes on the others."""
         return handed_in.counted(self.submitted(student), self.assignment, source)
 
     def laid_in(self, student: str) -> Beside:
@@ -62,11 +62,11 @@ class Folders:
         return handed_in.beside(self.submitted(student), self.source, self.course.ignore, kept)
 
     def timestamp(self, student: str):
-        """When it was handed in, in UTC; None where that is not known. RefusedError where it is none."""
+        """When it was handed in, in UTC, or None; RefusedError if its timestamp.txt holds no time."""
         return submitted.timestamp(self.course, self.submitted(student))
 
     def check(self, student: str) -> None:
-        """RefusedError where nothing of the submission is to be read."""
+        """RefusedError if the grader must not read the submission."""
         if why := names.refusal(student):
             raise submitted.RefusedError(why)
         top = Path(self.course.root) / self.course.submitted_directory
@@ -82,10 +82,10 @@ class Folders:
 
     @contextmanager
     def written(self, student: str, notebook: bytes) -> Iterator[None]:
-        """The graded notebook, and the files beside it, in place when the block ends.
+        """Put the graded notebook and the files beside it in place when the block ends.
 
-        The source's files win over the student's. Where something fails, here or in the block, what
-        was in that place before stays.
+        The source's files replace a student's of the same name. If something fails, here or in the
+        block, what was there before stays.
         """
         path = self.autograded(student)
         folder = path.parent
@@ -115,7 +115,7 @@ class Folders:
         self.converter.set_permissions(self.assignment, student)
 
     def _fill(self, folder: Path, student: str) -> None:
-        """A folder with what belongs beside the notebook."""
+        """Fill a folder with the files beside the notebook."""
         folder.mkdir(mode=0o755, parents=True)
         copied = {name: self.submitted(student) for name in self.beside(student)}
         copied |= dict.fromkeys(self.beside_source.keys() - self._not_copied, self.source)

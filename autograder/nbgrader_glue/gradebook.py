@@ -1,7 +1,7 @@
-"""The rows that `nbgrader autograde` writes, written through one gradebook that stays open.
+"""Writes the rows that `nbgrader autograde` would write, through one gradebook that stays open.
 
-nbgrader's own tables, scores and late penalties; but where it opens its database nine times a
-notebook, here a submission is one transaction of a few statements.
+Tables, scores and late penalties are nbgrader's own. But nbgrader opens its database nine times for
+each notebook; here, a submission is one transaction of a few statements.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ COPIED = ("name", "cell_type", "locked", "source", "checksum")
 
 @dataclass(frozen=True)
 class Standing:
-    """A submission in the gradebook: its automatic rows as text, its points, cells not read yet."""
+    """A submission in the gradebook: its automatic rows as text, its points, its cells to be read."""
 
     rows: str
     score: float
@@ -27,7 +27,7 @@ class Standing:
 
 
 class Rows:
-    """One assignment's rows. ValueError where it is not there, or has not one notebook of its name.
+    """One assignment's rows. ValueError if it is not there, or has not exactly one notebook of its name.
 
     penalty: (student, score, seconds late) → the late penalty, or None.
     """
@@ -50,9 +50,9 @@ class Rows:
         return student in self._students
 
     def enter(self, student: str, timestamp: datetime | None):
-        """The submission's rows, new or as they are: (submission, notebook, grades, comments).
+        """The submission's rows, old or new: (submission, notebook, grades, comments).
 
-        Not committed yet.
+        New rows are not committed yet.
         """
         db = self._db
         if student not in self._students:
@@ -96,7 +96,7 @@ class Rows:
                 grade = _found(grade_of, cell)
                 score = utils.determine_grade(cell, QUIET)[0]
                 grade.auto_score = None if score is None else float(score)
-                # A person's mark wants another look when the answer may have changed.
+                # A person should look at a manual score again, as the answer may have changed.
                 grade.needs_manual_grade = grade.manual_score is not None or score is None
             if utils.is_solution(cell) or utils.is_task(cell):
                 same = cell.metadata.nbgrader.get("checksum") == utils.compute_checksum(cell)
@@ -110,10 +110,10 @@ class Rows:
 
     def commit(self) -> None:
         self._db.commit()
-        self._db.expunge_all()  # so that the last submission costs what the first one did
+        self._db.expunge_all()  # so that the last submission takes no longer than the first one
 
     def forget(self) -> None:
-        """After an error: what was not committed is dropped."""
+        """Drop what was not committed, after an error."""
         self._db.rollback()
         self._db.expunge_all()
         self._students = set(self._db.scalars(select(api.Student.id)))
@@ -147,11 +147,11 @@ class Rows:
 
     def _standing(self, submission, notebook, grades, comments) -> Standing:
         automatic = sorted((self._names[row.cell_id], row.auto_score) for row in grades)
-        said = sorted((self._names[row.cell_id], row.auto_comment) for row in comments)
+        texts = sorted((self._names[row.cell_id], row.auto_comment) for row in comments)
         penalty = notebook.late_submission_penalty
         when = (self._due, submission.extension, submission.timestamp, penalty)
         return Standing(
-            repr((*when, automatic, said)),
+            repr((*when, automatic, texts)),
             sum(map(_points, grades)) - (penalty or 0.0),
             sum(bool(row.needs_manual_grade) for row in grades),
         )
@@ -163,7 +163,7 @@ class Rows:
         if due is None or submission.timestamp is None or submission.timestamp <= due:
             return None
         self._db.flush()
-        # The database adds up, as for nbgrader, so that not even a rounding differs.
+        # The database adds up, as it does for nbgrader, so that not even the rounding differs.
         score = self._db.scalar(
             select(api.SubmittedNotebook.score).where(api.SubmittedNotebook.id == notebook)
         )
@@ -175,7 +175,7 @@ class Rows:
         )
 
     def _read_cells(self, name: str) -> None:
-        """Copies of the gradebook's cells, which no commit takes away."""
+        """Copy the gradebook's cells, so that no commit expires them."""
         command = f"run `nbgrader generate_assignment {name}` first"
         try:
             assignment = self._gradebook.find_assignment(name)
@@ -184,7 +184,7 @@ class Rows:
         names = [notebook.name for notebook in assignment.notebooks]
         if names != [name]:
             raise ValueError(
-                f"{name} must have one notebook, {name}.ipynb, and has "
+                f"{name} must have one notebook, {name}.ipynb, but it has "
                 f"{', '.join(names) or 'none'}: use `nbgrader autograde`, or {command}"
             )
         notebook = assignment.notebooks[0]

@@ -1,4 +1,4 @@
-"""The scores of a course as a table that a spreadsheet may open: `nbgrader export`."""
+"""Writes a course's scores as a table that is safe in a spreadsheet: `nbgrader export`."""
 
 import csv
 import io
@@ -23,12 +23,12 @@ COLUMNS = (
     "score",
     "max_score",
 )
-# What a spreadsheet may take for a formula: these signs, wide forms too, whatever space is before them.
+# A spreadsheet may take a text for a formula if it starts so, also after spaces or in wide forms.
 FORMULA = re.compile(r"[\s']*[=+\-@\uff1d\uff0b\uff0d\uff20]|'*[\t\r\n]")
 
 
 class GradesExporter(CsvExportPlugin):
-    """nbgrader's table: the same columns and rows, but no text in it is a formula or breaks a row."""
+    """Writes nbgrader's table, but so that no text in it is a formula or breaks a row."""
 
     def export(self, gradebook: Gradebook) -> None:
         to = Path(self.to or "grades.csv")
@@ -68,8 +68,8 @@ def _text(value) -> str:
 
 
 def harmless(text: str) -> str:
-    """The text with an apostrophe before it where a spreadsheet would take it for a formula.
+    """The text, with an apostrophe before it if a spreadsheet would take it for a formula.
 
-    Texts that differ stay different: one apostrophe taken off gives back what stood there.
+    Different texts stay different: without the apostrophe, each is what it was.
     """
     return f"'{text}" if FORMULA.match(text) else text

@@ -1,4 +1,4 @@
-"""Which of the notebooks in a submission's folder is graded, and which files lie beside it."""
+"""Chooses the notebook in a submission's folder that is graded, and the files beside it."""
 
 import os
 import warnings
@@ -14,7 +14,7 @@ from autograder.notebook.beside import Beside, choose
 from autograder.notebook.recognise import Likeness, likeness
 from autograder.protocol import one_line
 
-# Of notebooks that are only looked at, the smallest first.
+# Limits on notebooks that are only looked at; the smallest come first.
 MOST_LOOKED_AT = 20
 MOST_BYTES = 32 << 20
 MOST_NAMES = 5
@@ -24,11 +24,11 @@ UNREADABLE = Likeness(known=False, answered=True)
 
 
 def counted(folder: Path, name: str, source: NotebookNode) -> tuple[Path, list[str]]:
-    """The notebook that is graded, and what to know of the others.
+    """The notebook that is graded, and notes on the others.
 
-    The one of the assignment's name, whatever else is there; where there is none, the one that is
-    recognised by its cells. FileNotFoundError, which says what is there, where there is no such one or
-    several have answers.
+    That is the notebook with the assignment's name, whatever else is there; without one, the notebook
+    that is recognised by its cells. FileNotFoundError, which says what is there, if there is none, or
+    if several have answers.
     """
     wanted = folder / f"{name}.ipynb"
     notebooks = sorted(path for path in folder.glob("*.ipynb") if path.is_file())
@@ -47,11 +47,11 @@ def counted(folder: Path, name: str, source: NotebookNode) -> tuple[Path, list[s
     rest = [
         _ignored(path, like, taken, alike[taken]) for path, like in alike.items() if path != taken
     ]
-    return taken, [f"there is no {wanted.name}; {_shown(taken)} was graded in its place", *rest]
+    return taken, [f"there is no {wanted.name}; {_shown(taken)} was graded instead", *rest]
 
 
 def beside(folder: Path, source: Path, ignore: list[str], kept: list[str]) -> Beside:
-    """A submission's files, no notebooks. The source's win over the student's, except `kept`."""
+    """A submission's files without notebooks. The source's replace the student's, except for `kept`."""
     found = _files(folder, ignore)
     theirs = {name: path for name, path in found.items() if path.suffix != ".ipynb"}
     ours = _files(source, [*ignore, "*.ipynb"])
@@ -88,7 +88,7 @@ def _is_text(parts) -> bool:
 
 
 def _few(notebooks: list[Path]) -> list[Path]:
-    """As many as one hand-in may have read, in order of their names."""
+    """Those within the limits, in order of their names."""
     sizes = {path: path.stat().st_size for path in notebooks}
     smallest = sorted(notebooks, key=lambda path: sizes[path])[:MOST_LOOKED_AT]
     totals = accumulate(sizes[path] for path in smallest)
@@ -102,13 +102,13 @@ def _likeness(path: Path, source: NotebookNode) -> Likeness:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return likeness(nbformat.read(path, as_version=4), source)
-    except Exception:  # whatever it is, it is no notebook of this assignment
+    except Exception:  # not a notebook of this assignment, whatever it is
         return UNREADABLE
 
 
 def _ignored(path: Path, like: Likeness, graded: Path, mine: Likeness) -> str:
     if like.answered and not mine.answered:
-        return f"{_shown(graded)} was graded and has no answers, but {_shown(path)} beside it has"
+        return f"{_shown(graded)} was graded but has no answers; {_shown(path)} beside it has some"
     there = "with answers" if like.answered else "without answers"
     return f"{_shown(path)}, {there}, lies beside {_shown(graded)} and was not graded"
 
@@ -117,7 +117,7 @@ def _what_is_there(folder: Path, wanted: Path, answered: list[Path]) -> str:
     missing = f"there is no {wanted.name}"
     if answered:
         shown = " and ".join(map(_shown, answered))
-        return f"{missing}, and it could be {shown}: ask which one counts, and rename it"
+        return f"{missing}, but there are {shown}: ask the student which one counts, and rename it"
     names = sorted(
         os.path.relpath(os.path.join(at, file), folder)
         for at, _, files in os.walk(folder)

@@ -1,4 +1,4 @@
-"""nbgrader's log, in which names and notebooks are text that no terminal obeys."""
+"""Writes nbgrader's log so that no name or notebook in it can control the terminal."""
 
 import copy
 import logging
@@ -12,7 +12,7 @@ class PlainFormatter(LogFormatter):
     """nbgrader's own format; its colours stay."""
 
     def format(self, record: logging.LogRecord) -> str:
-        record = copy.copy(record)  # other handlers have theirs
+        record = copy.copy(record)  # other handlers get the original
         record.msg, record.args = plain(record.getMessage()), ()
         return super().format(record)
 

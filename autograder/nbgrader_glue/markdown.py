@@ -1,7 +1,7 @@
-"""Markdown cells as the formgrader and the feedback page show them: nothing in them runs.
+"""Shows Markdown cells in the formgrader and on feedback pages so that nothing in them runs.
 
-A student writes them, and the instructor reads them logged in. nbconvert's own `sanitize_html` is no
-substitute: it cleans the verdicts' cards as well, and not the formgrader's pages.
+A student writes them, and the instructor is logged in when reading them. nbconvert's own `sanitize_html`
+does not replace this: it also cleans the verdicts' cards, and it does not clean the formgrader's pages.
 """
 
 import html
@@ -18,7 +18,7 @@ input ins kbd li mark ol p pre q s samp small span strong sub summary sup table 
 thead tr u ul var
 """
 PLAIN = "align alt checked colspan disabled height rowspan start title width"
-# What highlights code and draws diagrams. Others would look, or be taken, for parts of the page.
+# Classes that highlight code and draw diagrams. Others could look like parts of the page.
 CLASSES = re.compile(r"highlight|mermaid|jp-Mermaid|language-[\w+#-]+|[a-z][a-z0-9]{0,2}")
 LINK = re.compile(r"https?://|mailto:", re.IGNORECASE)
 PICTURE = re.compile(r"https?://|data:image/(png|jpeg|gif|webp|svg\+xml);base64,", re.IGNORECASE)
@@ -27,16 +27,16 @@ BESIDE = re.compile(r"\w[\w ./()+-]*")  # a file that was handed in with the not
 
 @pass_context
 def markdown2html(context, source: str) -> str:
-    """HTML of a cell's Markdown, formulas left as they are; what could run is shown as text."""
+    """A cell's Markdown as HTML, with its formulas as they are; what could run is shown as text."""
     cell = context.get("cell", {})
     renderer = IPythonRenderer(
         escape=False, attachments=cell.get("attachments", {}), exclude_anchor_links=True
     )
     try:
         shown = MarkdownWithMath(renderer=renderer).render(source)
-        # Not shared between pages: a cleaner is not made for threads.
+        # Each page gets its own cleaner, which is not made for threads.
         return bleach.clean(shown, set(TAGS.split()), _is_kept, {"http", "https", "mailto", "data"})
-    except Exception:  # a picture that is not there, or quotes nested without end: no page at all
+    except Exception:  # a missing picture, or quotes nested too deep, would stop the page
         return f"<pre>{html.escape(source)}</pre>"
 
 

@@ -1,4 +1,4 @@
-"""Folders' names as students' ids: which ones nbgrader, the gradebook and a terminal can handle."""
+"""Checks folders' names, which are students' ids: can nbgrader, gradebook and terminal handle them?"""
 
 import glob
 import os
@@ -11,15 +11,15 @@ from nbgrader.coursedir import CourseDirectory
 
 from autograder.terminal import shown_name
 
-MOST_CHARACTERS = 128  # as many as the gradebook's column for an id has
+MOST_CHARACTERS = 128  # the gradebook's column for ids holds no more
 PATTERN = re.compile(r"[*?[]")
-# Control characters, ends of lines and paragraphs; what turns the direction of the text around it.
+# Control characters, ends of lines and paragraphs; and characters that turn the text's direction.
 UNFIT = {"Cc", "Zl", "Zp"}
 TURNING = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}
 
 
 def refusal(student: str) -> str:
-    """Why a folder of this name cannot be graded, and what to do; empty where it can be."""
+    """Why a folder of this name cannot be graded, and what to do; empty if it can be."""
     return f"{why}: rename the folder" if (why := _fault(student)) else ""
 
 
@@ -29,21 +29,21 @@ def _fault(student: str) -> str:
     for character in student:
         kind, turns = unicodedata.category(character), unicodedata.bidirectional(character)
         if kind in UNFIT or turns in TURNING:
-            return f"the folder's name holds {character!a}, which no list can show"
+            return f"the folder's name contains {character!a}, which no list can show"
     if found := PATTERN.search(student):
-        return f"the folder's name holds {found[0]}, which nbgrader takes for a pattern"
+        return f"the folder's name contains {found[0]}, which nbgrader takes for a pattern"
     if student.startswith("."):
-        return "the folder's name begins with a dot, and nbgrader overlooks it"
+        return "the folder's name starts with a dot, so nbgrader does not see it"
     if len(student) > MOST_CHARACTERS:
         return (
-            f"the folder's name has {len(student)} characters, and the gradebook holds "
-            f"{MOST_CHARACTERS}"
+            f"the folder's name has {len(student)} characters; the gradebook takes "
+            f"{MOST_CHARACTERS} at most"
         )
     return ""
 
 
 def folders(course: CourseDirectory, step: str, student: str, assignment: str) -> dict[str, str]:
-    """Folder → student, in one of the course's steps, in order; whatever the names hold.
+    """Folder → student in one of the course's steps, in order, whatever the names contain.
 
     student, assignment: patterns, as `glob` has them. Excluded students are left out.
     """
@@ -61,10 +61,10 @@ def folders(course: CourseDirectory, step: str, student: str, assignment: str) -
 
 
 def leave_out_unfit(converter) -> None:
-    """Keep an nbgrader command to the names it can handle; it ends with a line on each other one.
+    """Let an nbgrader command leave out the names that it cannot handle, with a line on each at its end.
 
-    converter: nbgrader's, which has found its notebooks and has touched none of them yet. Without
-    this, a line break in one name ends the command, and a pattern stands for other people's folders.
+    converter: nbgrader's own, which has found its notebooks and not touched them yet. Without this, a
+    line break in a name stops the command, and a pattern matches other people's folders.
     """
     lines = list(_take_out(converter))
     if not lines:
@@ -77,7 +77,7 @@ def leave_out_unfit(converter) -> None:
         finally:
             for line in lines:
                 converter.log.error(line)
-        raise NbGraderException("not every folder could be handled: see the lines above")
+        raise NbGraderException("some folders were left out: see the lines above")
 
     converter.convert_notebooks = convert_and_say
 

@@ -1,4 +1,4 @@
-"""nbgrader's preprocessors of this course: for `nbgrader generate_assignment` and `autograde`."""
+"""The course's preprocessors for `nbgrader generate_assignment` and `nbgrader autograde`."""
 
 import secrets
 from collections.abc import Iterable
@@ -21,7 +21,7 @@ from autograder.terminal import shown_name, shown_note
 
 
 class ContinuePastErrors(NbGraderPreprocessor):
-    """For `generate_assignment`: neither a broken answer nor a check that is not met stops "Run All"."""
+    """For `generate_assignment`: "Run All" goes on after a broken answer or a wrong one."""
 
     def preprocess_cell(self, cell, resources, index):
         claims = cell.metadata.get("nbgrader") or {}
@@ -33,7 +33,7 @@ class ContinuePastErrors(NbGraderPreprocessor):
 
 
 class FromSource(NbGraderPreprocessor):
-    """A preprocessor that needs the source version of the notebook at hand."""
+    """A preprocessor that needs the notebook's source version."""
 
     def source_of(self, resources) -> NotebookNode:
         # An exporter's parent is the converter, which knows the course's folders.
@@ -63,23 +63,23 @@ def _read_source(path: Path, changed: int) -> NotebookNode:
 
 
 class RepairCells(FromSource):
-    """For `autograde`, first: graded cells as in the source, so that no copied cell stops a batch."""
+    """For `autograde`, first: puts graded cells right, so that no copied cell stops the command."""
 
     def preprocess(self, nb, resources):
         names, source = resources["nbgrader"], self.source_of(resources)
-        _, said = handed_in.counted(self.submitted(names), names["notebook"], source)
-        nb, notes = repair(nb, source, said, self.beside(names).documents)
+        _, notes = handed_in.counted(self.submitted(names), names["notebook"], source)
+        nb, notes = repair(nb, source, notes, self.beside(names).documents)
         _warn(self.log, names["student"], notes)
         return nb, resources
 
 
 class Judge(FromSource):
-    """For `autograde`, in the place of nbgrader's Execute: verdicts as outputs of the grade cells."""
+    """For `autograde`, instead of nbgrader's Execute: writes verdicts as outputs of the grade cells."""
 
     seed_file = Unicode(
         "course/seed",
-        help="The secret that decides the random cases; made on first use. Keep it to get the "
-        "same verdicts again.",
+        help="The file with the secret that decides the random cases. It is made on first use; keep "
+        "it to get the same verdicts again.",
     ).tag(config=True)
 
     def preprocess(self, nb, resources):
@@ -97,13 +97,15 @@ def _warn(log: Logger, student: str, notes: Iterable[str]) -> None:
 
 
 def secret_of(path: Path) -> str:
-    """The instructor's secret; made where there is none yet. ValueError where its file is empty."""
+    """The instructor's secret, made if there is none yet. ValueError if its file is empty."""
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
         put_in_place(path, secrets.token_hex(16) + "\n", 0o600)
     secret = path.read_text(encoding="utf-8").strip()
     if not secret:
-        raise ValueError(f"{path} is empty: put the course's seed back, or delete it for a new one")
+        raise ValueError(
+            f"{path} is empty: put the course's seed back, or delete the file to get a new seed"
+        )
     return secret
 
 

@@ -1,4 +1,4 @@
-"""What `nbgrader autograde` does around the judging, for many submissions of one assignment."""
+"""Does what `nbgrader autograde` does around the judging, for many submissions of one assignment."""
 
 import copy
 from functools import cached_property
@@ -23,7 +23,7 @@ from autograder.nbgrader_glue.submitted import RefusedError
 from autograder.notebook.beside import Beside
 from autograder.notebook.recognise import grade_id
 
-# Steps whose work is done here or by `repair`, with no regard to their settings.
+# This module or `repair` does the work of these steps, whatever their settings.
 REPLACED = (
     *("ClearOutput", "DeduplicateIds", "OverwriteKernelspec", "OverwriteCells"),
     *("CheckCellMetadata", "SaveAutoGrades", "ClearOutputPreprocessor", "RepairCells"),
@@ -35,8 +35,8 @@ RUN = ("IgnorePattern", "ClearMetadataPreprocessor", "LimitOutput")
 class Recorder:
     """One assignment's folders and gradebook. Use as a context manager.
 
-    ValueError where the assignment cannot be graded here: not in the gradebook yet, not one notebook
-    of its own name, or nbgrader_config.py asks nbgrader for steps that only nbgrader can do.
+    ValueError if the assignment cannot be graded here: it is not in the gradebook yet, it has not one
+    notebook of its own name, or nbgrader_config.py asks for steps that only nbgrader can do.
     """
 
     def __init__(self, root: Path, assignment: str):
@@ -60,7 +60,7 @@ class Recorder:
             self._rows.close()
             raise
         self.max_score: float = sum(self._rows.points.values())
-        # What decides a submission's grade beside the submission, the source and the seed.
+        # What else decides a grade, besides the submission, the source and the seed.
         self.settings = repr((config, self._rows.source_cells, self._rows.points))
 
     def __enter__(self) -> Self:
@@ -81,7 +81,7 @@ class Recorder:
         return self._folders.autograded(student)
 
     def refusal(self, student: str) -> str:
-        """Why nothing of a submission is to be read, such as a link in it; empty where it may be."""
+        """Why the grader must not read a submission, such as a link in it; empty if it may."""
         try:
             self._folders.check(student)
         except RefusedError as error:
@@ -89,7 +89,7 @@ class Recorder:
         return ""
 
     def counted(self, student: str) -> tuple[Path, list[str]]:
-        """The notebook of a submission that is graded, and what to know of the others."""
+        """The notebook of a submission that is graded, and notes on the others."""
         return self._folders.counted(student, self._source)
 
     @cached_property
@@ -108,7 +108,7 @@ class Recorder:
         return repr((self._folders.beside(student), self._folders.beside_source))
 
     def record(self, student: str, judged: dict) -> Standing:
-        """Write a judged submission's rows and files; where that fails, the earlier ones stay."""
+        """Write a judged submission's rows and files; if that fails, the earlier ones stay."""
         notebook: NotebookNode = nbformat.from_dict(judged)
         for cell in notebook.cells:
             if grade_id(cell):
@@ -122,10 +122,10 @@ class Recorder:
             return self._rows.record(student, self._folders.timestamp(student), notebook)
 
     def refuse(self, student: str) -> None:
-        """Enter a submission that cannot be graded, and take an earlier one's notebook away.
+        """Enter a submission that cannot be graded, and remove the notebook of an earlier one.
 
-        As with nbgrader, a folder without any notebook is no submission. Of a folder whose name is no
-        student's nothing is entered or taken away.
+        As with nbgrader, a folder without any notebook is no submission. If a folder's name cannot be
+        a student's id, nothing is entered or removed.
         """
         if names.refusal(student):
             return
@@ -140,24 +140,24 @@ class Recorder:
         self._folders.remove(student)
 
     def forget(self) -> None:
-        """After an error: what was not committed is dropped."""
+        """Drop what was not committed, after an error."""
         self._rows.forget()
 
     def _may_enter(self, student: str) -> None:
         if not (self._converter.create_student or self._rows.knows(student)):
             raise ValueError(
-                f"the gradebook does not know {student}, and no student is to be added"
+                f"the gradebook does not know {student}, and nbgrader_config.py forbids new students"
             )
 
     def _penalty(self, student: str, score: float, seconds: float) -> float | None:
-        """The course's late penalty, between 0 and the score; None for none."""
+        """The course's late penalty, between 0 and the score; None if there is none."""
         if not self._late.enabled:
             return None
         penalty = self._late.plugin_inst.late_submission_penalty(student, score, seconds)
         return None if penalty is None else min(max(penalty, 0), score)
 
     def _agree_with_source(self) -> None:
-        """Once for all, what nbgrader would find in each repaired submission anew."""
+        """Check once what nbgrader would check in each repaired submission."""
         where, again = f"solutions/{self.assignment}", "run `nbgrader generate_assignment` again"
         source = nbformat.reads(self.source, as_version=4)
         try:
@@ -167,13 +167,13 @@ class Recorder:
         for cell in source.cells:
             name = grade_id(cell)
             if name and name not in self._rows.source_cells:
-                raise ValueError(f"the gradebook has no cell {name}, and {where} has: {again}")
+                raise ValueError(f"{where} has a cell {name}, but the gradebook has not: {again}")
             if name and not _can_be_put_right(cell, self._rows.source_cells[name], self._rows):
                 raise ValueError(f"Inconsistent checksums: {name} has changed in {where}: {again}")
 
 
 def _can_be_put_right(cell: NotebookNode, known, rows: Rows) -> bool:
-    """Whether nbgrader's OverwriteCells gets a locked cell back to the one in the gradebook."""
+    """Whether nbgrader's OverwriteCells can make a locked cell the one in the gradebook again."""
     if not known.locked:
         return True
     cell = copy.deepcopy(cell)
@@ -196,8 +196,8 @@ def _refuse_other_steps(config: Config, converter) -> None:
     other += [f"Autograde.{name}" for name in hooks if getattr(converter, name) is not None]
     if other:
         raise ValueError(
-            f"nbgrader_config.py sets {', '.join(other)}, which only nbgrader itself heeds: "
-            "use `nbgrader autograde`, or take the setting out"
+            f"nbgrader_config.py sets {', '.join(other)}, which only nbgrader itself follows: "
+            "use `nbgrader autograde`, or remove the setting"
         )
 
 

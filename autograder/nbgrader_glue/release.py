@@ -1,4 +1,4 @@
-"""The student version of an assignment, written without the gradebook."""
+"""Writes the student version of an assignment, without the gradebook."""
 
 import shutil
 import tempfile
@@ -10,23 +10,23 @@ from autograder.files import put_in_place
 
 
 def configuration(root: Path) -> Config:
-    """What nbgrader_config.py in the course's folder says."""
+    """The settings of nbgrader_config.py in the course's folder."""
     return PyFileConfigLoader("nbgrader_config.py", path=str(root)).load_config()
 
 
 def write_problem(root: Path, assignment: str, to: Path) -> None:
-    """The student version of an assignment in the folder `to`; no file that is there is touched.
+    """Write the student version of an assignment into the folder `to`; files that are there stay.
 
-    root: the course's folder. The gradebook is not touched either.
+    root: the course's folder. The gradebook stays as it is.
     """
     with tempfile.TemporaryDirectory(prefix="release-") as folder:
         _copy_new(_generate(root, assignment, Path(folder)), to)
 
 
 def _generate(root: Path, assignment: str, course: Path) -> Path:
-    """The student version's folder, in a course of this assignment alone, which is made.
+    """Make a course with only this assignment, and return the folder of the student version in it.
 
-    Not in the course itself: the path to that may hold what nbgrader takes for a pattern.
+    The real course does not serve, as its path may contain what nbgrader takes for a pattern.
     """
     from nbgrader.converters import GenerateAssignment  # takes seconds
     from nbgrader.coursedir import CourseDirectory

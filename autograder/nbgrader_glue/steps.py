@@ -1,6 +1,6 @@
-"""What of nbgrader's and nbconvert's own is replaced here, by name: naming it imports neither.
+"""Names the parts of nbgrader and nbconvert that the course replaces, without importing them.
 
-Each list of preprocessors is nbgrader 0.9.6's own with ours put in; a test holds them to that.
+Each list of preprocessors is that of nbgrader 0.9.6 with ours put in; a test compares them.
 """
 
 OURS = "autograder.nbgrader_glue.preprocessors"
@@ -29,7 +29,7 @@ def sanitize_preprocessors() -> list[str]:
 
 
 def autograde_preprocessors() -> list[str]:
-    """nbgrader's own, with Judge in the place of the kernel run."""
+    """nbgrader's own, with Judge instead of Execute."""
     return [
         f"{OURS}.Judge",
         "nbgrader.preprocessors.IgnorePattern",

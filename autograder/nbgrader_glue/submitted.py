@@ -1,4 +1,4 @@
-"""What students handed in, before anything of it is read: no links to elsewhere, plain files only."""
+"""Checks what students handed in before it is read: plain files, and no links to elsewhere."""
 
 import os
 import stat
@@ -16,13 +16,14 @@ from autograder.sandbox.room import Room
 
 
 class RefusedError(ValueError):
-    """A submission that is not read; the sentence says why."""
+    """The grader does not read a submission; the message says why."""
 
 
 def check(folder: Path, top: Path) -> None:
-    """RefusedError where something in a submission's folder is a link that leads out of it, or no file.
+    """RefusedError if a submission's folder contains a link that leads out of it, or no plain file.
 
-    top: the folder of all submissions. Below it no folder is a link: that could be another student's.
+    top: the folder of all submissions. No folder below it may be a link, as that could lead to another
+    student's.
     """
     if folder.is_relative_to(top):
         for above in (folder, *folder.parents):
@@ -30,7 +31,7 @@ def check(folder: Path, top: Path) -> None:
                 break
             if above.is_symlink():
                 raise RefusedError(
-                    f"the folder {one_line(above.name)} is a link: ask for the files themselves"
+                    f"the folder {one_line(above.name)} is a link: ask the student for the files"
                 )
     real = folder.resolve()
     for name, folders, files in os.walk(folder):
@@ -40,7 +41,7 @@ def check(folder: Path, top: Path) -> None:
 
 
 def _check_entry(path: Path, shown: str, folder: Path) -> None:
-    again = "ask for the file itself"
+    again = "ask the student for the file itself"
     if path.is_symlink() and not Path(os.path.realpath(path)).is_relative_to(folder):
         raise RefusedError(f"{shown} is a link out of the submission: {again}")
     try:
@@ -54,15 +55,15 @@ def _check_entry(path: Path, shown: str, folder: Path) -> None:
 
 
 def timestamp(course, folder: Path) -> datetime | None:
-    """When a submission was handed in, in UTC; None where that is not known.
+    """When a submission was handed in, in UTC; None if that is not known.
 
-    RefusedError where its timestamp.txt holds no time.
+    RefusedError if its timestamp.txt holds no time.
     """
     path = folder / "timestamp.txt"
     try:
         if path.is_file() or not os.path.lexists(path):
             return course.get_existing_timestamp(str(folder))
-    except Exception:  # nbgrader stumbles over its own complaint
+    except Exception:  # nbgrader fails while it reports the error
         pass
     raise RefusedError(
         "timestamp.txt holds no time, such as 2025-01-31 23:59:59 UTC: "
@@ -71,11 +72,11 @@ def timestamp(course, folder: Path) -> datetime | None:
 
 
 class SubmissionExporter(NotebookExporter):
-    """For `autograde`: reads a submission only when it has been checked, with or without a BOM.
+    """For `autograde`: reads a submission, with or without a BOM, after checking it.
 
-    The converter goes by file names. Where a submission has no notebook of the assignment's name, it is
-    told that there is one, and the one that counts is read in its place.
-    It is made when `autograde` has found the submissions and has changed nothing yet.
+    The converter goes by file names. If a submission has no notebook of the assignment's name, this
+    class tells the converter that there is one, and reads the one that counts instead.
+    nbgrader makes it when it has found the submissions, and before it changes anything.
     """
 
     def __init__(self, config=None, **kw):

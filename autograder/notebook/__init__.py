@@ -1,1 +1,1 @@
-"""One submitted notebook, graded: mended where people damage them, run, judged, its outputs written."""
+"""Grades one submitted notebook: puts damaged cells right, runs it, judges it, writes its outputs."""

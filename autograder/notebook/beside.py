@@ -1,4 +1,4 @@
-"""Files that were handed in beside a notebook: which its cells find, and why others are not there."""
+"""Chooses which files beside a notebook its cells find, and explains why a file is not there."""
 
 import re
 from collections.abc import Collection, Mapping
@@ -10,7 +10,7 @@ from autograder.protocol import Reply, one_line
 
 MOST_FILES = 100
 MOST_BYTES = 8 << 20
-# In which a derivation may be handed in.
+# A derivation may be handed in as one of these.
 DOCUMENTS = (
     ".docx",
     ".gif",
@@ -29,9 +29,9 @@ DOCUMENTS = (
     ".txt",
     ".webp",
 )
-# What a cell imports under these names is the grader's own.
+# Under these names, a cell imports the grader's own modules.
 RESERVED = ("armdyn", "autograder", "protocol", "toolchain")
-# How Python, IPython and NumPy name a file or a module that is not there.
+# How Python, IPython and NumPy report that a file or a module is not there.
 MISSING_FILE = re.compile(
     r"No such file or directory: '([^']+)'|File `'([^']+)'` not found"
     r"|FileNotFoundError: (?:there is no file )?([^\s;]+)(?: not found\.|[;.])"
@@ -41,9 +41,10 @@ MISSING_MODULE = re.compile(r"No module named '(\w+)")
 
 @dataclass(frozen=True)
 class Beside:
-    """laid: the files that cells find, by their path from the notebook. left_out: why others are not.
+    """The files beside a notebook, by their path from it.
 
-    documents: a student's own pictures and texts.
+    laid: those that its cells find. left_out: why its cells do not find the others. documents: a
+    student's own pictures and texts.
     """
 
     laid: Mapping[str, bytes] = field(default_factory=dict)
@@ -51,12 +52,12 @@ class Beside:
     documents: tuple[str, ...] = ()
 
     def digest(self) -> str:
-        """A name for these files, different for different ones."""
+        """A name for these files; other files have another name."""
         laid = (part for item in sorted(self.laid.items()) for part in item)
         return digest(*laid, repr((sorted(self.left_out.items()), self.documents)))
 
     def explanation(self, error: str) -> str:
-        """Why a file or module that an error names is not there; empty where it names none."""
+        """Why a file or module that an error names is not there; empty if it names none."""
         if match := MISSING_MODULE.search(error):
             return self._of_module(match[1])
         if match := MISSING_FILE.search(error):
@@ -64,7 +65,7 @@ class Beside:
         return ""
 
     def explained(self, reply: Reply) -> Reply:
-        """The reply, its fault's message with the explanation."""
+        """The reply, with the explanation in its fault's message."""
         if reply.fault is None or not (why := self.explanation(reply.fault.message)):
             return reply
         message = f"{reply.fault.message.rstrip('. ')} ({why})"
@@ -85,14 +86,17 @@ class Beside:
                 return _not_laid(left, why)
         there = next((laid for laid in self.laid if PurePosixPath(laid).name == path.name), None)
         if there is not None:
-            return f"{one_line(there, 100)} was handed in, but {shown} is no way to it from the notebook"
+            return (
+                f"{one_line(there, 100)} was handed in, but the path {shown} does not lead to it from "
+                "the notebook"
+            )
         return f"{shown} was not handed in with the notebook"
 
 
 def choose(files: Mapping[str, Path], own: Collection[str] = ()) -> Beside:
-    """What of a submission's files, by their path from the notebook, is laid in: the smallest first.
+    """Choose which files of a submission the cells find: the smallest first, up to the limits.
 
-    own: those that are not the assignment's.
+    files: by their path from the notebook. own: those that are not the assignment's.
     """
     left_out = {
         name: "the grader has a module of this name" for name in files if _is_reserved(name)
@@ -103,9 +107,9 @@ def choose(files: Mapping[str, Path], own: Collection[str] = ()) -> Beside:
     for name in sorted(sizes, key=lambda name: (sizes[name], name)):
         total += sizes[name]
         if len(laid) == MOST_FILES:
-            left_out[name] = f"there are more than {MOST_FILES} files beside it"
+            left_out[name] = f"more than {MOST_FILES} files lie beside the notebook"
         elif total > MOST_BYTES:
-            left_out[name] = f"the files beside it have more than {MOST_BYTES >> 20} MB"
+            left_out[name] = f"the files beside the notebook have more than {MOST_BYTES >> 20} MB"
         else:
             laid[name] = files[name].read_bytes()
     documents = sorted(name for name in own if name.lower().endswith(DOCUMENTS))

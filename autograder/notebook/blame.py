@@ -1,4 +1,4 @@
-"""Which cell of a notebook is to blame for a function that the judge does not find there."""
+"""Finds the cell that is to blame when a notebook does not define a function."""
 
 import re
 from collections.abc import Iterator
@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 
 from autograder.protocol import Fault, FaultKind, one_line
 
-# A notebook's source may be anything; nobody reads further into a cell,
-# or a line, than this.
+# A cell may hold any text; only this much of it, and of each line, is read.
 MOST_LINES, MOST_CHARACTERS = 2000, 500
 # Lines that may define a name without naming it.
 MAY_DEFINE_ANY = re.compile(
@@ -21,11 +20,11 @@ ASSIGNS = re.compile(r"(?<![=!<>:+\-*/%@&|^~])=(?!=)")
 
 @dataclass(frozen=True)
 class Ran:
-    """A cell that ran: its source and, where there was an error, what that said.
+    """A cell that ran: its source and, if there was an error, its message.
 
-    stopped: whether the error stopped the cell, at the line of the number `at`; 0 where nothing of the
-    cell counts, as after a syntax error. line: the line of the student's own that raised the error,
-    with its number. left_out: of lines that could not work, which and why.
+    stopped: whether the error stopped the cell, at line `at`; `at` is 0 if no line of the cell ran, as
+    after a syntax error. line: the student's own line that raised the error, with its number.
+    left_out: a sentence for each line that could not work.
     """
 
     source: str
@@ -37,7 +36,7 @@ class Ran:
 
 
 def ran(source: str, shown: list[dict]) -> Ran:
-    """A cell that ran, by the outputs that came through the wall, whatever they hold."""
+    """A cell that ran, from the outputs that the sandbox sent, whatever they hold."""
     left_out = tuple(
         one_line(output["left_out"]) for output in shown if isinstance(output.get("left_out"), str)
     )
@@ -65,12 +64,12 @@ def explained(name: str, fault: Fault, cells: list[Ran]) -> Fault:
         failed = [cell for cell in cells if cell.error and _may_define_any(cell.source)]
     if failed:
         return Fault(FaultKind.CELL_FAILED, failed[-1].error, failed[-1].line)
-    said = [text for cell in cells for text in cell.left_out]
-    return replace(fault, line=said[-1]) if said and not fault.message else fault
+    left_out = [text for cell in cells for text in cell.left_out]
+    return replace(fault, line=left_out[-1]) if left_out and not fault.message else fault
 
 
 def stale(name: str, cells: list[Ran]) -> Fault | None:
-    """The fault of an earlier `name`, where the last cell that defines it stopped before it did."""
+    """The fault if `name` is an earlier one, as the last cell that defines it stopped before it did."""
     defining = _defining(name, cells)
     if not defining or not _stopped_before(name, defining[-1]):
         return None
@@ -91,7 +90,7 @@ def _may_define_any(source):
 
 
 def _lines_that_define(name: str, source: str) -> Iterator[int]:
-    """The lines of a cell that would define `name`, whether or not the cell is Python as a whole."""
+    """The lines of a cell that define `name`; the cell as a whole may be invalid Python."""
     word = re.escape(name)
     named, defined = (
         re.compile(rf"\b{word}\b"),
@@ -114,7 +113,7 @@ def _lines_that_define(name: str, source: str) -> Iterator[int]:
             or (not scopes and (importing or defined.search(code) or name in _targets(code)))
         ):
             yield number
-        # Over several lines only in parentheses.
+        # An import goes on over several lines only in parentheses.
         importing = importing and ")" not in code and ("(" in code or not begins)
         if SCOPE.match(statement):
             scopes.append(indent)

@@ -1,4 +1,4 @@
-"""A notebook that nbformat takes, whatever came: whole cells, text that a file can hold, ids apart."""
+"""Makes any notebook valid for nbformat: complete cells, text that a file can hold, unique ids."""
 
 import copy
 import json
@@ -12,9 +12,9 @@ NEW_CELL = {"code": new_code_cell, "markdown": new_markdown_cell, "raw": new_raw
 
 
 def without_surrogates(value):
-    """The same JSON value, in it \ufffd for each half of a surrogate pair: JSON can write one, no file.
+    """The same JSON value, with \ufffd for each half of a surrogate pair, which no file can hold.
 
-    Where there is none, `value` itself.
+    If there is none, `value` itself.
     """
     try:
         json.dumps(value, ensure_ascii=False).encode()
@@ -33,7 +33,7 @@ def _replaced(value):
     return value
 
 
-# What nbformat has rules for; a cell's settings that break them would stop its student's grading.
+# nbformat has rules for these settings; a cell that breaks one would stop the grading.
 RULED = (
     *("collapsed", "deletable", "editable", "execution", "format", "jupyter", "name"),
     *("scrolled", "source_hidden", "tags", "title"),
@@ -47,13 +47,13 @@ PARTS_OF["raw"] = PARTS_OF["markdown"]
 
 
 def give_form(notebook, source, notes) -> None:
-    """Make it a valid notebook, of the source's settings, without outputs: they are made anew."""
+    """Make it a valid notebook with the source's settings and without outputs, which grading makes."""
     notebook.metadata = copy.deepcopy(source.metadata)
     for index, cell in enumerate(notebook.cells):
         kind = cell.get("cell_type")
         whole = kind in NEW_CELL and isinstance(cell.get("source"), str)
         if not (whole and isinstance(cell.get("metadata"), dict)):
-            notes.append(f"cell {index + 1} was no whole cell")
+            notes.append(f"cell {index + 1} was damaged: its type, text or settings were missing")
             cell.cell_type = kind = kind if kind in NEW_CELL else "raw"
             cell.source = cell.source if isinstance(cell.get("source"), str) else ""
             cell.metadata = NotebookNode()
@@ -75,7 +75,7 @@ def _are_attachments(files) -> bool:
 
 
 def tell_apart(notebook) -> None:
-    """Each cell an id of its own, as nbformat 4.5 asks for: a copied cell has that of the first."""
+    """Give each cell its own id, as nbformat 4.5 asks for: a copied cell has the id of the first."""
     if notebook.nbformat_minor < 5:
         return
     ids = {cell["id"] for cell in notebook.cells if isinstance(cell.get("id"), str)}

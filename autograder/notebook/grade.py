@@ -1,4 +1,4 @@
-"""grade(submission, source, seed): one notebook judged. No database, no nbgrader, no state."""
+"""Grades one notebook: `grade` runs its cells and judges its functions, and keeps nothing."""
 
 import hashlib
 import json
@@ -36,8 +36,8 @@ from autograder.terminal import shown_name, shown_note
 
 log = logging.getLogger(__name__)
 
-# A notebook in which everything takes as long as it may must not hold up a batch. Of the processor's
-# time, and PATIENCE times as long on the clock.
+# One slow notebook must not hold up all others. This is processor time; on the clock, a notebook has
+# PATIENCE times as long.
 NOTEBOOK_SECONDS = 60.0
 NOTHING = Beside()
 MISSING = """
@@ -50,7 +50,7 @@ print(json.dumps(missing()))
 @dataclass(frozen=True)
 class Graded:
     """A judged notebook: its cells with the outputs of this run, a verdict for each grade cell by
-    grade_id, and notes for the instructor on what had to be mended.
+    grade_id, and notes for the instructor on what was put right.
     """
 
     notebook: NotebookNode
@@ -69,16 +69,15 @@ def grade(
 
     beside: files that its cells find. said: notes that come first.
     seed: decides the random cases, together with the code of the repaired notebook and the files
-    beside it: the same submission gets the same verdicts again, and what one hand-in was shown of
-    its cases is of no use to the next. Each check has its own stream, so that adding a problem
-    changes no other's cases. A grade cell that no check belongs to gets no credit and says so. Where
-    a sandbox is lost through no fault of the notebook's, that is graded once more. OSError where that
-    happens again, or no sandbox starts.
+    beside it. So the same submission gets the same verdicts again, and a changed one meets other
+    cases. Each check has its own random numbers, so that a new problem changes no other's cases. A
+    grade cell without a check gets no credit and says so. If a sandbox is lost and the notebook is
+    not to blame, it is graded once more. OSError if that happens again, or if no sandbox starts.
     """
     try:
         return _graded(submission, source, seed, beside, said)
     except OSError as error:
-        log.warning("%s: the notebook is graded once more", shown_note(str(error)))
+        log.warning("%s; grading the notebook once more", shown_note(str(error)))
         return _graded(submission, source, seed, beside, said)
 
 
@@ -103,7 +102,7 @@ def _graded(submission, source, seed, beside, said) -> Graded:
             name = grade_id(cell) or ""
             if name in CHECKS:
                 verdict = CHECKS[name].run(ask, stream(seed, name), HIDDEN_CASES)
-                verdict = sitting.told(CHECKS[name], verdict)
+                verdict = sitting.naming_an_earlier(CHECKS[name], verdict)
             else:
                 problem = f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
@@ -115,27 +114,27 @@ def _graded(submission, source, seed, beside, said) -> Graded:
 
 
 def _explanations(shown, beside) -> list[NotebookNode]:
-    """Below an error that names a file: why it is not there."""
+    """Lines below an error that names a file, which say why it is not there."""
     errors = (f"{out.ename}: {out.evalue}" for out in shown if out.output_type == "error")
     return [outputs.stream("stderr", f"{why}\n") for why in map(beside.explanation, errors) if why]
 
 
 def is_judged(cell: NotebookNode) -> bool:
-    """Whether the cell is graded by a check, not run, and not read by a person."""
+    """Whether a check grades the cell: it is then not run, and no person reads it."""
     claims = cell.metadata.get("nbgrader") or {}
     return cell.cell_type == "code" and bool(claims.get("grade")) and not claims.get("solution")
 
 
 def of_content(seed: str, notebook: NotebookNode, beside: Beside = NOTHING) -> str:
-    """The seed of this very code's cases: other code, or another file beside it, meets others, and no
-    text around it counts.
+    """The seed for this code and the files beside it: other code or files get other cases, other text
+    does not.
     """
     code = (cell.source for cell in notebook.cells if cell.cell_type == "code")
     return digest(seed, beside.digest(), *code)
 
 
 def stream(seed: str, name: str) -> np.random.Generator:
-    """The random numbers of one check under one seed."""
+    """The random numbers of one check, from the seed."""
     digest = hashlib.sha256(f"{seed}\0{name}".encode()).digest()
     return np.random.default_rng(np.frombuffer(digest, dtype=np.uint32))
 
@@ -143,9 +142,9 @@ def stream(seed: str, name: str) -> np.random.Generator:
 class Sitting:
     """A student's notebook in a room, cell by cell; when the room is lost, a new one takes over.
 
-    A new room runs the earlier cells again, but not the one, or the call, that ended the last. After
-    NOTEBOOK_SECONDS nothing more is run; starting a room does not count. A call that the processor
-    had no time for is tried once more before it costs anything.
+    A new room runs the earlier cells again, but not the cell or the call that ended the last room.
+    After NOTEBOOK_SECONDS nothing more is run; the time to start a room does not count. If the
+    processor had no time for a call, it is tried once more before it costs points.
     """
 
     def __init__(self, room=Room.loaded):
@@ -164,7 +163,7 @@ class Sitting:
     def run(self, source: str) -> list[dict]:
         """The outputs of a cell; an error output where it ends its process."""
         if self._is_over():
-            text = f"not run: the notebook took {self._limit():g} s before it came to this cell"
+            text = f"not run: the notebook had used up its {self._limit():g} s before this cell"
             self._cells.append(Ran(source, f"TimeoutError: {text}", stopped=True))
             return [outputs.error("TimeoutError", text, [text])]
         try:
@@ -175,8 +174,8 @@ class Sitting:
             self._leave()
             text = f"this cell ended Python itself: {error}"
             shown = [outputs.error("RoomLostError", text, [text])]
-            said = f"the end of Python itself ({one_line(str(error))})"
-            self._cells.append(Ran(source, said, stopped=True))
+            why = f"the end of Python itself ({one_line(str(error))})"
+            self._cells.append(Ran(source, why, stopped=True))
         else:
             self._ran.append(source)
             self._cells.append(ran(source, shown))
@@ -194,8 +193,8 @@ class Sitting:
             replies[-1] = Reply(fault=explained(calls[0].name, last, self._cells))
         return replies
 
-    def told(self, check: Check, verdict: Verdict) -> Verdict:
-        """The verdict, which says so where it is of an earlier function than the notebook's last."""
+    def naming_an_earlier(self, check: Check, verdict: Verdict) -> Verdict:
+        """The verdict; if it is on an earlier function than the notebook's last, it says so."""
         earlier = stale(check.name, self._cells)
         if verdict.state not in (State.INCORRECT, State.PARTLY_CORRECT) or earlier is None:
             return verdict
@@ -223,7 +222,7 @@ class Sitting:
         return [Reply(fault=fault)]
 
     def _missing(self) -> list[str]:
-        """What no answer in this language can be run without, by a room that has met no student."""
+        """The tools that are not installed here, asked of a room that has run no student's code."""
         with self._new_room() as room:
             (printed,) = room.run(MISSING)
         return [shortened(line) for line in json.loads(printed["text"])]
@@ -258,6 +257,6 @@ class Sitting:
         return self._spent() >= NOTEBOOK_SECONDS or self._clock >= PATIENCE * NOTEBOOK_SECONDS
 
     def _limit(self) -> float:
-        """The one that the notebook is over: the processor's or the clock's, s."""
+        """The limit that the notebook has reached, the processor's or the clock's, s."""
         of_processor = self._spent() >= NOTEBOOK_SECONDS
         return NOTEBOOK_SECONDS if of_processor else PATIENCE * NOTEBOOK_SECONDS

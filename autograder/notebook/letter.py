@@ -1,4 +1,4 @@
-"""What the grader tells a student of the notebook as a whole: a cell that is put before all others."""
+"""Writes the first cell of a graded notebook: the grader's notes to the student about the notebook."""
 
 import re
 from collections.abc import Iterable

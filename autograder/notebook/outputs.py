@@ -1,7 +1,7 @@
-"""A cell's outputs as a notebook stores them, and as much of a student's as a page may show.
+"""Makes a cell's outputs, and keeps of a student's as much as a page may show.
 
-nbformat's own makers check each output against its schema, which takes longer than to make it; here the
-notebook is checked once, as a whole.
+nbformat's own functions check each output against its schema, which takes longer than making it; the
+notebook is checked once instead, as a whole.
 """
 
 import json
@@ -17,15 +17,15 @@ SHOWN = ("text/plain", "text/latex", "image/png")
 # The runner sends no more; a forged reply may.
 MOST_TEXT = 200_000
 MOST_PICTURE = 4 << 20
-# Of a whole notebook, in bytes as it is saved. A page of 2 MB of text is more than anybody reads, and
-# a browser still opens it; the figures of the course's own problems come to less than 1 MB each.
+# For a whole notebook, in bytes as saved. Nobody reads 2 MB of text, but a browser still opens a page
+# with it; the figures of the course's own problems come to less than 1 MB each.
 NOTEBOOK_TEXT = 2 << 20
 NOTEBOOK_PICTURES = 16 << 20
 TOO_MUCH = (
     f"a notebook's outputs may take {NOTEBOOK_TEXT >> 20} MB of text and "
     f"{NOTEBOOK_PICTURES >> 20} MB of pictures in all"
 )
-# Under this key the output that shows a verdict carries it for programs, too.
+# Under this key, the output that shows a verdict also holds it for programs.
 VERDICT = "armdyn"
 
 
@@ -39,7 +39,7 @@ def display(data: dict[str, str], metadata: dict | None = None) -> NotebookNode:
 
 
 def result(text: str) -> NotebookNode:
-    """What the last expression of a cell gave."""
+    """The value of a cell's last expression."""
     shown = {"data": NotebookNode({"text/plain": text}), "metadata": NotebookNode()}
     return NotebookNode(output_type="execute_result", execution_count=1, **shown)
 
@@ -49,7 +49,7 @@ def error(name: str, value: str, lines: list[str]) -> NotebookNode:
 
 
 def of_verdict(verdict: Verdict) -> NotebookNode:
-    """The card, which also carries what `read_verdict` gives."""
+    """The card; its metadata hold what `read_verdict` gives."""
     said = {
         "check": verdict.check,
         "state": verdict.state.value,
@@ -65,7 +65,7 @@ def read_verdict(output: dict) -> dict | None:
 
 
 def of_student(output: dict) -> NotebookNode | None:
-    """An output that came through the wall, whatever it holds; None where nothing of it can be shown."""
+    """An output from the sandbox, whatever it holds; None if nothing of it can be shown."""
     match output:
         case {"output_type": "stream", "name": "stdout" | "stderr" as name, "text": str(text)}:
             return stream(name, shortened(text, MOST_TEXT))
@@ -77,11 +77,11 @@ def of_student(output: dict) -> NotebookNode | None:
             text = "\n".join(map(str, lines)) if isinstance(lines, list) else ""
             lines = shortened(text, MOST_TEXT).split("\n") if text else []
             return error(shortened(name), shortened(value), lines)
-    return stream("stderr", "(an output that could not be read)")
+    return stream("stderr", "(the grader could not read this output)")
 
 
 class Allowance:
-    """What the outputs of a notebook may take together; in each cell a sentence stands for the rest."""
+    """What a notebook's outputs may take together; a sentence in the cell replaces the rest."""
 
     def __init__(self):
         self._text, self._pictures = NOTEBOOK_TEXT, NOTEBOOK_PICTURES
@@ -93,7 +93,9 @@ class Allowance:
         if len(kept) < len(written):
             left_out = len(written) - len(kept)
             kept.append(
-                stream("stderr", f"({left_out} of this cell's outputs left out: {TOO_MUCH})")
+                stream(
+                    "stderr", f"(the grader left out {left_out} of this cell's outputs: {TOO_MUCH})"
+                )
             )
         return kept
 
@@ -108,7 +110,7 @@ class Allowance:
 
 
 def _is_shown(kind: str, data) -> bool:
-    """Whether a feedback page may hold it: text of a decent length, and pictures that are no markup."""
+    """Whether a feedback page may hold it: text that is not too long, or a picture without markup."""
     if not isinstance(data, str):
         return False
     if kind != "image/png":

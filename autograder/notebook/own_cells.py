@@ -1,7 +1,7 @@
-"""An answer for a person to read, written beside the cell that was meant for it.
+"""Points from an empty answer to the student's own cells beside it, for the person who grades it.
 
-nbgrader gives an untouched answer 0 unread. So it gets a sentence that says where the answer is: then
-it is not untouched, and who grades it finds what to read.
+nbgrader gives an untouched answer 0 points, and nobody reads it. So the cell gets a sentence that says
+where the answer may be: then the cell is no longer untouched, and the person finds what to read.
 """
 
 from collections.abc import Sequence
@@ -13,16 +13,16 @@ from autograder.notebook.recognise import grade_id
 from autograder.notebook.released import essence, released
 from autograder.protocol import one_line
 
-POINTER = "(From the grader: this cell holds no answer; it may be in the student's own {where}.)"
+POINTER = "(From the grader: this cell has no answer; it may be in the student's own {where}.)"
 
 
 def point_to_own_cells(
     notebook: NotebookNode, source: NotebookNode, documents: Sequence[str] = ()
 ) -> list[str]:
-    """Put the sentence into each empty answer that has something of the student's beside it; notes.
+    """Put the sentence into each empty answer with something of the student's beside it; give notes.
 
-    That is text or a picture in cells directly above, or below, before the next graded cell; or else
-    documents, which were handed in beside the notebook.
+    That is text or a picture in the cells directly above, or in those below up to the next graded cell;
+    or else one of the documents, which were handed in beside the notebook.
     """
     given = {essence(text) for cell in source.cells for text in (cell.source, released(cell))}
     untouched = {
@@ -38,7 +38,7 @@ def point_to_own_cells(
         own = {
             "cell above": any(_is_own(other, given) for other in above),
             "cell below": any(_is_own(other, given) for other in below),
-            "picture, attached to it": bool(cell.get("attachments")),
+            "picture in this cell": bool(cell.get("attachments")),
             f"file {one_line(next(iter(documents), ''), 100)}": bool(documents),
         }
         where = next((where for where, there in own.items() if there), None)
@@ -46,7 +46,7 @@ def point_to_own_cells(
             text = POINTER.format(where=where)
             text = f"# {text}" if cell.cell_type == "code" else f"*{plain(text)}*"
             cell.source = "\n\n".join(filter(None, [cell.source.rstrip(), text]))
-            notes.append(f"{name} holds no answer; it may be in the student's own {where}")
+            notes.append(f"{name} has no answer; it may be in the student's own {where}")
     return notes
 
 
@@ -57,7 +57,7 @@ def _is_read(cell) -> bool:
 
 
 def _run_of(cells, belongs) -> list:
-    """The first cells, up to one that does not belong."""
+    """The first cells, up to one that does not belong to them."""
     run = []
     for cell in cells:
         if not belongs(cell):
@@ -67,7 +67,7 @@ def _run_of(cells, belongs) -> list:
 
 
 def _is_own(cell, given) -> bool:
-    """Whether it holds something, and that is not the source's."""
+    """Whether the cell holds something that is not from the source."""
     if grade_id(cell) or is_letter(cell):
         return False
     return bool(cell.get("attachments")) or (

@@ -1,4 +1,4 @@
-"""Which of a notebook's cells is which of its source: by nbgrader's settings, by id, or by text."""
+"""Finds the source's graded cells in a notebook: by nbgrader's settings, by id, or by text."""
 
 import copy
 from collections import Counter
@@ -26,7 +26,7 @@ def known_cells(source: NotebookNode) -> dict[str, NotebookNode]:
 class Places:
     """Where the source's graded cells are in a notebook.
 
-    at: grade_id → index. bare: those known without nbgrader's settings. doubled: a name for each
+    at: grade_id → index. bare: those that have lost nbgrader's settings. doubled: a grade_id for each
     further copy.
     """
 
@@ -36,7 +36,7 @@ class Places:
 
 
 def places(notebook: NotebookNode, source: NotebookNode) -> Places:
-    """Of several cells with one grade_id the last counts.
+    """Find the graded cells; if several have one grade_id, the last counts.
 
     An editor or a converter may drop nbgrader's settings; it leaves the cells' ids, or at least the
     text of those that nobody edits.
@@ -66,7 +66,7 @@ class Likeness:
 
 
 def likeness(notebook: NotebookNode, source: NotebookNode) -> Likeness:
-    """A third of the graded cells is enough: those that everybody deletes are no answers."""
+    """A third of the graded cells is enough to know a notebook: many people delete some."""
     notebook = copy.deepcopy(notebook)
     give_form(notebook, source, [])
     known, at = known_cells(source), places(notebook, source).at
@@ -80,7 +80,7 @@ def likeness(notebook: NotebookNode, source: NotebookNode) -> Likeness:
 
 
 def _found(notebook, key, names: dict, at: dict[str, int]) -> dict[str, int]:
-    """Which cells without settings have a key that is in `names`, but for the names that are in `at`."""
+    """The cells without settings whose key is in `names`, except for the names in `at`."""
     taken, found = set(at.values()), {}
     for index, cell in enumerate(notebook.cells):
         if "nbgrader" not in cell.metadata and index not in taken:
@@ -104,7 +104,7 @@ def _text(cell):
 
 
 def _by_text(known) -> dict:
-    """Those that no two cells have in common."""
+    """The texts that only one cell has."""
     texts = {name: (cell.cell_type, essence(released(cell))) for name, cell in known.items()}
     times = Counter(texts.values())
     return {text: name for name, text in texts.items() if times[text] == 1}

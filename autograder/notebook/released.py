@@ -1,10 +1,10 @@
-"""The text of a source's cells as students got it: stubs for solutions, nothing that is hidden."""
+"""The text of a source's cells as students get it: stubs for solutions, and no hidden tests."""
 
 import re
 
 from nbformat import NotebookNode
 
-# nbgrader_config.py has nbgrader put these in, so that an untouched answer is known again.
+# nbgrader_config.py tells nbgrader to put these in, so that an untouched answer is recognised.
 CODE_STUB = "raise NotImplementedError  # your answer goes here"
 TEXT_STUB = "*(your answer goes here)*"
 

@@ -1,8 +1,8 @@
 """Puts a submitted notebook's graded cells right, from the source version, before it is judged.
 
 Students copy, delete, rename and retype cells, by accident or not. nbgrader trusts the cells'
-metadata as submitted; here it is rebuilt from the source, and every change is reported, to the
-student too: in a cell that is put first.
+metadata as submitted. Here it is rebuilt from the source, and every change is reported to the
+instructor and, in the notebook's first cell, to the student.
 """
 
 import copy
@@ -26,23 +26,23 @@ def repair(
     said: Iterable[str] = (),
     documents: Sequence[str] = (),
 ) -> tuple[NotebookNode, list[str]]:
-    """The submission with each graded cell of `source` in it exactly once, and what was mended.
+    """The submission with each graded cell of `source` in it exactly once, and a note on each change.
 
     A locked cell gets the source's text again; what a student wrote into it becomes a cell of the
-    student's own before it. An editable cell keeps the student's text; where it was deleted, an empty
-    one is put in. Of several copies the last one counts, as it does when the notebook is run; the
-    others stay as ordinary cells. Cells that only claim to be graded stay too, without the claim.
+    student's own before it. An editable cell keeps the student's text; if it was deleted, an empty
+    one is put in. If there are several copies, the last one counts, as it does when the notebook runs;
+    the others stay as ordinary cells. Cells that only claim to be graded stay too, without the claim.
     An empty answer that a person reads points to the student's own cells beside it, or documents.
 
-    said: what the student should know besides; it comes first. documents: files of the student's that
-    may hold an answer.
+    said: notes that come before all others. documents: files of the student's that may hold an
+    answer.
     """
     notebook, notes = copy.deepcopy(submission), list(said)
     for cell in notebook.cells:
         cell.pop("outputs", None)  # made anew
     clean = without_surrogates(notebook)
     if clean is not notebook:
-        notes.append("characters that no text can hold were replaced by \ufffd")
+        notes.append("broken Unicode was replaced by \ufffd")
         notebook = clean
     give_form(notebook, source, notes)
     known = known_cells(source)
@@ -54,7 +54,7 @@ def repair(
             del cell.metadata["nbgrader"]
             if claimed and claimed not in known:
                 notes.append(
-                    f"a cell that claims to be {one_line(claimed, 60)}, which the source does not have"
+                    f"a cell claims to be {one_line(claimed, 60)}, which this assignment does not have"
                 )
     placed = {name: notebook.cells[index] for name, index in found.at.items()}
     for name in found.bare:
@@ -66,7 +66,7 @@ def repair(
     _put_back(notebook, known, placed, notes)
     notes += point_to_own_cells(notebook, source, documents)
     if len(notes) > MOST_NOTES:
-        notes = [*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES} more such notes"]
+        notes = [*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES} more notes like these"]
     if notes:
         notebook.cells.insert(0, letter(notes))
     tell_apart(notebook)
@@ -74,7 +74,7 @@ def repair(
 
 
 def is_locked(cell: NotebookNode) -> bool:
-    """Whether the source's text counts in this cell, not the student's."""
+    """Whether students may not change this cell, so that the source's text counts in it."""
     claims = cell.metadata["nbgrader"]
     return not claims.get("solution") and bool(claims.get("grade") or claims.get("locked"))
 
@@ -101,8 +101,8 @@ def _keep_changed_text(notebook, cell, original, notes) -> None:
         notes.append(f"{name} had been emptied; its text was put back")
         return
     notes.append(
-        f"the text of {name} had been changed; it was put back, and the changed text runs as a cell "
-        "of its own before it"
+        f"the text of {name} had been changed; the original was put back, and the changed text runs in "
+        "a cell of its own before it"
     )
     own = NEW_CELL[cell.cell_type](source=cell.source)
     if "attachments" in cell:
@@ -114,7 +114,9 @@ def _keep_changed_text(notebook, cell, original, notes) -> None:
 def _put_right(cell, original, notes) -> None:
     name = grade_id(original)
     if cell.cell_type != original.cell_type:
-        notes.append(f"{name} had been made a {cell.cell_type} cell")
+        notes.append(
+            f"{name} had been made a {cell.cell_type} cell; it is a {original.cell_type} cell again"
+        )
         cell.cell_type = original.cell_type
         if cell.cell_type == "code":
             cell.outputs, cell.execution_count = [], None
@@ -128,7 +130,7 @@ def _put_right(cell, original, notes) -> None:
     }
     wanted = dict(original.metadata["nbgrader"])
     if any(claims.get(key) != value for key, value in wanted.items()):
-        notes.append(f"the nbgrader settings of {name} had been changed")
+        notes.append(f"the nbgrader settings of {name} had been changed; they were put back")
     cell.metadata["nbgrader"] = NotebookNode(
         wanted | ({"checksum": checksum} if isinstance(checksum, str) else {})
     )
@@ -137,7 +139,7 @@ def _put_right(cell, original, notes) -> None:
 
 
 def _put_back(notebook, known, placed, notes) -> None:
-    """Each missing cell goes behind the graded cell that precedes it in the source."""
+    """Put each missing cell below the graded cell that comes before it in the source."""
     before = None
     for name, original in known.items():
         if name not in placed:

@@ -1,8 +1,8 @@
-"""Verdicts as nbgrader reads them.
+"""Writes verdicts as outputs from which nbgrader reads the scores.
 
 nbgrader reads a score from a grade cell's outputs: an error is zero, a result that is one number is
 that many points, and almost anything else is full marks. So a verdict is written as the card and one
-number, and where no verdict could be reached as an error.
+number; if the check failed, it is written as the card and an error.
 """
 
 from nbformat import NotebookNode
@@ -15,7 +15,7 @@ from autograder.notebook.recognise import grade_id
 
 
 def with_verdicts(graded: Graded) -> NotebookNode:
-    """The judged notebook, its grade cells' outputs as nbgrader reads them."""
+    """The judged notebook, with outputs of its grade cells from which nbgrader reads the scores."""
     for cell in graded.notebook.cells:
         if is_judged(cell):
             points = cell.metadata["nbgrader"]["points"]

@@ -1,1 +1,1 @@
-"""Many notebooks: side by side, resumed, recorded."""
+"""Grades many notebooks side by side, records them, and goes on after a stop."""

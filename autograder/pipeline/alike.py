@@ -1,4 +1,4 @@
-"""Ids that people read as one, as `ada` and `Ada`: perhaps one student with two folders."""
+"""Finds ids that look alike, such as `ada` and `Ada`: perhaps one student with two folders."""
 
 import unicodedata
 from collections import defaultdict

@@ -1,7 +1,7 @@
-"""What grading has reached already, on disk: judged notebooks by their content, and what was recorded.
+"""Keeps on disk what has been graded: judged notebooks by their content, and what was recorded.
 
-A result's name is a digest of all that decides it: the submission, the source, the seed, the
-settings and this code. So nothing in the cache is ever out of date, and it may be deleted at any time.
+A result's name is a digest of everything that decides it: the submission, the source, the seed, the
+settings and this code. So no result is ever out of date, and you may delete the cache at any time.
 """
 
 import json
@@ -15,12 +15,18 @@ from pathlib import Path
 from autograder.digest import digest
 from autograder.files import PART, put_in_place
 
-SOURCES = {".py", ".cpp", ".hpp", ".java", ".m"}  # some are built around students' answers
+SOURCES = {
+    ".py",
+    ".cpp",
+    ".hpp",
+    ".java",
+    ".m",
+}  # some are compiled together with students' answers
 PACKAGES = ("ipython", "matplotlib", "nbformat", "numpy", "scipy", "sympy")
 
 
 class Cache:
-    """A folder of JSON files, each written at once: a killed run leaves whole ones only."""
+    """A folder of JSON files; each appears whole or not at all, even if a run is killed."""
 
     def __init__(self, folder: Path):
         self._folder = folder
@@ -29,7 +35,7 @@ class Cache:
             left.unlink()
 
     def load(self, name: str) -> dict | None:
-        """The entry of that name; None where there is none that can be read."""
+        """The entry of this name; None if there is none that can be read."""
         try:
             entry = json.loads(self._path(name).read_text(encoding="utf-8"))
         except (OSError, ValueError):

@@ -1,4 +1,4 @@
-"""Where submissions are judged side by side: processes of this machine, or a Dask cluster."""
+"""Judges submissions side by side, in processes of this machine or on a Dask cluster."""
 
 import multiprocessing
 import os
@@ -16,8 +16,8 @@ from concurrent.futures import (
 from multiprocessing.connection import wait as wait_for_end
 from typing import TypeVar
 
-AHEAD = 3  # submissions under way, a process
-# Inherited by the processes: one thread each, or they take the cores from each other.
+AHEAD = 3  # submissions under way per process
+# Each process gets one thread, or they would take the cores from each other.
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 
 
@@ -29,8 +29,8 @@ def outcomes(
 ) -> Iterator[tuple[str, Result | Exception]]:
     """(name, what `work` returned or raised) of each (name, arguments), as they come.
 
-    When a process dies, which may be any of those under way, each of these is tried again, alone:
-    only the one that kills its process again is given up.
+    When a process dies, any task under way may be to blame. So each of them is tried again, alone, and
+    only a task that kills its process again is given up.
     """
     waiting = iter(tasks)
     running: dict[Future, tuple[str, tuple]] = {}
@@ -75,18 +75,19 @@ def outcomes(
 class Processes:
     """Processes of this machine; started when first needed, and again after one died.
 
-    preload: what they import. lend() is called here, and borrow in each process with what it gave: a
-    socket of something that is costly to start, or None.
+    preload: what they import. share() is called here and gives a handle on something that is costly to
+    start, or None; each process calls use_shared with that handle.
     """
 
-    def __init__(self, jobs: int, preload: tuple[str, ...], lend: Callable, borrow: Callable):
+    def __init__(self, jobs: int, preload: tuple[str, ...], share: Callable, use_shared: Callable):
         if jobs < 1:
-            raise ValueError(f"jobs is {jobs}; at least one process is needed")
+            raise ValueError(f"jobs is {jobs}; it must be at least 1")
         self.window = AHEAD * jobs
-        self._jobs, self._preload, self._lend, self._borrow = jobs, preload, lend, borrow
+        self._jobs, self._preload = jobs, preload
+        self._share, self._use_shared = share, use_shared
         self._executor: Executor | None = None
         self._warming: threading.Thread | None = None
-        self._lent = None
+        self._shared = None
 
     def __enter__(self):
         return self
@@ -114,14 +115,14 @@ class Processes:
                 context.set_forkserver_preload(list(self._preload))
                 from multiprocessing import forkserver  # not on Windows
 
-                forkserver.ensure_running()  # it imports while `lend` starts what it lends
-            self._lent = self._lend()
-            begin = (self._borrow, self._lent)
+                forkserver.ensure_running()  # it imports while `share` starts what it shares
+            self._shared = self._share()
+            begin = (self._use_shared, self._shared)
             self._executor = ProcessPoolExecutor(self._jobs, context, _begin, begin)
         return self._executor
 
     def warm(self, load: Callable) -> None:
-        """Start the processes now, each with `load`: they get ready while this one does."""
+        """Start the processes now, and call `load` in each, while this process gets ready."""
 
         def start():
             for _ in range(self._jobs):
@@ -135,14 +136,14 @@ class Processes:
         if self._executor is not None:
             self._executor.shutdown(cancel_futures=True)
             self._executor = None
-        if self._lent is not None:
-            self._lent.close()
-            self._lent = None
+        if self._shared is not None:
+            self._shared.close()
+            self._shared = None
 
 
-def _begin(borrow: Callable, lent) -> None:
-    """First thing in a process: leave Ctrl-C to the parent, and do not outlive it."""
-    borrow(lent)
+def _begin(use_shared: Callable, shared) -> None:
+    """Prepare a new process: it leaves Ctrl-C to the parent, and ends with it."""
+    use_shared(shared)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     assert parent is not None
@@ -155,7 +156,7 @@ def _begin(borrow: Callable, lent) -> None:
 
 
 class Cluster:
-    """A Dask cluster, whose scheduler moves the work of a lost worker to the others."""
+    """A Dask cluster; its scheduler gives the work of a lost worker to the others."""
 
     def __init__(self, address: str):
         try:
@@ -180,7 +181,7 @@ class Cluster:
         return self._executor
 
     def warm(self, load: Callable) -> None:
-        """The workers run already."""
+        """Do nothing: the workers run already."""
 
     def close(self) -> None:
         self._executor.shutdown()

@@ -1,4 +1,4 @@
-"""One run at a time: a lock that ends with its process, however that ends."""
+"""Lets one run grade at a time: a lock that ends with its process, however that ends."""
 
 import os
 import sys
@@ -20,7 +20,7 @@ else:
 
 @contextmanager
 def locked(path: Path, otherwise: str) -> Iterator[None]:
-    """Hold the lock on a file, which is made and stays; BlockingIOError(otherwise) where it is held."""
+    """Hold the lock on a file, which stays; BlockingIOError(otherwise) if another process holds it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)  # not inherited by programs started here
     try:

@@ -1,4 +1,4 @@
-"""What the pipeline asks of whatever knows the submissions and keeps their grades."""
+"""What the pipeline needs from the code that knows the submissions and records their grades."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -8,8 +8,8 @@ from autograder.notebook.beside import Beside
 
 
 class Standing(Protocol):
-    """What is recorded of one student: points, how many cells a person has still to read, and all of it
-    as text.
+    """What is recorded about one student: points, the number of cells that a person still has to read,
+    and the rows as text.
     """
 
     @property
@@ -25,23 +25,23 @@ class Recorder(Protocol):
 
     assignment: str
     source: str  # the source notebook, as JSON
-    settings: str  # what decides a grade beside submission, source and seed
+    settings: str  # what else decides a grade, besides the submission, the source and the seed
     max_score: float
 
     def submissions(self) -> dict[str, Path]:
         """Student → where that student's notebook is, or should be; in order of the names."""
 
     def standings(self) -> Mapping[str, Standing]:
-        """What is recorded, by student."""
+        """What is recorded about each student."""
 
     def autograded(self, student: str) -> Path:
         """Where the judged notebook is, or will be."""
 
     def refusal(self, student: str) -> str:
-        """Why nothing of a submission is to be read; empty where it may be."""
+        """Why the grader must not read a submission; empty if it may."""
 
     def counted(self, student: str) -> tuple[Path, list[str]]:
-        """The notebook that is graded, and what to know of the others; FileNotFoundError for none."""
+        """The notebook that is graded, and notes on the others; FileNotFoundError if there is none."""
 
     def laid_in(self, student: str) -> Beside:
         """The files that the notebook's cells find beside it."""
@@ -53,10 +53,10 @@ class Recorder(Protocol):
         """What lies beside a submission and its source, as text that changes when a file does."""
 
     def record(self, student: str, judged: dict) -> Standing:
-        """Record a judged notebook; where that fails, what was recorded before stays."""
+        """Record a judged notebook; if that fails, what was recorded before stays."""
 
     def refuse(self, student: str) -> None:
         """Record that a submission cannot be graded."""
 
     def forget(self) -> None:
-        """After an error: drop what was not committed."""
+        """Drop what was not committed, after an error."""

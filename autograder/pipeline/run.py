@@ -1,7 +1,7 @@
-"""Many submissions: judged side by side, kept, and recorded by one writer.
+"""Grades many submissions: judges them side by side, keeps the results, and records them one by one.
 
-`grade` is a pure function, so that any executor serves: processes here, or a Dask cluster. Whatever
-was judged is in the cache before it is recorded, so that a killed run goes on where it was.
+`grade` is a pure function, so any executor can run it: processes here, or a Dask cluster. Each result
+is in the cache before it is recorded, so that a killed run can go on where it was.
 """
 
 from collections import Counter
@@ -20,7 +20,7 @@ from autograder.pipeline.lock import locked
 from autograder.pipeline.recorder import Recorder, Standing
 from autograder.pipeline.worker import judge, load
 from autograder.protocol import one_line
-from autograder.sandbox.room import borrow, lend
+from autograder.sandbox.room import share, use_shared
 from autograder.terminal import shown_name, shown_note
 
 CACHE = Path("course") / "cache-of-results"
@@ -30,10 +30,10 @@ PRELOAD = ("autograder.lean", "autograder.pipeline.worker")
 
 @dataclass(frozen=True)
 class Line:
-    """One student's line of the summary: points, states in words, and what the instructor should know.
+    """One student's line of the summary: points, states in words, and notes for the instructor.
 
-    graded: False where there is no verdict, or not on every cell; the notes say why. redone: whether
-    anything had to be judged or recorded.
+    graded: False if a cell has no verdict; the notes say why. redone: whether anything had to be judged
+    or recorded.
     """
 
     student: str
@@ -59,14 +59,14 @@ def grade_all(
 ) -> list[Line]:
     """Grade each submission of an assignment and record it; a line for each student, in order.
 
-    open_recorder(root, assignment): gives what knows the submissions and records them; called while
-    the processes that judge get ready. jobs: how many these are. scheduler: the address of a Dask
-    cluster that judges instead. force: judge again what is in the cache. ValueError where the
-    assignment cannot be graded at all, BlockingIOError while another run is at work.
+    open_recorder(root, assignment): opens the recorder, while the processes that judge get ready.
+    jobs: the number of these processes. scheduler: the address of a Dask cluster that judges instead.
+    force: judge again what is in the cache. ValueError if the assignment cannot be graded at all,
+    BlockingIOError while another run is grading.
     """
     with (
-        locked(root / LOCK, f"another `autograder grade` is at work in {root}"),
-        Cluster(scheduler) if scheduler else Processes(jobs, PRELOAD, lend, borrow) as pool,
+        locked(root / LOCK, f"another `autograder grade` is running in {root}"),
+        Cluster(scheduler) if scheduler else Processes(jobs, PRELOAD, share, use_shared) as pool,
     ):
         if force or not (root / CACHE / _done(assignment, "anybody")).parent.exists():
             pool.warm(load)
@@ -94,13 +94,13 @@ class _Run:
                 bar.update(len(self._lines) - bar.n)
             bar.update(len(self._lines) - bar.n)
         for student, others in alike(self._lines).items():
-            note = f"reads like {', '.join(map(ascii, others))}: are these folders one student's?"
+            note = f"looks like {', '.join(map(ascii, others))}: do these folders belong to one student?"
             line = self._lines[student]
             self._lines[student] = replace(line, notes=(*line.notes, note))
         return [self._lines[student] for student in self._submissions]
 
     def _tasks(self) -> Iterator[tuple[str, tuple]]:
-        """What is left to be judged; what needs no judging is settled on the way."""
+        """The submissions that have to be judged; the others are settled on the way."""
         for student in self._submissions:
             try:
                 why = self._recorder.refusal(student)
@@ -117,13 +117,13 @@ class _Run:
                     yield student, task
 
     def _task(self, student: str) -> tuple | None:
-        """The arguments of `judge`; None where there is nothing to judge."""
+        """The arguments of `judge`; None if there is nothing to judge."""
         recorder = self._recorder
-        path, said = recorder.counted(student)
+        path, notes = recorder.counted(student)
         self._submissions[student] = path
         content, seed = path.read_bytes(), recorder.seed_of(student)
         beside = recorder.laid_in(student)
-        key = digest(content, seed, beside.digest(), *said, self._common)
+        key = digest(content, seed, beside.digest(), *notes, self._common)
         self._keys[student] = key
         if not self._force:
             if self._unchanged(student, key):
@@ -132,7 +132,7 @@ class _Run:
             if known:
                 self._settle(student, known, new=False)
                 return None
-        return content, recorder.source, seed, beside, tuple(said)
+        return content, recorder.source, seed, beside, tuple(notes)
 
     def _unchanged(self, student: str, key: str) -> bool:
         """Whether this very submission was recorded, and its rows and files are still there."""
@@ -148,7 +148,7 @@ class _Run:
         return True
 
     def _state(self, student: str, standing: Standing) -> dict[str, str]:
-        """What grading this submission left, by which a later run knows it again."""
+        """What grading this submission left, so that a later run recognises it."""
         return {
             "key": self._keys[student],
             "files": digest(self._recorder.files_of(student)),
@@ -157,7 +157,7 @@ class _Run:
         }
 
     def _settle(self, student: str, outcome: dict | Exception, new: bool = True) -> None:
-        """Keep what was judged, and record it."""
+        """Keep the result, and record it."""
         recorder = self._recorder
         try:
             if isinstance(outcome, Exception):
@@ -181,15 +181,15 @@ class _Run:
             self._note(student, states, notes, standing, graded=certain)
 
     def _fail(self, student: str, error: Exception) -> None:
-        """An error that is no fault of the submission's: what was recorded before stays."""
+        """Note an error that is not the submission's fault; what was recorded before stays."""
         self._recorder.forget()
         why = f"{type(error).__name__}: {one_line(str(error))}"
         if self._recorder.autograded(student).exists():
-            why = f"{why}; its earlier grading stays"
+            why = f"{why}; the earlier result stays"
         self._lines[student] = Line(student, notes=(why,), graded=False)
 
     def _refuse(self, student: str, why: str) -> None:
-        """A submission that cannot be graded as it is: an earlier notebook is taken away."""
+        """Note a submission that cannot be graded as it is, and remove an earlier graded notebook."""
         try:
             self._recorder.refuse(student)
         except Exception as error:
@@ -234,7 +234,7 @@ def table(lines: list[Line]) -> str:
 
 
 def _bar(total: int):
-    """A progress bar, where someone is there to see it."""
+    """A progress bar, if stderr is a terminal."""
     return tqdm(total=total, unit="notebook", disable=None, leave=False)
 
 

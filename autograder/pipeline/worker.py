@@ -1,4 +1,4 @@
-"""One submission's file judged, in another process or on another machine: bytes in, JSON out."""
+"""Judges one submission's file, in another process or on another machine: bytes in, JSON out."""
 
 import warnings
 from functools import lru_cache
@@ -17,17 +17,17 @@ from autograder.sandbox.room import Room
 def judge(
     content: bytes, source: str, seed: str, beside: Beside = NOTHING, said: tuple[str, ...] = ()
 ) -> dict:
-    """grade(submission, source, seed, beside, said), its verdicts as nbgrader reads them.
+    """Grade a notebook, and give its cells with outputs that nbgrader can read.
 
-    notebook, states, notes, certain (whether every check could be judged) and code, by which a
-    worker with other code is known; or refused, why the file cannot be graded, and code.
+    The result holds notebook, states, notes, certain (whether every check could judge) and code, which
+    shows whether a worker has other code; or refused (why the file cannot be graded) and code.
     """
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # nbformat's are not the instructor's business
             return _judged(content, source, seed, beside, said) | {"code": code_version()}
     except (UnicodeDecodeError, nbformat.reader.NotJSONError):
-        refused = "is not valid JSON: ask for it again"
+        refused = "is not valid JSON: ask the student for it again"
     except OSError:
         raise  # ours
     except Exception as error:
@@ -37,7 +37,7 @@ def judge(
 
 
 def load() -> None:
-    """Start what a first submission would wait for."""
+    """Start what the first submission would otherwise wait for."""
     Room().close()
     code_version()
 

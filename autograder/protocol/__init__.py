@@ -1,9 +1,9 @@
-"""The wall between a student's code and its judge: calls go in, plain numbers come back.
+"""The protocol between the judge and a student's code: calls go in, plain numbers come back.
 
-This package is on both sides. In JupyterLab `answer` runs in the student's own kernel; in grading it
-runs in the sandbox, and calls and replies cross as JSON, never as objects. It knows nothing of the
-problems, and holds nothing that a student should not see. Its imports are relative, as it has another
-name there.
+This package is on both sides. In JupyterLab `answer` runs in the student's own kernel. When a
+notebook is graded, it runs in the sandbox; calls and replies cross as JSON, never as objects. It knows
+nothing of the problems, and holds nothing that a student should not see. Its imports are relative,
+because it has another name in the sandbox.
 """
 
 from .arguments import Expressions, Function, Symbol, real
@@ -21,8 +21,8 @@ from .calls import (
     encode_call,
     encode_reply,
     kind_of,
+    message_of,
     read,
-    said_by,
     time_limit,
 )
 from .looks import Look
@@ -49,10 +49,10 @@ __all__ = [
     "encode_call",
     "encode_reply",
     "kind_of",
+    "message_of",
     "one_line",
     "read",
     "real",
-    "said_by",
     "shortened",
     "time_limit",
 ]

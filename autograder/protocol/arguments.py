@@ -1,7 +1,7 @@
-"""What a check may give a student's function: numbers, and what stands for things that no JSON holds.
+"""What a check may give a student's function: numbers, and stand-ins for what JSON cannot hold.
 
-The judge writes the stand-ins; the room makes the real thing
-of them, so that a function or a SymPy matrix arrives as a student's own code would pass it.
+The judge sends the stand-ins. The sandbox makes the real thing of them, so that a function or a SymPy
+matrix arrives as a student's own code would pass it.
 """
 
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ class Expressions:
 class Function:
     """Stands for a function of numbers: its arguments, and the list it returns as a float array.
 
-    Both as Python writes them, with NumPy's names at hand: Function("x, u", "[x[1], u[0] - sin(x[0])]").
+    Both are Python source that may use NumPy's names: Function("x, u", "[x[1], u[0] - sin(x[0])]").
     """
 
     arguments: str
@@ -38,7 +38,7 @@ class Function:
 
 
 def real(value):
-    """What the student's function gets: a fresh copy for each call, so that changing it harms nobody."""
+    """What the student's function gets: a new copy for each call, which it may change."""
     match value:
         case Symbol(name):
             import sympy  # only a symbolic question pays for it
@@ -59,8 +59,9 @@ def real(value):
 
 
 def changed(value, given) -> list[str]:
-    """What a call changed in the argument `given` that `real(value)` had made: nothing, the names of
-    a namespace's entries, or "" for the argument itself.
+    """What a call changed in an argument, which was `real(value)` and is now `given`.
+
+    The names of a namespace's entries, or "" for the argument itself; empty where it changed nothing.
     """
     if not isinstance(value, SimpleNamespace):
         return [] if _is_still(value, given) else [""]
@@ -104,7 +105,7 @@ def _compiled(arguments, returns):
 def _matrix(rows):
     import sympy
 
-    # As one text: parsing costs by the call. Then real symbols for those that the parser made.
+    # One text for all entries, as each call of the parser costs time. Its symbols are not real ones yet.
     text = ", ".join(f"[{', '.join(row)}]" for row in rows)
     matrix = sympy.ImmutableMatrix(sympy.sympify(f"[{text}]"))
     return matrix.xreplace({s: sympy.Symbol(s.name, real=True) for s in matrix.free_symbols})

@@ -1,4 +1,4 @@
-"""Calling a student's function, beside it, and the messages in which calls and replies cross."""
+"""Calls a student's function, and writes calls and replies as messages."""
 
 import difflib
 import os
@@ -27,10 +27,10 @@ from .readings import (
 )
 
 CALL_SECONDS = 2.0  # of the processor's time
-# Code that sleeps for ever uses no processor time, and on a busy machine honest code gets little: a
-# limit is one of the clock, too, so many times as long.
+# Code that sleeps for ever uses no processor time, and on a busy machine honest code gets little. So
+# each limit holds on the clock as well, where it is this many times as long.
 PATIENCE = 5.0
-# More than any answer has; two answers must fit where one of the largest does.
+# A reply with two answers must fit where the largest answer does; this is more than any answer has.
 MOST_TWICE = MOST_NUMBERS // 10
 MOST_CHANGES = 50
 
@@ -48,10 +48,10 @@ class Fault:
 class Call:
     """One call of a student's function.
 
-    args: floats, arrays, namespaces and tuples of them, or what `arguments` has. With `at`, the SymPy
-    expression that comes back is evaluated at each of its points, mappings from symbol to number,
-    and the reply holds one value a point. parts: the function returns several things at once, named
-    or in order, and so does the reply.
+    args: floats, arrays, namespaces and tuples of them, or the stand-ins of `arguments`. at: points,
+    each a mapping from symbol to number, at which the SymPy expression that comes back is evaluated;
+    the reply then holds one value a point. parts: whether the function returns several things at once,
+    named or in order; the reply then does too.
     """
 
     name: str
@@ -62,11 +62,11 @@ class Call:
 
 @dataclass(frozen=True)
 class Reply:
-    """The numbers a call gave, or the fault that kept them back.
+    """The numbers that a call gave, or the fault because of which it gave none.
 
     value: a float array; dicts and lists of arrays where the call asks for parts.
-    changed: what the call changed of its arguments: an argument's place, and the name in a namespace
-    or "". again: where it did, what a second call gave, with the arguments as the first left them.
+    changed: each argument that the call changed: its place, and the name in a namespace or "".
+    again: what a second call gave, with the arguments as the first call had changed them.
     """
 
     value: np.ndarray | dict | list | None = None
@@ -78,7 +78,7 @@ class Reply:
 class TimeLimitError(BaseException):
     """Raised in the student's code at its time limit; no `except Exception` swallows it.
 
-    seconds: the limit. starved: whether it is the clock's, reached while the processor was elsewhere.
+    seconds: the limit. starved: whether it is the clock's limit, as the code used little processor time.
     """
 
     def __init__(self, seconds: float, starved: bool):
@@ -87,7 +87,7 @@ class TimeLimitError(BaseException):
 
 
 def answer(call: Call, namespace: Mapping) -> Reply:
-    """Call the student's function of that name, beside it, and read what it returns as numbers."""
+    """Call the student's function of that name, and read what it returns as numbers."""
     if call.name not in namespace:
         close = difflib.get_close_matches(call.name, own_names(namespace), n=1, cutoff=0.5)
         hint = close[0] if close else ""
@@ -101,17 +101,17 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     changes = () if reply.fault else _changes(call.args, given)
     if not changes:
         return reply
-    # Both calls together have the time of one: whoever waits for the reply waits no longer.
+    # Both calls together get the time of one, so that the judge waits no longer for the reply.
     took = max(time.process_time() - started, (time.monotonic() - clock) / PATIENCE)
     again = _called(call, function, given, max(CALL_SECONDS - took, 0.01))
     too_large = max(_size(reply.value), _size(again.value)) > MOST_TWICE
-    # Nobody asked for two calls in that time.
+    # Then the second call had less time than a call may take.
     too_long = again.fault and again.fault.kind in (FaultKind.TIMED_OUT, FaultKind.STARVED)
     return replace(reply, changed=changes, again=None if too_large or too_long else again)
 
 
 def _called(call: Call, function: Callable, given: list, seconds: float) -> Reply:
-    """One call with the arguments given, or with new ones, which then are in `given`."""
+    """One call with the arguments in `given`; an empty list gets new ones first."""
     try:
         with time_limit(seconds), warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
@@ -125,7 +125,7 @@ def _called(call: Call, function: Callable, given: list, seconds: float) -> Repl
         kind = FaultKind.STARVED if limit.starved else FaultKind.TIMED_OUT
         return Reply(fault=Fault(kind, f"{limit.seconds:g} s"))
     except (Exception, SystemExit) as error:
-        message = shortened(f"{type(error).__name__}: {said_by(error)}")
+        message = shortened(f"{type(error).__name__}: {message_of(error)}")
         return Reply(fault=Fault(FaultKind.RAISED, message, _failing_line(error)))
 
 
@@ -146,7 +146,7 @@ def _size(value) -> int:
 
 
 def read(call: Call, result):
-    """A function's result as the numbers that the call asks for; NotNumbersError where it is none."""
+    """A function's result as the numbers that the call asks for; NotNumbersError where it has none."""
     if call.at:
         return evaluate(result, call.at)
     return read_parts(result) if call.parts else read_numbers(result)
@@ -184,12 +184,12 @@ def _failing_line(error: BaseException) -> str:
 
 
 def kind_of(error: BaseException) -> str:
-    """The name of an error's class; of Python's private kinds of SyntaxError, that."""
+    """The name of an error's class; SyntaxError also for Python's private kinds of it."""
     name = type(error).__name__
     return "SyntaxError" if isinstance(error, SyntaxError) and name.startswith("_") else name
 
 
-def said_by(error: BaseException) -> str:
+def message_of(error: BaseException) -> str:
     """The message of an error, whose class may be a student's own."""
     try:
         return str(error)
@@ -199,10 +199,9 @@ def said_by(error: BaseException) -> str:
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
-    """Raise TimeLimitError in the block where the system can (not on Windows).
+    """Raise TimeLimitError in the block at its time limit; on Windows there is none.
 
-    That is when this process has used `seconds` of the processor's time in it, and after PATIENCE
-    times as long on the clock.
+    The limit is `seconds` of this process's processor time, or PATIENCE times as long on the clock.
     """
     if os.name != "posix" or threading.current_thread() is not threading.main_thread():
         yield
@@ -211,7 +210,7 @@ def time_limit(seconds: float) -> Iterator[None]:
     begin = time.process_time()
 
     def stop(signum, frame):
-        # What swallowed the processor's limit may meet the clock's.
+        # Code that swallowed the processor's limit may still run at the clock's.
         if signum == signal.SIGPROF or time.process_time() - begin >= seconds:
             raise TimeLimitError(seconds, starved=False)
         raise TimeLimitError(PATIENCE * seconds, starved=True)
@@ -251,7 +250,7 @@ def encode_reply(reply: Reply) -> dict:
 
 
 def decode_reply(message) -> Reply:
-    """A reply from beyond the wall; anything that is not one is a fault, never an exception."""
+    """A reply from the sandbox; anything else becomes a fault, never an exception."""
     reply = _decode_reply(message)
     match message:
         case {"changed": list(changes), "again": again} if not reply.fault:

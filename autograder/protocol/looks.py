@@ -1,4 +1,4 @@
-"""A cell that uses the student's functions: where one of them fails, a line says so, and no error."""
+"""`Look`: when a student's function fails in a cell of the course, a line says so, not an error."""
 
 import inspect
 import sys
@@ -7,18 +7,18 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from types import TracebackType
 
-from .calls import TimeLimitError, said_by, time_limit
+from .calls import TimeLimitError, message_of, time_limit
 from .readings import one_line
 
-# For the id of the check in whose function an error was raised, if any: the one that is to blame.
+# Takes the id of the check in whose function an error was raised, if any; gives the one to blame.
 Blame = Callable[[str | None], str | None]
 
 
 class Look:
     """A block that uses functions of the student's. An error in it becomes one printed line.
 
-    Figures that were opened in a block that failed are closed: they are empty or half drawn. What is
-    no function's error, an interrupt above all, goes through.
+    The figures that a failed block opened are closed, as they are empty or half drawn. An interrupt
+    goes through, as it is no function's error.
 
     ids: of the checks that judge these functions, each after those that it builds on. namespace: the
     notebook's. blame: asked after an error; without it, the line names every card that may say more.
@@ -53,38 +53,38 @@ class Look:
         self._limit.close()
         if error is None:
             return False
-        # The limit of a whole cell is another's to see.
+        # The time limit of the whole cell is not ours to catch.
         own: tuple[type[BaseException], ...] = (Exception, SystemExit)
         if self._seconds is not None:
             own += (TimeLimitError,)
         if isinstance(error, own):
-            print(self._describe(error))
+            print(self._line_about(error))
         _close_figures(_open_figures() - self._figures)
         return isinstance(error, own)
 
-    def _describe(self, error: BaseException) -> str:
+    def _line_about(self, error: BaseException) -> str:
         raising = self._raising(error)
         if isinstance(error, NotImplementedError):
             names = [_name(raising)] if raising else map(_name, self._ids)
             return f"Write {_joined(names)} first, then run this cell again."
         missing = [id for id in self._ids if _name(id) not in self._namespace]
         if isinstance(error, NameError) and error.name in list(map(_name, missing)):
-            return f"The notebook defines no {error.name}: {_cards(missing)}."
+            return f"The notebook does not define {error.name}: {_cards(missing)}."
         if isinstance(error, TimeLimitError):
-            said = f"did not end within {self._seconds:g} s"
+            failure = f"did not end within {self._seconds:g} s"
         else:
-            said = f"raises {one_line(type(error).__name__)}"
-        details = f"{said}: {one_line(said_by(error), 120)}".removesuffix(": ")
+            failure = f"raises {one_line(type(error).__name__)}"
+        details = f"{failure}: {one_line(message_of(error), 120)}".removesuffix(": ")
         if self._blame is None:
             cards = self._ids[: self._ids.index(raising) + 1] if raising else self._ids
             who = _name(raising) if raising else "This cell"
-            return f"{who} {said if raising else details}: {_cards(cards)}."
+            return f"{who} {failure if raising else details}: {_cards(cards)}."
         blamed = self._blame(raising)
-        if blamed is None:  # right, but not in a form that serves here
+        if blamed is None:  # the functions are right, but not in a form that this cell can use
             return f"{_name(raising) if raising else 'This cell'} {details}"
         if blamed == raising:
-            return f"{_name(raising)} {said}: {_cards([blamed])}."
-        return f"What {_name(blamed)} returns is of no use in this cell: {_cards([blamed])}."
+            return f"{_name(raising)} {failure}: {_cards([blamed])}."
+        return f"This cell cannot use what {_name(blamed)} returns: {_cards([blamed])}."
 
     def _raising(self, error: BaseException) -> str | None:
         """The check of the innermost of these functions on the way to the error."""

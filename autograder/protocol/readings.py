@@ -1,4 +1,4 @@
-"""Reading what a student's function returned as plain numbers, and writing these for the wall."""
+"""Reads what a student's function returned as plain numbers, and writes these as JSON."""
 
 import numbers
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-# 24 such answers are a reply that the room may still send.
+# A reply of 24 such answers is not yet too long for the sandbox to send.
 MOST_NUMBERS = 50_000
 MOST_CHARACTERS = 300
 MOST_ENTRIES = 100
@@ -19,19 +19,19 @@ DEEPEST = 4
 class FaultKind(StrEnum):
     """Why a call gave no numbers."""
 
-    MISSING = "missing"  # no such name in the notebook
-    CELL_FAILED = "cell failed"  # no such name, and a cell that holds it stopped with an error
-    STALE = "stale"  # an earlier one was called: the cell of the last stopped with an error
+    MISSING = "missing"  # the notebook does not define the name
+    CELL_FAILED = "cell failed"  # nor does it: the cell that should define it stopped with an error
+    STALE = "stale"  # an earlier one was called: the cell that defines it again stopped
     NOT_CALLABLE = "not callable"
     NOT_IMPLEMENTED = "not implemented"  # the stub is still there
     RAISED = "raised"
     TIMED_OUT = "timed out"
-    STARVED = "starved"  # the clock's limit came before the processor's: asleep, or a busy machine
-    NO_TOOLS = "no tools"  # another language's, whose compiler is not installed
+    STARVED = "starved"  # at the clock's limit, not the processor's: asleep, or a busy machine
+    NO_TOOLS = "no tools"  # it is in a language whose compiler is not installed
     DIED = "died"  # the process ended during the call
     NOTHING = "nothing"  # returned None
     NOT_NUMBERS = "not numbers"
-    GARBLED = "garbled"  # what came back through the wall is no reply
+    GARBLED = "garbled"  # what came back is no reply
 
 
 class NotNumbersError(Exception):
@@ -62,7 +62,7 @@ def read_numbers(value) -> np.ndarray:
 
 
 def read_parts(value, depth: int = DEEPEST):
-    """A result of several named or ordered parts: dicts and lists of arrays, as far as they go."""
+    """A result of several parts, named or in order, as dicts and lists of arrays."""
     if isinstance(value, SimpleNamespace):
         value = vars(value)
     if isinstance(value, Mapping | tuple | list) and depth and len(value) <= MOST_ENTRIES:
@@ -78,7 +78,7 @@ def _number(entry) -> float:
     free = getattr(entry, "free_symbols", None)
     if free:
         names = ", ".join(sorted(str(symbol) for symbol in free))
-        raise NotNumbersError(FaultKind.NOT_NUMBERS, f"an expression that still holds {names}")
+        raise NotNumbersError(FaultKind.NOT_NUMBERS, f"an expression that still contains {names}")
     if isinstance(entry, numbers.Real) or hasattr(entry, "__float__"):
         try:
             return float(entry)
@@ -93,7 +93,7 @@ def _described(value) -> str:
 
 def evaluate(expression, points) -> np.ndarray:
     """A SymPy expression's numbers, or a matrix's, at each point: a mapping from name to number."""
-    import sympy  # only a symbolic answer pays for it
+    import sympy  # here, so that only symbolic answers wait for it
 
     try:
         if isinstance(expression, list | tuple | np.ndarray):
@@ -111,12 +111,12 @@ def evaluate(expression, points) -> np.ndarray:
 
 
 def _value_at(expression, symbols, point):
-    """The expression's value there; compiled where that works, for a hundredth of what `subs` costs."""
+    """The expression's value at a point; compiled if possible, as `subs` takes 100 times as long."""
     known = {symbol: point[symbol.name] for symbol in symbols if symbol.name in point}
     if len(known) == len(symbols):
-        with suppress(Exception):  # what NumPy has no word for, SymPy may still evaluate
+        with suppress(Exception):  # NumPy may lack a function that SymPy can evaluate
             return _compiled(symbols, expression)(*known.values())
-    return expression.doit().subs(known)  # a derivative may have been written, but not taken
+    return expression.doit().subs(known)  # it may hold a derivative that is not taken yet
 
 
 @lru_cache(maxsize=64)
@@ -131,7 +131,7 @@ def shortened(text: str, most: int = MOST_CHARACTERS) -> str:
 
 
 def one_line(text: str, most: int = MOST_CHARACTERS) -> str:
-    """Printable and shortened, so that no text of a student's passes for more than one line of ours."""
+    """The text, printable and shortened, so that a student's text cannot pass for lines of ours."""
     if not text.isprintable():
         text = repr(text[:most])[1:-1]
     return shortened(text, most)

@@ -1,7 +1,7 @@
-"""A class on one page: scores, the state of each check, and which mistakes how many made.
+"""Reports a class on one page: scores, the state of each check, and how many made which mistake.
 
-The verdicts are read from the autograded notebooks, so that it does not matter which way they were
-graded; the scores come from the gradebook, with what a person gave.
+The verdicts come from the autograded notebooks, so it does not matter which command graded them; the
+scores come from the gradebook, and include the points that a person gave.
 """
 
 from collections import Counter, defaultdict
@@ -21,15 +21,15 @@ from autograder.problems import CHECKS
 from autograder.protocol import one_line
 from autograder.terminal import shown_note
 
-MOST_LINES = 10  # of mistakes in the terminal; the page has them all
+MOST_LINES = 10  # mistakes in the terminal; the page has all of them
 
 
 @dataclass(frozen=True)
 class Student:
     """One student's points, and the verdicts on the autograded notebook.
 
-    points: with what a person gave, or None where nothing is graded. to_read: cells that a person has
-    still to read. verdicts: by check. note: why there are none.
+    points: with those that a person gave; None if nothing is graded. to_read: how many cells a person
+    still has to read. verdicts: by check. note: why there are none.
     """
 
     name: str
@@ -41,7 +41,10 @@ class Student:
 
 @dataclass(frozen=True)
 class Made:
-    """What was said of a wrong answer: in which check, to whom; name: the mistake's, where it is one."""
+    """A sentence of the diagnosis, its check, and the students who got it.
+
+    name: the mistake's name, if the sentence names a mistake.
+    """
 
     check: str
     name: str
@@ -50,24 +53,22 @@ class Made:
 
 
 def read_verdicts(notebook: Path) -> dict[str, dict]:
-    """The verdicts in an autograded notebook, by check. ValueError where it cannot be read."""
+    """The verdicts in an autograded notebook, by check. ValueError if it cannot be read."""
     try:
         cells = nbformat.read(notebook, as_version=4).cells
-        said = [
+        verdicts = [
             read_verdict(output)
             for cell in cells
             if cell.metadata.get("nbgrader", {}).get("grade")
             for output in cell.get("outputs", [])
         ]
-        return {one["check"]: one for one in said if one}
-    except (
-        Exception
-    ) as error:  # a file that is JSON may lack anything, or hold anything in its place
+        return {one["check"]: one for one in verdicts if one}
+    except Exception as error:  # the file may be JSON of any other kind
         raise ValueError(f"{notebook.name} cannot be read: {one_line(str(error))}") from None
 
 
 def mistakes_made(students: Iterable[Student]) -> list[Made]:
-    """Each sentence that was said to someone, the most frequent first."""
+    """Each sentence that a student got, the most frequent first."""
     to_whom = defaultdict(list)
     for student in students:
         for check, verdict in student.verdicts.items():
@@ -86,7 +87,7 @@ def _name_of(check: str, sentence: str) -> str:
 
 
 def page(assignment: str, most: float, students: list[Student]) -> str:
-    """The report as an HTML page of its own. most: the points of the assignment."""
+    """The report as an HTML page. most: the points of the assignment."""
     checks = list(dict.fromkeys(check for student in students for check in student.verdicts))
     counts = {
         check: Counter(

@@ -1,1 +1,1 @@
-"""Where student code runs."""
+"""Runs student code, shut off from everything else on the machine."""

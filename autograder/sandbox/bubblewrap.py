@@ -1,4 +1,4 @@
-"""What bubblewrap is asked for: which files, which user, which limits a room begins with."""
+"""Builds the command that starts a room in bubblewrap: its files, its user, its first limits."""
 
 import logging
 import os
@@ -44,7 +44,7 @@ def bubblewrapped(script: str) -> tuple[list[str], dict[str, str]]:
     """The command that runs a script of INSIDE behind walls, and the environment to start it in."""
     command = ["bwrap", "--new-session", *_user(), "--dev", "/dev"]
     if script == "runner.py":
-        # "Parent" is the thread. The warm process outlives it, and ends by its socket.
+        # "Parent" means the thread that started it; the warm process must live longer than that.
         command += ["--die-with-parent"]
     for folder in ("/tmp", "/dev/shm"):
         command += ["--perms", "1777", "--size", str(TMPFS_BYTES), "--tmpfs", folder]
@@ -64,12 +64,12 @@ def bubblewrapped(script: str) -> tuple[list[str], dict[str, str]]:
     for file, name in INSIDE.items():
         command += [*_parents(f"/room/{name}"), "--ro-bind", str(file), f"/room/{name}"]
     command += ["--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/tmp"]
-    # The environment goes in through bwrap's own: what it is started with stays readable inside.
+    # bwrap gets only this environment, as everything in its own stays readable inside.
     return [*command, "--", sys.executable, "-I", "-u", f"/room/{script}", "walled"], ENVIRONMENT
 
 
 def _user() -> list[str]:
-    """New namespaces, and who the process is in them."""
+    """Options for new namespaces, and for the user in them."""
     if _root_can_step_down():
         # The script itself becomes nobody: mapped to a user namespace, root stays root to the
         # kernel, which counts no processes of root's.
@@ -85,22 +85,22 @@ def _user() -> list[str]:
 
 
 def _parents(folder: str) -> list[str]:
-    """Folders that others than root may enter too: bubblewrap makes those it needs for root alone."""
+    """Options for parent folders that every user may enter; bubblewrap makes its own for root alone."""
     parents = [str(parent) for parent in reversed(Path(folder).parents)][1:]
     return [word for parent in parents for word in ("--perms", "0755", "--dir", parent)]
 
 
 @cache
 def _root_can_step_down() -> bool:
-    """Whether this is a root with all rights, and a Python that others may run too."""
+    """Whether this user is root with all rights, and other users may run this Python."""
     if os.geteuid() != 0:
         return False
     for folder in python_folders():
         if os.stat(folder).st_mode & 0o005 != 0o005:
             log.warning(
-                "%s is readable by root alone: student code runs as root's, whose processes the "
-                "kernel does NOT limit; a room that has too many ends a moment later. Grade as an "
-                "ordinary user, or chmod -R o+rX it",
+                "only root can read %s, so student code runs as root, and the kernel does NOT limit "
+                "the number of root's processes; a sandbox with too many is ended a moment later. "
+                "Grade as an ordinary user, or run chmod -R o+rX on that folder",
                 folder,
             )
             return False
@@ -109,12 +109,12 @@ def _root_can_step_down() -> bool:
 
 @cache
 def has_bubblewrap() -> bool:
-    """Whether bubblewrap is here and works; a warning once where not."""
+    """Whether bubblewrap is here and works; if not, one warning says so."""
     if _runs("--unshare-all"):
         return True
     log.warning(
         "bubblewrap does not work here: student code runs with limits on time, memory, files and "
-        "the number of processes, but is NOT shut off from files and network, nor from your other "
+        "the number of processes, but is NOT shut off from your files, the network and your other "
         "processes. On Debian: apt-get install bubblewrap"
     )
     return False
@@ -140,9 +140,9 @@ def python_folders() -> list[str]:
 
 
 def python_links(executable: str, bound: list[str]) -> dict[str, str]:
-    """Links on the way from an environment's Python to the real one, and where they point.
+    """Links that lead from an environment's Python to the real one, and where they point.
 
-    Such as one in somebody's own folder of programs; those in `bound` folders and in /usr come along.
+    Links in `bound` folders and in /usr are left out, as the room has these folders.
     """
     links, path = {}, Path(executable)
     while path.is_symlink():
@@ -153,9 +153,9 @@ def python_links(executable: str, bound: list[str]) -> dict[str, str]:
     return links
 
 
-# What Debian's compilers and Octave go through /etc for: two programs, and two libraries.
+# Debian's compilers and Octave find these through /etc: two programs, and two libraries.
 CHOSEN = ("java", "javac", "libblas.so.3", "liblapack.so.3")
-# What a Java machine does not start without, where Debian keeps it in /etc.
+# A Java machine does not start without these files, which Debian keeps in /etc.
 JAVA_READS = ("conf/security/java.security", "lib/jvm.cfg")
 
 
@@ -175,6 +175,6 @@ def java_settings() -> list[str]:
 
 
 def _installed_packages() -> list[str]:
-    """This project's packages where they are copied into the environment: to be covered."""
+    """This project's packages, if they are copied into the environment; the room must not see them."""
     site = Path(sysconfig.get_path("purelib"))
     return [str(site / name) for name in ("armdyn", "autograder") if (site / name).exists()]

@@ -1,4 +1,4 @@
-"""A room's process that is started for it alone, in bubblewrap or, where that is missing, without."""
+"""Starts a room as a new process, in bubblewrap or, where that is missing, without."""
 
 import os
 import select
@@ -47,15 +47,15 @@ class ColdProcess:
     def ended(self) -> bool:
         return self._process.returncode is not None
 
-    def told(self, request: str, seconds: float) -> float | None:
-        return self._watch.told(request, seconds)
+    def ask_watch(self, request: str, seconds: float) -> float | None:
+        return self._watch.ask(request, seconds)
 
-    def said(self) -> str:
+    def why_ended(self) -> str:
         ready, _, _ = select.select([self._errors], [], [], 0)
         text = os.read(self._errors, 4096).decode(errors="replace").strip() if ready else ""
         return self._watch.reason() or text
 
-    def outlived_its_keeper(self) -> bool:
+    def lost_its_warm_process(self) -> bool:
         return False
 
     def end(self) -> None:
@@ -63,8 +63,8 @@ class ColdProcess:
         if not self.ended:
             if not self._walled and hasattr(os, "pidfd_open"):
                 self._await_watch()
-            # Without bubblewrap there is no process namespace to take the children along, and they
-            # may be there when their parent has ended. The group's number is free only after wait.
+            # Without bubblewrap there is no process namespace that ends with its first process, so
+            # children may outlive it. The group's number is free only after `wait`.
             with suppress(ProcessLookupError):
                 os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
@@ -73,7 +73,7 @@ class ColdProcess:
         self._folder.cleanup()
 
     def _await_watch(self) -> None:
-        """It ends itself, after what is in no group of its own."""
+        """Wait until the watch ends, after it has ended the processes that left its group."""
         try:
             process = os.pidfd_open(self._process.pid)
         except OSError:

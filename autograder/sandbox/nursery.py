@@ -1,8 +1,8 @@
-"""The warm process, from outside: started once, it forks a room in the time a cold one takes to load.
+"""Starts the warm process, which has loaded what notebooks import, and lets it fork rooms.
 
-A grader process has one, started with its first room and ended with the process, however that
-ends: the warm process reads a socket whose other end is here, and stops when that is closed. It may
-lend this end to processes that work for it.
+A grader process has one warm process, which starts with the first room and ends with the grader,
+however that ends: it reads a socket whose other end is here, and stops when that is closed. A grader
+may share this end with the processes that work for it.
 """
 
 import atexit
@@ -25,14 +25,14 @@ END_SECONDS = 10.0
 
 
 class Nursery:
-    """A running warm process. `start_room` forks a room of it; OSError where it cannot.
+    """A running warm process. `start_room` forks a room from it; OSError if that fails.
 
     command, environment: what starts it.
     """
 
     def __init__(self, command: list[str], environment: dict[str, str]):
         self._lock = threading.Lock()
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115  closed in close
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115  closed in close
         self._channel, inside = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with inside:
             self._process = subprocess.Popen(
@@ -41,13 +41,13 @@ class Nursery:
                 cwd="/",
                 stdin=inside.fileno(),
                 stdout=subprocess.DEVNULL,
-                stderr=self._said,
+                stderr=self._errors,
                 start_new_session=True,
             )
         if not select.select([self._channel], [], [], START_SECONDS)[0] or not self._read_ready():
-            said = os.pread(self._said.fileno(), 4096, 0).decode(errors="replace").strip()
+            text = os.pread(self._errors.fileno(), 4096, 0).decode(errors="replace").strip()
             self.close()
-            raise OSError(f"the warm process did not start: {said[-300:]}")
+            raise OSError(f"the warm process did not start: {text[-300:]}")
 
     def _read_ready(self) -> bool:
         with suppress(OSError):
@@ -60,7 +60,7 @@ class Nursery:
             return self._process.poll() is None
 
     def answers(self) -> bool:
-        """Whether it works: that it is ending shows here before `alive` does."""
+        """Whether it answers: while it is ending, it no longer does, though it is still `alive`."""
         with self._lock, suppress(OSError):
             self._channel.send(b"alive?")
             if select.select([self._channel], [], [], END_SECONDS)[0]:
@@ -68,9 +68,9 @@ class Nursery:
         return False
 
     def start_room(self, folder: str = "") -> tuple[int, int, socket.socket]:
-        """Fork a room; what leads to its requests, its replies and its watch.
+        """Fork a room, and return descriptors for its requests and replies, and a socket to its watch.
 
-        folder: where its cells run, for rooms without walls, which have no /tmp of their own.
+        folder: where its cells run, if it has no walls and so no /tmp of its own.
         """
         request_end, requests = os.pipe()
         replies, reply_end = os.pipe()
@@ -90,8 +90,8 @@ class Nursery:
             handle_end.close()
         return requests, replies, handles
 
-    def lend(self) -> socket.socket:
-        """A copy of this end of the socket, from which another process makes a `LentNursery`."""
+    def share(self) -> socket.socket:
+        """A copy of this end of the socket, from which another process makes a `SharedNursery`."""
         return self._channel.dup()
 
     def close(self) -> None:
@@ -103,16 +103,16 @@ class Nursery:
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
-            self._said.close()
+            self._errors.close()
 
     def forget(self) -> None:
-        """In a fork of the grader: this end of the socket must not keep the warm process alive."""
+        """Close this end of the socket in a fork of the grader, so that the warm process can end."""
         self._channel.close()
-        self._process.returncode = 0  # another process's child, and not to be warned of
+        self._process.returncode = 0  # the child of another process, so that nobody warns of it
 
 
-class LentNursery(Nursery):
-    """Another process's nursery, through a copy of its socket; `close` gives that back."""
+class SharedNursery(Nursery):
+    """Another process's nursery, through a copy of its socket; `close` closes only that copy."""
 
     def __init__(self, channel: socket.socket):
         self._lock = threading.Lock()
@@ -132,9 +132,9 @@ class LentNursery(Nursery):
 
 
 class WatchLine:
-    """The judge's end of the line to a room's watch, which is open as long as the room shall live.
+    """The judge's end of the line to a room's watch; the room lives as long as it is open.
 
-    A fork of the judge lets go of its copy, so that the room ends with the judge alone.
+    A fork of the judge closes its copy, so that the room ends when the judge does.
     """
 
     _open: ClassVar[weakref.WeakSet] = weakref.WeakSet()
@@ -143,19 +143,19 @@ class WatchLine:
         self._line, self._received, self._reason = line, b"", ""
         WatchLine._open.add(self)
 
-    def told(self, request: str, seconds: float) -> float | None:
-        """The processor time that the watch answers with, s; None where it has ended or is silent."""
+    def ask(self, request: str, seconds: float) -> float | None:
+        """The processor time that the watch answers with, s; None if it has ended or is silent."""
         with suppress(OSError):
             self._line.sendall(request.encode() + b"\n")
         deadline = time.monotonic() + seconds
         while (line := self._read_line(deadline - time.monotonic())) is not None:
             word, _, number = line.partition(" ")
-            if word == request:  # no late answer to another
+            if word == request:  # not a late answer to another request
                 return float(number)
         return None
 
     def reason(self) -> str:
-        """Why the watch has ended the room; "" where it has not."""
+        """Why the watch has ended the room; "" if it has not."""
         while not self._reason and self._read_line(0) is not None:
             pass
         return self._reason
@@ -188,9 +188,9 @@ class WatchLine:
 
 
 class WarmProcess:
-    """One room's processes. requests, replies: descriptors, as of a subprocess's pipes.
+    """One room's processes. requests, replies: descriptors, like those of a subprocess's pipes.
 
-    nursery, folder: whose room it is, and as of its `start_room`.
+    nursery: it forks the room. folder: where the cells run, as in `start_room`.
     """
 
     def __init__(self, nursery: Nursery, folder: str = ""):
@@ -200,18 +200,18 @@ class WarmProcess:
         self._watch = WatchLine(line)
         self.ended = False
 
-    def told(self, request: str, seconds: float) -> float | None:
-        return self._watch.told(request, seconds)
+    def ask_watch(self, request: str, seconds: float) -> float | None:
+        return self._watch.ask(request, seconds)
 
-    def said(self) -> str:
+    def why_ended(self) -> str:
         return self._watch.reason()
 
-    def outlived_its_keeper(self) -> bool:
-        """Whether the warm process ended, so that the end of this room is not the room's doing."""
+    def lost_its_warm_process(self) -> bool:
+        """Whether the warm process ended and took this room with it."""
         return not self._nursery.answers()
 
     def end(self) -> None:
-        """Kill the room's watch, with which the kernel ends all others behind walls; wait for it."""
+        """Kill the room's watch and wait for it; behind walls, the kernel ends all others with it."""
         if self.ended:
             return
         self.ended = True
@@ -227,7 +227,7 @@ class WarmProcess:
 
 
 def _receive_handle(handles: socket.socket) -> int | None:
-    """A descriptor of the room's watch, or None where it did not come to that."""
+    """A descriptor of the room's watch, or None if the watch did not start."""
     if not select.select([handles], [], [], START_SECONDS)[0]:
         return None
     with suppress(OSError):
@@ -241,7 +241,7 @@ _starting = threading.Lock()
 
 
 def running(way: Enum, start: Callable[[], Nursery]) -> Nursery:
-    """The one of this process and that way; `start()` makes it, and again when it has ended."""
+    """This process's nursery for rooms of this way; `start()` makes one if there is none alive."""
     with _starting:
         if way in _nurseries and not _nurseries[way].alive:
             _nurseries.pop(way).close()
@@ -250,10 +250,10 @@ def running(way: Enum, start: Callable[[], Nursery]) -> Nursery:
         return _nurseries[way]
 
 
-def borrow(way: Enum, channel: socket.socket) -> None:
-    """Use the nursery that `channel` was lent by, as long as it lives."""
+def use_shared(way: Enum, channel: socket.socket) -> None:
+    """Use another process's nursery, through the `channel` that it shared, as long as it lives."""
     with _starting:
-        _nurseries[way] = LentNursery(channel)
+        _nurseries[way] = SharedNursery(channel)
 
 
 def _forget():

@@ -1,12 +1,13 @@
-"""A room of its own for a student's code: a process that can reach nothing but its own memory.
+"""Runs one notebook's code in a room: a process that can reach nothing but its own memory.
 
-With bubblewrap the process has no network, no home directory, no course folder, none of this
-project's files but the runner, and a read-only system. Without bubblewrap (macOS, some containers)
-there are limits on time, memory, processes and file size only, and `Room` says so once. Either way a
-room is a fork of a warm process where the system allows it, and a process of its own where not.
+With bubblewrap, the process has no network, no home directory, no course folder, none of this
+project's files but the runner, and a read-only system. Without bubblewrap (macOS, some containers),
+there are only limits on time, memory, processes and file size, and `Room` says so once. Either way, a
+room is a fork of a warm process if the system allows that, and otherwise a new process.
 
-Time is the processor's, of all processes of a room together: on a busy machine an honest answer takes
-longer, and no more of that. Beside each such limit is one of the clock, PATIENCE times as long.
+Limits on time count the processor's time, of all processes of a room together: on a busy machine, an
+honest answer takes longer on the clock, but no more processor time. Each has a limit on the clock
+beside it, which is PATIENCE times as long.
 """
 
 import base64
@@ -43,17 +44,17 @@ log = logging.getLogger(__name__)
 
 START_SECONDS = 60.0
 CELL_SECONDS = 10.0
-# What a cell starts may take so many times as long: compiling Eigen's headers alone takes seconds.
+# The programs that a cell starts get this many times as long: to compile Eigen's headers takes seconds.
 STARTED = 3.0
-# Over the limit inside by this much, the process is taken to be out of its own control.
+# Code should stop at its limit inside the room. If it runs on for this long, the room is ended.
 GRACE_SECONDS = 3.0
-# For a room's watch to answer.
+# A room's watch must answer within this time.
 WATCH_SECONDS = 10.0
-# How often a room that is silent is asked what it has used.
+# How often the judge asks a silent room what it has used.
 LOOK_SECONDS = 0.25
-# What most notebooks import: its first cell must not pay for it where the room's process is new.
+# Most notebooks import these; where the room's process is new, the first cell must not pay for it.
 LOAD = "import matplotlib.pyplot, sympy\ndel matplotlib, sympy"
-# What a cell may show, and what one call may answer: more than the runner ever sends.
+# Limits on what a cell may show and a call may answer; the runner never sends as much.
 MOST_BYTES = 32 << 20
 MOST_VALUES = 1 << 20
 MOST_OUTPUTS = 100
@@ -78,25 +79,25 @@ class Way(Enum):
 
 
 class RoomLostError(Exception):
-    """The process ended, fell silent, or wrote what is no reply; it is gone now."""
+    """The room's process ended, fell silent, or wrote something that is not a reply; it is gone now."""
 
 
 class TooLongError(RoomLostError):
-    """It used more of the processor's time than it had, out of its own control."""
+    """The room used more processor time than its limit, and did not stop by itself."""
 
 
 class StarvedError(RoomLostError):
-    """It was silent till the clock's limit, and had used less than it had of the processor's time."""
+    """The room was silent until the clock's limit, and had used less processor time than it may."""
 
 
 class Room:
     """A running sandbox. Use as a context manager; `close` leaves no process behind.
 
     run(source) gives a cell's outputs, ask(calls) the replies to calls. Both raise RoomLostError
-    when the process does not survive them, and leave none behind that the student's code started.
-    OSError where the sandbox does not start.
+    when the process does not survive them, and leave behind no process that the student's code
+    started. OSError if the sandbox does not start.
 
-    files: what is laid into the folder in which cells run, by the path in it.
+    files: put into the folder in which cells run, by their path in it.
     """
 
     def __init__(self, way: Way | None = None, files: Mapping[str, bytes] | None = None):
@@ -118,7 +119,7 @@ class Room:
 
     @classmethod
     def loaded(cls, files: Mapping[str, bytes] | None = None) -> "Room":
-        """A room in which what notebooks import is there already, at nobody's expense."""
+        """A room that has loaded what notebooks import; no notebook pays for the time."""
         room = cls()
         try:
             if not room.way.warm:
@@ -142,7 +143,10 @@ class Room:
         return self._used - self._before
 
     def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
-        """seconds: of the processor's time, for the cell; STARTED times that with all it starts."""
+        """Run a cell, and return its outputs.
+
+        seconds: of processor time, for the cell; with the programs it starts, STARTED times as many.
+        """
         self._send({"run": source, "seconds": seconds})
         clock = PATIENCE * seconds + GRACE_SECONDS
         most = STARTED * seconds + GRACE_SECONDS
@@ -158,8 +162,8 @@ class Room:
     ) -> list[Reply]:
         """The replies to calls, up to the first fault.
 
-        seconds, clock: what they have all together, of the processor's time and of the clock's. Each
-        call has its own limits, inside and, for code that ignores those, from here.
+        seconds, clock: the processor time and the time on the clock for all of them together. Each
+        call also has limits of its own, inside the room and, for code that ignores those, here.
         """
         ends, most = time.monotonic() + clock, self._used + seconds
         self._send({"ask": [encode_call(call) for call in calls]})
@@ -192,7 +196,10 @@ class Room:
         self._send({"files": coded})
         failed = self._receive(math.inf, START_SECONDS, MOST_BYTES, MOST_VALUES).get("failed")
         if failed:
-            log.warning("no place in the sandbox for %s", ", ".join(map(one_line, failed)))
+            log.warning(
+                "these files could not be put into the sandbox: %s",
+                ", ".join(map(one_line, failed)),
+            )
 
     def _send(self, request: dict) -> None:
         left = memoryview(json.dumps(request).encode() + b"\n")
@@ -207,24 +214,24 @@ class Room:
             self._lost("it has ended")
 
     def _sweep(self) -> None:
-        """End what the student's code started. What it could not end, the room ends with."""
-        used = self._process.told("sweep", WATCH_SECONDS)
+        """End what the student's code started; if that fails, end the room."""
+        used = self._process.ask_watch("sweep", WATCH_SECONDS)
         if used is None:
             self._lost("it left processes behind")
         self._used = used
 
     def _look(self) -> None:
-        used = self._process.told("used", WATCH_SECONDS)
+        used = self._process.ask_watch("used", WATCH_SECONDS)
         self._used = self._used if used is None else used
 
     def _forget_time(self) -> None:
-        """What the room has used so far is nobody's."""
+        """Do not count the time that the room has used so far."""
         self._look()
         self._before = self._used
 
     def _receive(self, seconds: float, clock: float, most_bytes: int, most_values: int) -> dict:
         line = self._read_line(seconds, clock, most_bytes)
-        # An empty list is two bytes there and fifty here. Commas in texts count along.
+        # An empty list takes two bytes in JSON and fifty in memory. Commas in texts are counted, too.
         if line.count(b",") + line.count(b"[") + line.count(b"{") > most_values:
             self._lost("it wrote too much")
         try:
@@ -236,7 +243,7 @@ class Room:
         except (ValueError, RecursionError):
             message = None
         if not isinstance(message, dict):
-            self._lost("it wrote what is no reply")
+            self._lost("it wrote something that is not a reply")
         return message
 
     def _read_line(self, seconds: float, clock: float, most_bytes: int) -> bytes:
@@ -252,7 +259,7 @@ class Room:
                 self._lost(f"no reply within {max(clock, 0):g} s", StarvedError)
             if not select.select([stdout], [], [], min(left, LOOK_SECONDS))[0]:
                 self._look()
-                # Of calls, what the last reply left was not asked for: it is taken as of now.
+                # Between calls nobody asks for the time used, so that this call's time starts here.
                 most = self._used + seconds if most is None else most
                 if self._used > most:
                     self._lost(f"no reply within {seconds:g} s of processor time", TooLongError)
@@ -268,12 +275,12 @@ class Room:
         return line
 
     def _lost(self, why: str, kind: type[RoomLostError] = RoomLostError) -> NoReturn:
-        said = self._process.said()
-        innocent = self._process.outlived_its_keeper()
+        reason = self._process.why_ended()
+        innocent = self._process.lost_its_warm_process()
         self.close()
         if innocent:
-            raise OSError("the process that keeps the sandboxes ended, and this one with it")
-        raise kind(f"{why}: {said}" if said else why)
+            raise OSError("the process that starts the sandboxes ended, and this sandbox with it")
+        raise kind(f"{why}: {reason}" if reason else why)
 
 
 def _best_way() -> Way:
@@ -285,14 +292,14 @@ def _best_way() -> Way:
 
 @cache
 def _works(way: Way) -> bool:
-    """Whether rooms can be forked this way here; a word in the log where not."""
+    """Whether rooms can be forked this way here; if not, a line in the log says so."""
     if sys.platform != "linux":
         return False
     try:
         with Room(way):
             return True
     except OSError as error:
-        log.warning("each notebook starts a Python of its own, which takes longer: %s", error)
+        log.warning("each notebook has to start its own Python, which takes longer: %s", error)
         return False
 
 
@@ -310,8 +317,8 @@ def _nursery(way: Way) -> nursery.Nursery:
 
 
 @dataclass(frozen=True)
-class Lent:
-    """A process's warm process, for the processes that work for it."""
+class Shared:
+    """A warm process that its owner shares with the processes that work for it."""
 
     way: Way
     channel: socket.socket
@@ -320,12 +327,13 @@ class Lent:
         self.channel.close()
 
 
-def lend() -> Lent | None:
-    """What lets another process `borrow` this one's warm process; None where rooms are not warm."""
+def share() -> Shared | None:
+    """This process's warm process, for others to use; None if rooms are not warm."""
     way = _best_way()
-    return Lent(way, _nursery(way).lend()) if way.warm else None
+    return Shared(way, _nursery(way).share()) if way.warm else None
 
 
-def borrow(lent: Lent | None) -> None:
-    if lent is not None:
-        nursery.borrow(lent.way, lent.channel)
+def use_shared(shared: Shared | None) -> None:
+    """Fork rooms from another process's warm process."""
+    if shared is not None:
+        nursery.use_shared(shared.way, shared.channel)

@@ -1,4 +1,4 @@
-"""Rooms without bubblewrap: what lies in their folders, and those that a warm process forks."""
+"""Starts rooms without bubblewrap: lays out their folders, and lets a warm process fork them."""
 
 import select
 import shutil
@@ -10,12 +10,12 @@ from pathlib import Path
 from autograder.sandbox import nursery
 from autograder.sandbox.bubblewrap import ENVIRONMENT, INSIDE
 
-# For a room's watch to end what is left in the room.
+# A room's watch must end what is left in the room within this time.
 END_SECONDS = 10.0
 
 
 def command(script: str, folder: Path) -> tuple[list[str], dict[str, str]]:
-    """What runs a script of INSIDE, laid out in the folder, and the environment to start it in."""
+    """The command that runs a script of INSIDE, laid out in the folder, and its environment."""
     inside = folder / ".room"  # apart from what cells write, and what was handed in
     for path, name in INSIDE.items():
         (inside / name).parent.mkdir(exist_ok=True, parents=True)
@@ -27,9 +27,9 @@ def command(script: str, folder: Path) -> tuple[list[str], dict[str, str]]:
 
 
 class UnwalledNursery(nursery.Nursery):
-    """A warm process without walls. Its folder holds the files that its rooms run; theirs are empty.
+    """A warm process without walls. Its folder holds the files that its rooms run.
 
-    It removes its own and theirs when it ends, however this process does.
+    It removes its folder and those of its rooms when it ends, however this process ends.
     """
 
     def __init__(self):
@@ -38,18 +38,18 @@ class UnwalledNursery(nursery.Nursery):
         super().__init__(*command("unwalled_forks.py", Path(self._folder)))
 
     def has_room(self, room: "UnwalledProcess") -> None:
-        """To be ended with this: nothing else ends it."""
+        """Remember the room, to end it when this nursery ends."""
         self._rooms.add(room)
 
     def close(self) -> None:
         for room in list(self._rooms):
             room.end()
         super().close()
-        shutil.rmtree(self._folder, ignore_errors=True)  # where it could not
+        shutil.rmtree(self._folder, ignore_errors=True)  # if the warm process could not
 
 
 class UnwalledProcess(nursery.WarmProcess):
-    """A room's processes without walls, which are one group, and their folder."""
+    """A room without walls: its processes, which are one group, and their folder."""
 
     def __init__(self, own: nursery.Nursery):
         self.folder = Path(tempfile.mkdtemp(prefix="room-"))
@@ -65,7 +65,7 @@ class UnwalledProcess(nursery.WarmProcess):
         if not self.ended:
             self._watch.close()
             if self._handle is not None:
-                # The watch ends itself, after what is in no group of its own.
+                # The watch ends after it has ended the processes that left its group.
                 select.select([self._handle], [], [], END_SECONDS)
         super().end()
         self._remove_folder()

@@ -1,1 +1,1 @@
-"""What a student's notebook calls."""
+"""What a student's notebook calls: `check`, `hint` and `look_at`."""

@@ -1,4 +1,4 @@
-"""What a student's cell calls, and how the verdict shows there."""
+"""`check`, which a student's cell calls, and how the cell shows the verdict."""
 
 import os
 import sys
@@ -14,7 +14,7 @@ from autograder.problems import CHECKS, known_check
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
 from autograder.student.definitions import watched
 
-# A visible check tries the same cases each time, so that a student can see an error change.
+# A visible check tries the same cases each time, so that a student sees how an error changes.
 VISIBLE_SEED = 20260101
 _definitions = watched({check.name for check in CHECKS.values()})
 
@@ -34,13 +34,15 @@ class NotCorrectError(Exception):
 
 
 def check(id: str | None = None, fresh: bool = False) -> None:
-    """Judge the function that the check `id` asks for, as this notebook defines it, and show it.
+    """Judge the function that the check `id` asks for, as this notebook defines it; show the verdict.
 
     The visible check tries a few fixed cases; `fresh=True` draws new ones each time, as the grader
-    does. Raises NotCorrectError after showing a verdict that is not "correct", and UnknownCheckError
-    for what is no check's id.
+    does. NotCorrectError, after the card, where the verdict is not "correct"; UnknownCheckError
+    where no check has this id.
     """
-    verdict = _with_word_of_old(verdict_on(known_check(id), sys._getframe(1).f_globals, fresh))
+    verdict = _naming_an_old_function(
+        verdict_on(known_check(id), sys._getframe(1).f_globals, fresh)
+    )
     _show(verdict)
     if verdict.state is not State.CORRECT:
         raise NotCorrectError(verdict)
@@ -62,13 +64,13 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
     return CHECKS[id].run(ask, rng, count)
 
 
-def _with_word_of_old(verdict: Verdict) -> Verdict:
-    """The verdict, and first of all that the function is an old one, where it is."""
+def _naming_an_old_function(verdict: Verdict) -> Verdict:
+    """The verdict; if it is on an old function, its problem says so first."""
     name = CHECKS[verdict.check].name
     error = _definitions.old(name) if _definitions else ""
     if not error:
         return verdict
-    said = f"This is your old {name}: the cell that was to define it anew stopped with {error}."
+    said = f"This is your old {name}: the cell that should define it again stopped with {error}."
     return replace(verdict, problem=f"{said} {verdict.problem}".rstrip())
 
 

@@ -1,34 +1,35 @@
-"""A function that is missing, or still the old one, as the cell that should define it failed.
+"""Says when a function is missing, or an old one, because the cell that defines it failed.
 
-Python keeps what a name stood for when a cell stops before its `def`: at a SyntaxError, or at an error
-further up. A check then judges a function that is no longer on the screen, and has to say so.
+If a cell stops before its `def`, at a SyntaxError or at an error further up, Python keeps the function
+that the name stood for. A check then judges a function that is no longer on the screen, and has to
+say so.
 """
 
 import re
 import sys
 from collections.abc import Collection
 
-from autograder.protocol import kind_of, one_line, said_by
+from autograder.protocol import kind_of, message_of, one_line
 
 
 class Definitions:
-    """Watches an IPython shell's cells for those that failed to define one of some names anew."""
+    """Watches the cells of an IPython shell for those that should define a name again, and fail."""
 
     def __init__(self, shell, names: Collection[str]):
         self._namespace = shell.user_ns
         self._names = names
         self._before: dict[str, object] = {}
-        # What a name stood for, or None, when a cell failed to define it, and the error.
+        # By name: what it stood for when a cell failed to define it, or None, and the error.
         self._failed: dict[str, tuple[object, str]] = {}
         shell.events.register("pre_run_cell", self._starts)
         shell.events.register("post_run_cell", self._ended)
 
     def old(self, name: str) -> str:
-        """The error that kept what the name stands for from being replaced; "" where none did."""
+        """The error because of which the name still stands for its old function, or ""."""
         return self._kept(name) if name in self._namespace else ""
 
     def missing(self, name: str) -> str:
-        """The error that kept the name, which stands for nothing, from being defined, or ""."""
+        """The error because of which the name stands for nothing, or ""."""
         return "" if name in self._namespace else self._kept(name)
 
     def _kept(self, name: str) -> str:
@@ -49,7 +50,7 @@ class Definitions:
 
 
 def watched(names: Collection[str]) -> Definitions | None:
-    """Definitions of the shell that this Python runs, from now on; None outside IPython."""
+    """Watch the shell that this Python runs, from now on; None outside IPython."""
     if "IPython" not in sys.modules:
         return None
     shell = sys.modules["IPython"].get_ipython()
@@ -57,13 +58,13 @@ def watched(names: Collection[str]) -> Definitions | None:
 
 
 def _defines(source: str | None, name: str) -> bool:
-    """Whether a cell, which need not be valid Python, defines the name at its margin."""
+    """Whether a cell, which may be invalid Python, defines the name without indentation."""
     defined = rf"^(def\s+{name}\s*\(|{name}\s*(:[^=\n]+)?=[^=])"
     return re.search(defined, source or "", re.MULTILINE) is not None
 
 
 def _describe(error: BaseException) -> str:
-    said = said_by(error)
+    said = message_of(error)
     if isinstance(error, SyntaxError):
         said = f"{error.msg}, line {error.lineno}"
     return one_line(f"{kind_of(error)}: {said}", 150)

@@ -1,4 +1,4 @@
-"""Hints, one more each time they are asked for: from a nudge to nearly the way."""
+"""`hint` shows a check's hints, one more each time: from a nudge to nearly the whole way."""
 
 from html import escape
 
@@ -8,20 +8,20 @@ _given: dict[str, int] = {}
 
 
 def hint(id: str | None = None) -> None:
-    """Show the hints of the check `id` so far, and one more. UnknownCheckError for no check's id.
+    """Show one more hint for the check `id`, below those you have seen. Hints cost no points.
 
-    The count starts again with the kernel. Nothing is taken off for hints.
+    The count starts again with the kernel. UnknownCheckError where no check has this id.
     """
     id = known_check(id)
     hints = CHECKS[id].hints
     given = min(_given.get(id, 0) + 1, len(hints))
     _given[id] = given
     if not hints:
-        left = "There are no hints for this one."
+        left = "There are no hints for this check."
     elif given < len(hints):
-        left = f'{len(hints) - given} more: run hint("{id}") again.'
+        left = f'Hint {given} of {len(hints)}. For the next one, run hint("{id}") again.'
     else:
-        left = "That was the last one. The matching lesson has the rest."
+        left = "That was the last hint. The matching lesson has the rest."
     _show(hints[:given], f"Hints for {id}", left)
 
 

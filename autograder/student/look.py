@@ -1,4 +1,4 @@
-"""What a problem's own cells open with where they use a student's functions: `with look_at("p1-M"):`."""
+"""`with look_at("p1-M"):` opens a cell of the course that uses a student's functions."""
 
 import contextlib
 import io
@@ -13,10 +13,10 @@ SECONDS = 20.0
 
 
 def look_at(*ids: str) -> Look:
-    """A block that uses the functions of these checks; where one fails, a line names it and its card.
+    """A block that uses the functions of these checks. If one fails, a line names it and its card.
 
-    ids: each after those that it builds on. The cell goes on after the block as if nothing had been
-    raised, so that "Run All Cells" does; an interrupt ends both. UnknownCheckError for no check's id.
+    After an error the cell goes on below the block, so that "Run All Cells" goes on too; an interrupt
+    stops both. ids: each after those that it builds on. UnknownCheckError where no check has one.
     """
     for id in ids:
         known_check(id)
@@ -28,7 +28,8 @@ def look_at(*ids: str) -> Look:
         with contextlib.redirect_stdout(aside), contextlib.redirect_stderr(aside):
             states = {id: verdict_on(id, namespace).state for id in ids}
         wrong = [id for id in ids if states[id] in (State.INCORRECT, State.PARTLY_CORRECT)]
-        # Wrong numbers end few cells; a function that gives none, most, and those that call it.
+        # A function that gives no numbers stops most cells, and the functions that call it; one
+        # that gives wrong numbers stops few.
         failing = [id for id in ids if states[id] is State.ERROR]
         return next(iter(failing + ([raising] if raising in wrong else wrong)), None)
 

@@ -1,4 +1,4 @@
-"""Base parameters: the combinations of π that joint torques show, and how many there are."""
+"""Finds the base parameters: the combinations of π that joint torques show."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from armdyn.regressor import parameter_names, regressor
 
 # A column whose part outside the span of the others is below this share of it depends on them.
 DEPENDENT = 1e-8
-# A column below this share of the largest is 0 but for rounding.
+# A column below this share of the largest is 0, apart from rounding.
 NEGLIGIBLE = 1e-12
 
 
@@ -16,9 +16,9 @@ NEGLIGIBLE = 1e-12
 class BaseParameters:
     """The combinations of π that the equation of motion contains: Y π = Y[:, independent] (K π).
 
-    independent: which columns of Y are kept. combination: K, (rank, len(π)): row i is the parameter
-    of column independent[i] with the shares of the dropped ones. columns: those looked at. names: of
-    all of π.
+    independent: the columns of Y that are kept. combination: K, (rank, len(π)): row i is the parameter
+    of column independent[i] with its shares of the dropped ones. columns: those that were tried.
+    names: of all entries of π.
     """
 
     independent: tuple[int, ...]
@@ -72,7 +72,7 @@ def base_parameters(model, columns=None) -> BaseParameters:
 
 
 def on_link_axes(model) -> tuple[int, ...]:
-    """The columns of Y but those of m cy: all that a planar arm needs with its centres on the axes.
+    """All columns of Y but those of m cy, which are not needed if the centres lie on the axes.
 
     Raises ValueError for a spatial chain.
     """
@@ -92,7 +92,7 @@ def _random_rows(model) -> np.ndarray:
 
 
 def _independent(W, order) -> list[int]:
-    """The columns, in this order, that do not lie in the span of those before; sorted."""
+    """The columns that do not lie in the span of those before them in this order; sorted."""
     kept, basis = [], np.empty((len(W), 0))
     for j in order:
         rest = W[:, j]

@@ -1,4 +1,4 @@
-"""Which inertial parameters can belong to bodies: masses > 0 and mass spread over real points.
+"""Finds out whether inertial parameters can belong to bodies: positive masses at real points.
 
 A link's π is physically consistent when some distribution of positive mass has it: m > 0, and the
 second moments about the centre of mass are positive semidefinite. Both say that the link's

@@ -1,4 +1,4 @@
-"""Equilibria of an arm: where gravity asks for no torque."""
+"""Finds the equilibria of an arm, where it rests against gravity without any torque."""
 
 import itertools
 from dataclasses import dataclass
@@ -54,7 +54,7 @@ def equilibria(model) -> tuple[Equilibrium, ...]:
                 raise _not_isolated(model)
         if found and sum((-1) ** int(np.sum(point.stiffness < 0)) for point in found) == 0:
             return tuple(sorted(found, key=lambda point: model.potential_energy(point.q)))
-    raise RuntimeError(f"the equilibria of {model} were not all found; are its joints revolute?")
+    raise RuntimeError(f"not all equilibria of {model} were found; are its joints revolute?")
 
 
 def _not_isolated(model) -> ValueError:

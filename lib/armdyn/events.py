@@ -1,4 +1,4 @@
-"""Events of a simulation: the times at which a function of time and state passes zero."""
+"""Finds the events of a simulation: the times at which a function of time and state passes zero."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -35,8 +35,8 @@ class Event:
 class Trajectory:
     """States over time, and the events on the way.
 
-    t: (T,), s: the times asked for; up to the terminal event, and that event's time last, where one
-    stopped the simulation. x: (T, N), the states at t. event_times: for each event its times, (k,),
+    t: (T,), s: the times asked for; if a terminal event stopped the simulation, those before it, and
+    its own time last. x: (T, N), the states at t. event_times: for each event its times, (k,),
     s; event_states: the states there, (k, N). stopped_by: the index of the event that stopped the
     simulation, or None.
     """
@@ -66,7 +66,7 @@ class Watch:
         self._g = [self._value(i, self.t, self.x) for i in range(len(self.events))]
 
     def step(self, t: float, x, at) -> float:
-        """Take note of the events between the last time and t, where the state is x.
+        """Note the events between the last time and t; x is the state at t.
 
         at(t) gives the states in between. Returns t, or the time of the terminal event before it.
         """

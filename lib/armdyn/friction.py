@@ -1,4 +1,4 @@
-"""Joint friction: viscous plus Coulomb."""
+"""Computes joint friction: viscous plus Coulomb."""
 
 import numpy as np
 

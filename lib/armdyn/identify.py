@@ -1,6 +1,6 @@
-"""Inertial parameters from measured motion and torque, by linear least squares.
+"""Estimates inertial parameters from measured motion and torque, by linear least squares.
 
-Only the base parameters can be told from joint torques, so only they are estimated: see
+Joint torques show only the base parameters, so only they are estimated: see
 `armdyn.base_parameters`.
 """
 
@@ -105,7 +105,7 @@ class Identification:
 def excitation(model, q, qd, qdd, friction=False, columns=None) -> Excitation:
     """What a motion shows of the parameters, before any torque is measured.
 
-    Arguments and errors as for `identify`, but for too few samples, which show as a lower rank.
+    Arguments and errors are those of `identify`, except that too few samples show as a lower rank.
     """
     q, qd, qdd = _samples(model, q=q, qd=qd, qdd=qdd)
     base = base_parameters(model, columns)

@@ -1,4 +1,4 @@
-"""One step of each fixed-step method for ẋ = rate(t, x); `simulate` is the engine that takes them.
+"""Takes one step of a fixed-step method for ẋ = rate(t, x); `simulate` takes many.
 
 Symplectic means: for a Hamiltonian system the step, as a map of the canonical variables (q, p),
 keeps the form Σ dq ∧ dp, so that over long runs the energy error stays bounded instead of growing.

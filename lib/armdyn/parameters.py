@@ -1,4 +1,4 @@
-"""Checks on parameters and states: each error names the argument, what came and what is needed."""
+"""Checks parameters and states; each error names the argument, what was given and what is needed."""
 
 import reprlib
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""A progress bar for runs past a second, where someone is there to see it."""
+"""Shows a progress bar for runs longer than a second, if somebody is there to see it."""
 
 import builtins
 import contextlib
@@ -14,11 +14,11 @@ class _Bar(tqdm):
 
 
 def progress_bar(total: float, wanted: bool):
-    """A context whose value counts simulated time, in s, by `.update(dt)`; None without a bar.
+    """A context; its value counts simulated time, in s, by `.update(dt)`, and is None without a bar.
 
-    A bar appears on stderr after a second, only where stderr is a terminal or a notebook with a
-    person before it, and goes when the run ends. The environment's TQDM_DISABLE=1 switches it off
-    too.
+    The bar appears on stderr after a second, and goes when the run ends. There is one only if stderr
+    is a terminal or a notebook that somebody works in. TQDM_DISABLE=1 in the environment switches it
+    off.
     """
     if not wanted or not (_is_terminal(sys.stderr) or _is_notebook(sys.stderr)):
         return contextlib.nullcontext()
@@ -35,10 +35,10 @@ def _is_terminal(stream) -> bool:
 
 
 def _is_notebook(stream) -> bool:
-    """Whether the stream is a Jupyter kernel's, and its front end one that can answer questions.
+    """Whether the stream is a Jupyter kernel's, whose front end can answer questions.
 
-    Programs that run notebooks (nbconvert, nbval, graders) say they cannot: what a bar writes there
-    would be stored or compared, and some take any line on stderr for an error.
+    Programs that run notebooks (nbconvert, nbval, graders) say that they cannot. They would store or
+    compare what a bar writes, and some take any line on stderr for an error.
     """
     if type(stream).__module__.partition(".")[0] != "ipykernel":
         return False

@@ -1,10 +1,10 @@
-"""The structural properties of M, C and g, shown in numbers.
+"""Shows the structural properties of M, C and g in numbers.
 
 Each function takes a model and states of shape (..., n), looks at all of them, and returns a
 `Finding`: the largest violation, where it is, and the floor that rounding alone can reach. A
 finding is a number with a witness, not a yes or no; `holds` compares the two.
 
-All raise ValueError for states of the wrong shape, that are not finite, or of which there is none.
+All raise ValueError for states that are of the wrong shape or not finite, and for no state at all.
 
 Source of the first three: R. M. Murray, Z. Li, S. S. Sastry (1994), A Mathematical Introduction to
 Robotic Manipulation, lemma 4.2.
@@ -227,7 +227,7 @@ def _potential_size(model, q) -> np.ndarray:
     """
     P, axes = model.potential_energy, np.eye(model.n)
     changes = sum(np.abs(P(q + axis) - P(q)) for axis in axes)
-    # Rounding may spare one place, or one direction: look at several.
+    # Rounding may happen to be small at one place or in one direction, so look at several.
     terms = sum(_terms_of(P, q + k, axes[k % model.n]) for k in range(max(6, model.n)))
     return np.abs(P(q)) + changes + terms
 

@@ -1,4 +1,4 @@
-"""ẋ as a function of time and state: a state form f(x, u) with its input u put in."""
+"""Makes ẋ a function of time and state: a state form f(x, u) with its input u put in."""
 
 from collections.abc import Callable
 
@@ -10,9 +10,9 @@ Input = np.ndarray | Callable[[float, np.ndarray], np.ndarray]
 
 
 class Rate:
-    """ẋ as a function of (t, x), NaN where it cannot be had for want of finite numbers.
+    """ẋ as a function of (t, x); NaN if f cannot be computed with finite numbers.
 
-    With NaN, an adaptive method takes its step back and tries a shorter one.
+    After a NaN, an adaptive method takes its step back and tries a shorter one.
 
     u: held constant, (n,); one row per time of t, (..., T, n), of which row k is put in by hold(k);
     or a function u(t, x). Raises ValueError for another shape, and, when called, for an input or
@@ -42,7 +42,7 @@ class Rate:
     def jumps(self) -> list[int]:
         """The indices k, not 0 nor the last, at which a sampled input differs from the one before.
 
-        The last sample is left out: no time follows it for which it could be held.
+        The last sample is left out, as no time follows for which it is held.
         """
         if self.samples is None:
             return []

@@ -1,4 +1,4 @@
-"""Linearity in the inertial parameters: M q̈ + C q̇ + g = Y(q, q̇, q̈) π.
+"""Computes the regressor Y of the inertial parameters: M q̈ + C q̇ + g = Y(q, q̇, q̈) π.
 
 Y holds only geometry (lengths, joint axes, gravity), π only inertia: per link the mass, the first
 moment m c and the inertia about the joint frame. In these, and not in ℓc and an inertia about the

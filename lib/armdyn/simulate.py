@@ -1,4 +1,4 @@
-"""Simulation of ẋ = f(x, u): fixed-step methods, and SciPy's solvers behind the same call."""
+"""Simulates ẋ = f(x, u) with fixed-step methods, or with SciPy's solvers behind the same call."""
 
 import warnings
 from collections.abc import Callable, Iterator
@@ -72,14 +72,14 @@ def simulate(
     Where Coulomb friction holds a joint at rest those steps become very short, and "rk4" is better.
     events: functions g(t, x), or `Event`s, one or a list, whose zeros are located, for one arm. A
     fixed-step method locates them by a shorter step of its own.
-    progress: whether a run past a second shows a bar, where stderr is a terminal or a
-    notebook with a person before it.
+    progress: whether a run longer than a second shows a bar, if stderr is a terminal or a notebook
+    that somebody works in.
 
     Returns (..., T, N), or, with events, a `Trajectory`. Raises ValueError for times that do not
     increase, for states, inputs, events or derivatives that are not numbers of the right shape and
     for an unknown method; FloatingPointError, with the time, where the states stop being finite or
     a method cannot go on; and whatever f raises, such as numpy.linalg.LinAlgError at a singular M.
-    NumPy's warnings of overflow in f are silent: FloatingPointError stands for them.
+    NumPy does not warn of overflow in f: FloatingPointError says so instead.
     """
     x0, t = all_finite("x0", real_array("x0", x0)), _times(t)
     if x0.ndim == 0 or x0.size == 0:

@@ -1,4 +1,4 @@
-"""Serial chains from URDF files, the robot description format of ROS.
+"""Reads serial chains from URDF files, the robot description format of ROS.
 
 The XML is read by yourdfpy, which the extra `urdf` installs; here its links and joints become a
 `SerialChain`.
@@ -41,8 +41,8 @@ def read_urdf(path, gravity=(0.0, 0.0, -9.81)) -> SerialChain:
     Limits, meshes, visual and collision elements are not looked at. Each Link has the name of the
     URDF link that its joint moves.
 
-    Raises ValueError, naming the joint or the link, for what is not one open chain: branches,
-    loops, parts that hang on nothing, mimic joints, floating, planar and unknown joints, no moving
+    Raises ValueError, naming the joint or the link, for a file that is not one open chain: branches,
+    loops, parts without a joint, mimic joints, floating, planar and unknown joints, no moving
     joint at all; and for masses, inertias and friction that are not physical, as `Link` and
     `SerialChain` do. Raises FileNotFoundError where there is no such file, and ImportError, saying
     what to install, where yourdfpy is missing.
@@ -79,20 +79,20 @@ def _parsed(path):
     if not os.path.isfile(path):
         raise FileNotFoundError(f"{path}: no such file")
     try:
-        # Of a file that breaks off, yourdfpy would read what there is.
+        # If a file breaks off, yourdfpy would read the part that is there.
         ElementTree.parse(path)
         return yourdfpy.URDF.load(path, build_scene_graph=False, load_meshes=False).robot
     except Exception as error:  # it raises whatever its parsers do
-        raise ValueError(f"{path}: not read as URDF: {error!r}") from error
+        raise ValueError(f"{path}: cannot be read as URDF: {error!r}") from error
 
 
 def _joints_below(robot) -> dict[str, list]:
-    """Link → the joints that it carries, each checked as far as it stands alone."""
+    """Link → the joints that it carries, each checked by itself."""
     names = {link.name for link in robot.links}
     for kind, parts in (("link", robot.links), ("joint", robot.joints)):
         twice = [name for name, count in Counter(p.name for p in parts).items() if count > 1]
         if twice:
-            raise ValueError(f"{kind} {twice[0]!r}: is there more than once")
+            raise ValueError(f"{kind} {twice[0]!r}: appears more than once")
     below: dict[str, list] = defaultdict(list)
     carried: dict[str, str] = {}
     for joint in robot.joints:
@@ -108,7 +108,7 @@ def _joints_below(robot) -> dict[str, list]:
                 raise ValueError(f"{where}: there is no link {link!r}")
         if joint.child in carried:
             raise ValueError(
-                f"link {joint.child!r}: hangs on the joints {carried[joint.child]!r} and "
+                f"link {joint.child!r}: has two parent joints, {carried[joint.child]!r} and "
                 f"{joint.name!r}, a loop; needs one"
             )
         carried[joint.child] = joint.name
@@ -120,7 +120,7 @@ def _root(robot) -> str:
     children = {joint.child for joint in robot.joints}
     roots = [link.name for link in robot.links if link.name not in children]
     if len(roots) != 1:
-        raise ValueError(f"the links {roots} hang on no joint: needs one such link, the root")
+        raise ValueError(f"the links {roots} have no parent joint: needs one such link, the root")
     return roots[0]
 
 

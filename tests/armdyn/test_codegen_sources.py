@@ -258,7 +258,7 @@ def test_bad_input_is_named(writer):
 
     with pytest.raises(ValueError, match=r"P depends on other: needs q, qd and parameters"):
         writer(model(q * other), "Arm")
-    with pytest.raises(ValueError, match=r"P holds f\(q1\): needs functions that have values"):
+    with pytest.raises(ValueError, match=r"P contains f\(q1\): needs functions whose values"):
         writer(model(sp.Function("f")(q)), "Arm")
     with pytest.raises(ValueError, match=r"symbol .m'.: needs a name of ASCII letters"):
         writer(model(q, sp.Symbol("m'")), "Arm")
@@ -270,13 +270,13 @@ def test_a_function_that_a_language_lacks_is_named():
     q, qd = sp.symbols("q1 qd1")
     one = sp.ones(1, 1)
     odd = Derivation((q,), (qd,), (), one, 0 * one, 0 * one, sp.gamma(q))
-    with pytest.raises(ValueError, match=r"no Java for gamma\(q1\)"):
+    with pytest.raises(ValueError, match=r"gamma\(q1\) cannot be written in Java"):
         java(odd)
 
 
 @pytest.mark.parametrize(("writer", "name"), [(cpp, "double"), (java, "Math"), (matlab, "end")])
 def test_a_model_is_not_called_as_the_language_is(writer, name):
-    with pytest.raises(ValueError, match="needs a name that the language has not taken"):
+    with pytest.raises(ValueError, match="needs a name that the language does not reserve"):
         writer(MODELS["Planar2R"], name)
 
 

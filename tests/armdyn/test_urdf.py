@@ -121,20 +121,20 @@ BAD = {
     "planar": ((*TWO, joint("j1", "base", "a", Part("planar"))), "joint 'j1': is of type 'planar'"),
     "typo": ((*TWO, joint("j1", "base", "a", Part("hinge"))), "joint 'j1': is of type 'hinge'"),
     "no such link": ((*TWO, joint("j1", "base", "x", A)), "joint 'j1': there is no link 'x'"),
-    "two roots": ((*TWO, ONE), r"\['base', 'b'\] hang on no joint"),
+    "two roots": ((*TWO, ONE), r"\['base', 'b'\] have no parent joint"),
     "no root": ((link("a", A), link("b", B), joint("j1", "a", "b", A), joint("j2", "b", "a", B)),
-                r"links \[\] hang on no joint"),
+                r"links \[\] have no parent joint"),
     "apart": (
         (BASE, link("a", A), link("b", B), joint("j1", "a", "b", A), joint("j2", "b", "a", B)),
         "link 'a': no joints lead to it",
     ),
     "closed": ((*TWO, ONE, joint("j2", "a", "b", B), joint("j3", "base", "b", B)),
-               "link 'b': hangs on the joints 'j2' and 'j3', a loop"),
-    "link twice": ((*TWO, link("a", A), ONE, joint("j2", "a", "b", B)), "link 'a': is there more"),
-    "joint twice": ((*TWO, ONE, joint("j1", "a", "b", B)), "joint 'j1': is there more than once"),
+               "link 'b': has two parent joints, 'j2' and 'j3', a loop"),
+    "link twice": ((*TWO, link("a", A), ONE, joint("j2", "a", "b", B)), "link 'a': appears more"),
+    "joint twice": ((*TWO, ONE, joint("j1", "a", "b", B)), "joint 'j1': appears more than once"),
     "nothing moves": ((BASE, link("a", A), joint("j1", "base", "a", Part("fixed"))),
                       r"arm\.urdf: no joint moves"),
-    "no links": ((), "hang on no joint"),
+    "no links": ((), "have no parent joint"),
     "negative mass": ((BASE, link("a", replace(A, mass=-1.0)), ONE), "link 'a': mass = -1"),
     "no mass": ((BASE, link("a", A).replace("mass", "weight"), ONE), "link 'a': its inertial"),
     "impossible inertia": (
@@ -161,7 +161,7 @@ def test_what_is_not_one_chain_is_named(read, elements, says):
 
 @pytest.mark.parametrize("text", ["", "robot", "<robot/>", chain_file([A, B])[:-40]])
 def test_what_is_not_urdf_is_refused(read, text):
-    with pytest.raises(ValueError, match=r"arm\.urdf: not read as URDF"):
+    with pytest.raises(ValueError, match=r"arm\.urdf: cannot be read as URDF"):
         read(text)
 
 

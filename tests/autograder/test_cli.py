@@ -73,7 +73,7 @@ def test_a_second_call_keeps_the_students_file_byte_for_byte(course, capsys):
     assert main(["problems"]) == 0
     assert files(course / "problems") == before
     assert capsys.readouterr().out == (
-        f"problems/{P3}/{P3}.ipynb: kept as it is, it is yours; move it away for a new one\n"
+        f"problems/{P3}/{P3}.ipynb: kept, as it may hold your work; move it away to get a new one\n"
     )
 
 
@@ -92,7 +92,7 @@ def test_outside_the_courses_folder_one_line_says_what_to_do(tmp_path, monkeypat
     out, err = capsys.readouterr()
     assert out == ""
     assert err.splitlines() == [
-        f"autograder: {tmp_path} is not the course's folder (no nbgrader_config.py); "
+        f"autograder: {tmp_path} is not the course's folder: it has no nbgrader_config.py; "
         "change to the folder that holds solutions/ and try again"
     ]
     assert list(tmp_path.iterdir()) == []

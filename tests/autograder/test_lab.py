@@ -35,8 +35,8 @@ def test_taken_port(course, capsys, form):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         said = refusal(capsys, *form.format(port).split())
-    assert f"port {port} is taken" in said
-    assert "leave --port out" in said
+    assert f"port {port} is in use" in said
+    assert "leave out --port" in said
     assert not (course / ".venv").exists()
 
 
@@ -51,7 +51,7 @@ def test_port_without_a_number(course, capsys):
 
 def test_wrong_folder(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    assert "change to the folder of the course" in refusal(capsys)
+    assert "change to the course's folder" in refusal(capsys)
 
 
 @pytest.fixture

@@ -192,4 +192,4 @@ def test_an_environment_that_cannot_be_written_is_named(empty_course, monkeypatc
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert "Permission denied: 'etc/jupyter'" in said
-    assert "start `autograder lab`" in said
+    assert "use `autograder lab` instead" in said

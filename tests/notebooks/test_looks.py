@@ -24,7 +24,7 @@ from autograder.student.cell import NotCorrectError
 ROOT = Path(__file__).parents[2]
 NAMES = sorted(path.stem for path in (ROOT / "solutions").glob("*/*.ipynb"))
 # What students' functions do that give no numbers, and how the line names it.
-UNUSABLE = "What {name} returns is of no use in this cell: see the card of {id}."
+UNUSABLE = "This cell cannot use what {name} returns: see the card of {id}."
 WRONG = {
     "untouched": ("raise NotImplementedError", "Write {name} first, then run this cell again."),
     "a name of nothing": ("return cos(1.0)", "{name} raises NameError: see the card of {id}."),
@@ -33,13 +33,13 @@ WRONG = {
     "printing": ("print('its value')", UNUSABLE),
     "a text": ("return 'a text'", UNUSABLE),
     "no shape": ("return [[1.0], [2.0, 3.0]]", UNUSABLE),
-    "no function": ("", "The notebook defines no {name}: see the card of {id}."),
+    "no function": ("", "The notebook does not define {name}: see the card of {id}."),
 }
 LINE = re.compile(
     r"Write (\w+) first, then run this cell again\."
     r"|(\w+) raises \w+: see the card of [\w-]+\."
-    r"|The notebook defines no (\w+): see the card of [\w-]+\."
-    r"|What (\w+) returns is of no use in this cell: see the card of [\w-]+\."
+    r"|The notebook does not define (\w+): see the card of [\w-]+\."
+    r"|This cell cannot use what (\w+) returns: see the card of [\w-]+\."
 )
 
 
@@ -187,7 +187,7 @@ def test_a_callee_is_named_and_not_its_caller(look_in):
     # rk4_step adds what f returned: the error is raised there, and f is to blame.
     functions = "def f(x, u, arm): pass\ndef rk4_step(f, x, u, dt):\n    return x + dt * f(x, u)"
     said = look_in("'p5-f', 'p5-rk4_step'", functions, "rk4_step(lambda x, u: f(x, u, 0), 1, 2, 3)")
-    assert said == "What f returns is of no use in this cell: see the card of p5-f.\n"
+    assert said == "This cell cannot use what f returns: see the card of p5-f.\n"
 
 
 def test_a_function_of_the_students_own_is_named_by_the_one_that_called_it(look_in):
@@ -210,7 +210,7 @@ def test_however_a_function_is_written_it_is_named(look_in, written):
 def test_a_wrong_answer_that_ends_the_cell_is_named_before_a_right_one(look_in):
     functions = RIGHT_C + "def M(q, pend):\n    return [1.0, 2.0, 3.0]\n"
     said = look_in("'p3-C', 'p3-M'", functions, "np.reshape(M(0, 0), 1)")
-    assert said == "What M returns is of no use in this cell: see the card of p3-M.\n"
+    assert said == "This cell cannot use what M returns: see the card of p3-M.\n"
 
 
 def test_right_answers_get_no_blame_where_the_cell_fails_all_the_same(look_in):
@@ -279,5 +279,5 @@ def test_a_feedback_page_gets_the_line_too():
         "This cell raises TypeError: unsupported operand type(s) for +: 'int' and 'NoneType':"
         " see the cards of p5-f and p5-rk4_step.",
         "Write M first, then run this cell again.",
-        "The notebook defines no C: see the card of p1-C.",
+        "The notebook does not define C: see the card of p1-C.",
     ]

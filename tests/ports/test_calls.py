@@ -101,7 +101,7 @@ def test_a_simulation_in_steps(recorded):
 
 def test_an_answer_of_another_size_is_an_error(recorded, monkeypatch):
     monkeypatch.setattr(recorded, "ask", lambda numbers, at_most: np.zeros(at_most - 1))
-    with pytest.raises(ports.ProgramError, match="gave 14 numbers where 15 are due"):
+    with pytest.raises(ports.ProgramError, match="gave 14 numbers instead of 15"):
         ports.run("cpp", ARM, np.zeros(4))
 
 

@@ -64,7 +64,7 @@ while True:
     with conversation(script) as program:
         for _ in range(2):
             assert program.ask([3], at_most=2).tolist() == [1, 2]
-        assert program.said() == "q is (3.0,)\nnumbersq is (3.0,)\nnumbers"
+        assert program.text() == "q is (3.0,)\nnumbersq is (3.0,)\nnumbers"
 
 
 def test_a_little_text_before_each_answer_is_never_too_much():
@@ -86,7 +86,7 @@ while True:
         ("request(); raise OverflowError('too fast')", "exit status 1: (.|\n)*too fast"),
         ("sys.exit(4)", "exit status 4"),
         ("request(); os.kill(os.getpid(), 11)", "ended with SIGSEGV"),
-        ("request(); print('abc' * 10**6, flush=True)", "writes text and no answer: ….*abc"),
+        ("request(); print('abc' * 10**6, flush=True)", "wrote text instead of an answer: ….*abc"),
         ("request(); answer([1, 2, 3])", "gave 3 numbers; at most 2"),
         ("request(); os.write(1, b'numbers:' + struct.pack('<d', -1))", "gave -1 numbers"),
         ("request(); os.write(1, b'numbers:' + struct.pack('<d', 1.5))", "gave 1.5 numbers"),
@@ -135,7 +135,7 @@ def test_what_a_program_started_ends_with_it(hangs):
         if hangs:
             with pytest.raises(ProgramError, match="no answer"):
                 program.ask([], at_most=1)
-            pid = int(program.said().split()[0])
+            pid = int(program.text().split()[0])
         else:
             (pid,) = program.ask([], at_most=1).astype(int)
             assert not ended(pid)

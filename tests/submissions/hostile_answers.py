@@ -247,7 +247,7 @@ def lagrangian(q, qd, m, lc, I, g):
     )
 
 
-@attack(says="The notebook defines no g_vec. There is a g_v\u0435c: is that it?")
+@attack(says="The notebook does not define g_vec. Did you mean g_v\u0435c?")
 def look_alike_name(release):
     """Defines a function whose name looks like g_vec and is not, a right one for the reader."""
     return cheat(release, g_vec=RIGHT["g_vec"].replace("g_vec", "g_v\u0435c"))

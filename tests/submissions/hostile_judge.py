@@ -261,7 +261,7 @@ def forged_verdicts(release):
 
 @attack()
 def patched_wall(release):
-    """Patches the part of the wall that is in the room, to always have an answer."""
+    """Patches the part of the protocol that is in the room, to always have an answer."""
     return cheat(
         release,
         """

@@ -22,7 +22,8 @@ def warns_in_the_check(release):
 
 
 @attack(
-    says="The notebook defines no g_vec.", fallback="a shell reads all that the instructor may read"
+    says="The notebook does not define g_vec.",
+    fallback="a shell reads all that the instructor may read",
 )
 def another_language(release):
     """Hands its cell to a shell, with commands that read and write."""
@@ -105,7 +106,7 @@ def duplicated_cells(release):
     return notebook
 
 
-@attack(says="The notebook defines no g_vec.")
+@attack(says="The notebook does not define g_vec.")
 def reordered_cells(release):
     """Moves the grade cell of g_vec to the top of the notebook."""
     notebook = cheat(release)
@@ -115,7 +116,7 @@ def reordered_cells(release):
     return notebook
 
 
-@attack(says="a cell that claims to be p3-bonus, which the source does not have")
+@attack(says="a cell claims to be p3-bonus, which this assignment does not have")
 def renamed_cells(release):
     """Renames the grade cell it does not pass, and adds one of its own."""
     notebook = cheat(release)

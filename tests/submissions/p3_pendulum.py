@@ -106,11 +106,11 @@ BAD_ANSWERS = {
         "def g_vec(q, pend)\n    return 0",
         "the cell that should define it stopped with SyntaxError: expected ':', line 1",
     ),
-    "missing": ("pass", "The notebook defines no g_vec."),
-    "renamed": ("def g_vector(q, pend):\n    return 0 * q", "There is a g_vector: is that it?"),
+    "missing": ("pass", "The notebook does not define g_vec."),
+    "renamed": ("def g_vector(q, pend):\n    return 0 * q", "Did you mean g_vector?"),
     "returns_none": (
         "def g_vec(q, pend):\n    pend.m * pend.g * pend.lc * np.sin(q)",
-        "g_vec(q, pend) returned None; is the return statement missing?",
+        "g_vec(q, pend) returned None. Is the return statement missing?",
     ),
     "returns_string": (
         function("g_vec", "'m g lc sin q'"),
@@ -126,7 +126,7 @@ BAD_ANSWERS = {
     ),
     "never_returns": (
         "def g_vec(q, pend):\n    while True:\n        pass",
-        "g_vec(q, pend) did not return within 2 s; is there a loop that never ends?",
+        "g_vec(q, pend) did not return within 2 s. Is there a loop that never ends?",
     ),
     "wrong_arguments": (
         "def g_vec(q):\n    return q",

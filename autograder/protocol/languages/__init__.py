@@ -1,7 +1,7 @@
-"""Answers in C++, Java and MATLAB: the student's file as a Python function, on either side of the wall.
+"""Answers in C++, Java and MATLAB: makes the student's file a Python function.
 
-Around the student's function stands a small driver, which reads numbers and writes numbers. Here is
-no formula of any arm: the folder goes into the room.
+A small driver around the student's function reads numbers and writes numbers. This folder holds no
+formula of any arm, because it also goes into the sandbox.
 """
 
 from .from_file import from_file, missing

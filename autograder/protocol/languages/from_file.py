@@ -1,4 +1,4 @@
-"""from_file("M.cpp"): the student's function in another language, as a function of Python."""
+"""from_file("M.cpp") makes a student's function in another language a Python function."""
 
 import difflib
 import os
@@ -15,13 +15,13 @@ from ..calls import CALL_SECONDS, PATIENCE, TimeLimitError
 from ..readings import MOST_NUMBERS, FaultKind, NotNumbersError
 
 PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "g")
-# Of the clock, on a busy machine.
+# By the clock, and enough for a busy machine.
 BUILD_SECONDS = 45.0
 START_SECONDS = 15.0
 
 
 class MissingToolError(NotNumbersError):
-    """What is needed to run an answer in this language is not installed."""
+    """A tool that answers in this language need is not installed."""
 
     def __init__(self, line: str):
         super().__init__(FaultKind.NO_TOOLS, line)
@@ -30,16 +30,16 @@ class MissingToolError(NotNumbersError):
 def from_file(name: str):
     """The function that the file `name` defines, M(q, arm) or C(q, qd, arm), to be called from Python.
 
-    name: M.cpp, M.java or M.m, or the same with C. The file is built and started at once. Where that
-    fails, the cell shows why, and so does each call. FileNotFoundError where there is no such file,
-    ValueError for a name that no answer has.
+    name: M.cpp, M.java or M.m, or the same with C. The file is built and started at once. If that
+    fails, the cell shows why, and each call raises the same error. FileNotFoundError where there is no
+    such file, ValueError where no answer may have this name.
     """
-    from .language import ARGUMENTS, LANGUAGES  # no other notebook pays for it
+    from .language import ARGUMENTS, LANGUAGES  # here, so that other notebooks do not wait for it
 
     path = Path(name)
     if path.suffix not in LANGUAGES or path.stem not in ARGUMENTS:
         known = [stem + suffix for stem in ARGUMENTS for suffix in LANGUAGES]
-        raise ValueError(f"{name!r} is no answer's file; these can be: {', '.join(known)}")
+        raise ValueError(f"an answer's file cannot be {name!r}; it can be {', '.join(known)}")
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -48,7 +48,7 @@ def from_file(name: str):
 
 
 def missing() -> list[str]:
-    """What is not installed here, a line for each language whose answers cannot be run without it."""
+    """A line for each language whose answers cannot run here: what is not installed."""
     from .language import LANGUAGES, toolchain
 
     lines = [toolchain.missing(language.toolchain) for language in LANGUAGES.values()]
@@ -58,14 +58,12 @@ def missing() -> list[str]:
 def _no_file(path: Path) -> str:
     there = [entry.name for entry in path.absolute().parent.glob("*") if entry.is_file()]
     close = difflib.get_close_matches(path.name, there, n=1, cutoff=0.5)
-    meant = f"; there is a {close[0]}: is that it?" if close else "."
-    return (
-        f"there is no file {path}{meant} Was the cell with %%writefile {path} run before this one?"
-    )
+    meant = f" Did you mean {close[0]}?" if close else ""
+    return f"there is no file {path}.{meant} Run the cell with %%writefile {path} before this one."
 
 
 class Function:
-    """A student's function in another language. The program ends with it."""
+    """A student's function in another language, which keeps its program running."""
 
     def __init__(self, name: str, language, text: str):
         from .language import ARGUMENTS, toolchain
@@ -82,8 +80,8 @@ class Function:
         except toolchain.MissingToolError as error:
             self._fail(MissingToolError(str(error)), str(error))
         except toolchain.BuildError as error:
-            said = language.first_error(name, str(error))
-            self._fail(toolchain.BuildError(said), str(error))
+            first = language.first_error(name, str(error))
+            self._fail(toolchain.BuildError(first), str(error))
         except toolchain.ProgramError as error:
             self._fail(error, str(error))
 
@@ -98,7 +96,7 @@ class Function:
         numbers = [float(getattr(arm, name)) for name in PARAMETERS]
         request = np.concatenate([*vectors, np.zeros(4 - 2 * len(vectors)), numbers])
         if self._program is not None and self._program.ended:
-            self._end()  # a room ends all that a cell started
+            self._end()  # the sandbox ends everything that a cell started
             self._program = None
         if self._program is None:
             self._start()
@@ -107,7 +105,7 @@ class Function:
     def _pair(self, name, value):
         value = np.asarray(value, dtype=float)
         if value.size != 2:
-            raise ValueError(f"{name} has shape {value.shape}; two numbers are needed")
+            raise ValueError(f"{name} has shape {value.shape}; it must be two numbers")
         return value.ravel()
 
     def _build(self):
@@ -134,23 +132,23 @@ class Function:
         except self._toolchain.ProgramError as error:
             if self._program.late and self._program.seconds == CALL_SECONDS:
                 raise TimeLimitError(CALL_SECONDS, self._program.starved) from None
-            how, _, said = str(error).replace(f"{self._folder}{os.sep}", "").partition(": ")
-            why = self._language.last_words(self.__name__, said)
+            how, _, text = str(error).replace(f"{self._folder}{os.sep}", "").partition(": ")
+            why = self._language.last_words(self.__name__, text)
             raise self._toolchain.ProgramError(why or how) from None
         finally:
-            if not whole:  # or whatever ended this call in the middle of an answer
+            if not whole:  # whatever ended this call, in the middle of an answer perhaps
                 self._end()
                 self._program = None
         rows, columns = map(int, answer[:2])
         return answer[2:].reshape(rows, columns)
 
-    def _fail(self, error, said):
+    def _fail(self, error, text):
         self._failed = error
-        print(f"{next(iter(self._files))}: {said}", file=sys.stderr)
+        print(f"{next(iter(self._files))}: {text}", file=sys.stderr)
 
 
 def _cache() -> Path:
-    """Where built programs are kept: with those of armdyn, or in the room."""
+    """Where built programs are kept: with those of armdyn, or in the sandbox."""
     try:
         from armdyn.codegen.build import cache_folder
     except ImportError:

@@ -1,4 +1,4 @@
-"""What an answer looks like in each language, how it is built, and what its failures say."""
+"""Knows each language: how an answer looks in it, how it is built, and how it fails."""
 
 import re
 from dataclasses import dataclass, replace
@@ -6,13 +6,13 @@ from pathlib import Path
 
 try:
     from armdyn.ports import toolchain
-except ImportError:  # in the room, which armdyn is kept out of, it lies beside the wall
+except ImportError:  # in the sandbox there is no armdyn, only this part of it
     import toolchain  # type: ignore[import-not-found, no-redef]
 
 HERE = Path(__file__).parent
-# The arguments of the functions that may be answered so.
+# The functions that may be written in these languages, and their arguments.
 ARGUMENTS = {"M": "q, arm", "C": "q, qd, arm"}
-# In a room, memory and threads are few: a Java machine takes what it finds.
+# A Java machine takes all the memory and threads it finds; a sandbox has few.
 JVM = (
     "-XX:+UseSerialGC",
     "-XX:TieredStopAtLevel=1",
@@ -28,9 +28,9 @@ JVM = (
 class Language:
     """One of the languages.
 
-    key: its name among armdyn's ports. drivers: the files beside the student's, of which $NAME and
-    $ARGUMENTS are filled in. signature: of the student's function, of its name. failures: matches
-    what in a program's last words says why it ended; {file} and {name} are the student's.
+    key: its name among armdyn's ports. drivers: the files beside the student's; $NAME and $ARGUMENTS
+    in them are filled in. signature: by the function's name. failures: matches the part of a program's
+    last output that says why it ended; {file} and {name} are the student's.
     """
 
     key: str
@@ -55,7 +55,7 @@ class Language:
         return found
 
     def files(self, name: str, text: str) -> dict[str, str]:
-        """The student's file with this text, and what stands around it."""
+        """The student's file with this text, and the files around it."""
         files = {name + self.suffix: text}
         for driver in self.drivers:
             source = (HERE / driver).read_text(encoding="utf-8")
@@ -63,29 +63,29 @@ class Language:
             files[driver] = source
         return files
 
-    def first_error(self, name: str, said: str) -> str:
+    def first_error(self, name: str, text: str) -> str:
         """The first error of a compiler, with the place in the student's file."""
         file = name + self.suffix
-        lines = said.splitlines()
+        lines = text.splitlines()
         at = next((k for k, line in enumerate(lines) if "error:" in line), None)
         if at is None:
-            return said
+            return text
         error = lines[at].partition("error:")[2].strip()
-        # What javac could not find it names in the lines below.
+        # javac names what it could not find in the lines below.
         below = [line.split() for line in lines[at + 1 : at + 5]]
         error += "".join(f" ({' '.join(words)})" for words in below if words[:1] == ["symbol:"])
         if lines[at].startswith(self.drivers[0]):
             return f"{file} must define {self.signature[name]}: {error}"
-        # Of an error in a library's template, the lines around it lead to the student's.
+        # For an error in a library's template, the lines around it lead to the student's line.
         around = [lines[at], *reversed(lines[:at]), *lines[at + 1 :]]
         places = (re.search(rf"{re.escape(file)}:\d+(:\d+)?", line) for line in around)
         place = next(filter(None, places), None)
         return f"{place.group() if place else file}: {error}"
 
-    def last_words(self, name: str, said: str) -> str:
-        """Of what a program wrote before it ended, what says why."""
+    def last_words(self, name: str, text: str) -> str:
+        """The part of a program's last output that says why it ended."""
         telling = self.failures.format(file=re.escape(name + self.suffix), name=name)
-        found = [match.group().strip() for match in re.finditer(telling, said, re.MULTILINE)]
+        found = [match.group().strip() for match in re.finditer(telling, text, re.MULTILINE)]
         return "; ".join(dict.fromkeys(found[:3]))
 
 

@@ -1,4 +1,4 @@
-"""What is put into the sandbox beside a student's code: the runner, and stubs for the course's packages.
+"""What the sandbox holds beside a student's code: the runner, and stubs for the course's packages.
 
-Nothing here, and nothing it imports but `protocol`, is the course's own: no reference, no check.
+Nothing here is a reference or a check, and nothing of the course is imported but `protocol`.
 """

@@ -1,4 +1,4 @@
-"""The files that were handed in beside the notebook, laid into the folder in which its cells run."""
+"""Puts the files that were handed in with the notebook into the folder in which its cells run."""
 
 import base64
 import importlib
@@ -6,18 +6,18 @@ import os
 import sys
 
 ROOM = os.path.dirname(os.path.abspath(__file__))
-# Whose names a student's file may have without being meant: the protocol needs the real ones.
+# A student's file may have one of these names; the protocol needs the real modules.
 REAL = ("IPython", "matplotlib", "mpmath", "numpy", "scipy", "sympy")
 
 
 def lay(files: dict[str, str]) -> list[str]:
-    """Write files, given by name in base64; the names of those that could not be written."""
+    """Write files, given by name in base64; return the names of those that could not be written."""
     modules = {name.split("/")[0].removesuffix(".py") for name in files if name.endswith(".py")}
     for module in modules.intersection(REAL):
         importlib.import_module(module)
     for module in modules:
         if _is_the_rooms(sys.modules.get(module)):
-            del sys.modules[module]  # the room has no further use for the name
+            del sys.modules[module]  # the room no longer needs the name
     failed = []
     for name, content in files.items():
         try:
@@ -31,7 +31,7 @@ def lay(files: dict[str, str]) -> list[str]:
 
 
 def look_in_the_folder():
-    """Import from the folder in which cells run first, as a notebook's kernel does."""
+    """Import first from the folder in which cells run, as a notebook's kernel does."""
     sys.path.insert(0, "")
 
 

@@ -1,4 +1,4 @@
-"""Process 1 of a room: it furnishes the namespaces, reaps, and watches what the room uses.
+"""Process 1 of a room: it prepares the namespaces, reaps, and watches what the room uses.
 
 When it ends, the kernel ends every process in the room. It does so when the runner has ended, when
 the judge has gone, and when the room uses too much.
@@ -17,7 +17,7 @@ DESCRIPTORS = 4  # requests, replies, a handle on this process, and a line to it
 
 
 def furnish_and_wait(requests, replies, handles, to_warm, user):
-    """Never returns. What goes wrong before the runner starts is said on the room's own channel."""
+    """Prepare the room and watch it; never returns. Errors before the runner starts go to the judge."""
     try:
         namespaces.map_user(*user)
         namespaces.furnish()
@@ -33,9 +33,9 @@ def furnish_and_wait(requests, replies, handles, to_warm, user):
         there.detach()
         os.closerange(2, os.sysconf("SC_OPEN_MAX"))
         here, judge = socket.socket(fileno=0), socket.socket(fileno=1)
-        # Process 1 gets no signal from within but those it handles.
+        # From inside its namespace, process 1 gets only the signals that it handles.
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-        # The warm process's neglect of its children is inherited.
+        # The warm process ignores its children, and this process inherits that.
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         number, runner, *_ = socket.recv_fds(here, 16, 1)
         if runner:
@@ -49,7 +49,7 @@ def furnish_and_wait(requests, replies, handles, to_warm, user):
 
 
 def join(line):
-    """In the runner: let process 1 end with this one, and wait until it is out of reach."""
+    """In the runner: tell process 1 to end with this process, and wait until it is out of reach."""
     with socket.socket(fileno=line) as channel:
         number = str(os.getpid()).encode()
         socket.send_fds(channel, [number], [os.pidfd_open(os.getpid())])

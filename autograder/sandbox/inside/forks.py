@@ -1,13 +1,13 @@
-"""The warm process: everything a notebook imports is loaded, and each room is a fork of it.
+"""The warm process: it has loaded everything that notebooks import, and each room is a fork of it.
 
-It runs inside bubblewrap, holds nothing of the course and never any student code: a request brings
-the descriptors of a room, and only that room's processes touch them. Each room has namespaces of its
-own, as far from the other rooms as bubblewrap's are from each other. A fork copies the tables of all
-the memory its parent has, so that all but the student's own process are forks of a small one:
+It runs inside bubblewrap, and never holds anything of the course or any student code: a request brings
+the descriptors of a room, and only that room's processes touch them. Each room has its own namespaces,
+which separate it from other rooms as bubblewrap would. A fork copies the tables of all the memory that
+its parent has. So a small process, the starter, forks all processes but the student's own:
 
-    the keeper, small → process 1 of new namespaces, which furnishes them and reaps (first.py)
-    the keeper, small → the warm process, loaded → the runner, in those namespaces, where the
-    student's code is.
+    the starter, small → process 1 of new namespaces, which prepares them and reaps (first.py)
+    the starter, small → the warm process, loaded → the runner in those namespaces, which runs the
+    student's code.
 """
 
 import os
@@ -32,21 +32,21 @@ def main():
 
     if os.getuid() == 0:
         namespaces.step_down()
-    # To fork into a room's namespaces and come back, the warm process needs rights in both.
+    # The warm process forks into a room's namespaces and comes back, so it needs rights in both.
     namespaces.unshare(namespaces.CLONE_NEWUSER | namespaces.CLONE_NEWPID)
     if os.fork():
         channel.close()
         os.wait()
         return
-    to_warm, to_keeper = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    to_warm, to_starter = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
     warm = os.fork()
     if warm == 0:
         channel.close()
         to_warm.close()
-        _serve(to_keeper)
+        _serve(to_starter)
         os._exit(0)
-    to_keeper.close()
+    to_starter.close()
     warm_lives = os.pidfd_open(warm)
     if to_warm.recv(16) != b"ready":
         return
@@ -84,7 +84,7 @@ def _start_room(requests, replies, handles, to_warm, first, namespaces):
 
 
 def _serve(channel):
-    """Load everything, then fork a runner into each room that its process 1 tells of."""
+    """Load everything, then fork a runner for each room whose process 1 asks for one."""
     import first
     import loaded
     import namespaces
@@ -112,7 +112,7 @@ def _serve(channel):
 
 
 def _run(requests, replies, room, line, shell):
-    """Never returns. What goes wrong is said on the room's own channel."""
+    """Run the room's cells; never returns. Errors go to the judge."""
     import first
     import namespaces
     import runner

@@ -1,4 +1,4 @@
-"""Figures are pictures in the cell's outputs, whatever backend a notebook asks for."""
+"""Shows figures as pictures in the cell's outputs, whatever backend a notebook asks for."""
 
 import os
 import sys
@@ -9,8 +9,8 @@ INLINE = "module://matplotlib_inline.backend_inline"
 def only_pictures():
     """Let matplotlib draw with its inline backend alone, and IPython show figures as PNG alone.
 
-    A notebook may name any backend, as one with windows that a student has at home: its figures are
-    drawn all the same.
+    A notebook may name any backend, such as one with windows that a student has at home; its figures
+    are drawn all the same.
     """
     os.environ["MPLBACKEND"] = INLINE
     import matplotlib

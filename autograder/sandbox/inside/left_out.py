@@ -1,23 +1,21 @@
-"""Lines that work in JupyterLab but not where a notebook is graded, and what is said of them."""
+"""Says why a line that works in JupyterLab is left out when a notebook is graded."""
 
 import re
 
-INSTALLS = (
-    "nothing can be installed where a notebook is graded; the packages of the course are there"
-)
-NO_KERNEL = "it is about a running kernel, and there is none where a notebook is graded"
-UNKNOWN = "there is no magic of that name where a notebook is graded"
-NOT_FIRST = "a magic with %% has to be the first line of its cell"
-STOPS = "it waits for commands, and nobody is there to give any where a notebook is graded"
-NOBODY = "nobody is there to answer where a notebook is graded"
+INSTALLS = "the grader installs nothing; it has the packages of the course"
+NO_KERNEL = "it needs a running kernel, and the grader has none"
+UNKNOWN = "the grader knows no magic of this name"
+NOT_FIRST = "a magic with %% must be the first line of its cell"
+NOBODY = "nobody is there to answer while a notebook is graded"
+INPUT = f"input() waits for an answer, but {NOBODY}; write the value into the cell"
 
-# By the name of the magic. Where nothing is said, nothing would be seen in the notebook either.
+# By the name of the magic. An empty text: nobody would miss the magic in the notebook.
 MAGICS = {
     **dict.fromkeys(("pip", "conda", "mamba", "micromamba", "uv"), INSTALLS),
     **dict.fromkeys(("connect_info", "qtconsole", "subshell"), NO_KERNEL),
     **dict.fromkeys(("debug", "pdb"), f"it asks for commands, and {NOBODY}"),
     **dict.fromkeys(("edit", "ed"), f"it opens an editor, and {NOBODY}"),
-    "pastebin": "a notebook that is graded has no network",
+    "pastebin": "the grader has no network",
     **dict.fromkeys(("autosave", "less", "man", "more"), ""),
 }
 INSTALLERS = re.compile(
@@ -28,19 +26,19 @@ INSTALLERS = re.compile(
 
 
 class LeftOutError(Exception):
-    """A line that cannot work here: its message says why."""
+    """A line cannot work here; the message says why."""
 
 
 def refuse_what_cannot_work(command: str) -> None:
-    """LeftOutError for a shell command that would install something, or go on by itself."""
+    """LeftOutError for a shell command that would install something, or run in the background."""
     if INSTALLERS.search(command):
         raise LeftOutError(INSTALLS)
     if command.rstrip().endswith("&"):
-        raise LeftOutError("a command cannot go on in the background")
+        raise LeftOutError("the grader runs no command in the background")
 
 
 def refuse_magic(name: str) -> bool:
-    """Whether nothing is to be done for the magic; LeftOutError where that has to be said."""
+    """Whether to pass over the magic in silence; LeftOutError where the student must know why."""
     if MAGICS.get(name):
         raise LeftOutError(MAGICS[name])
     return name in MAGICS

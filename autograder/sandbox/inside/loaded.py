@@ -1,4 +1,4 @@
-"""All that a notebook imports, loaded once in a process whose forks become rooms."""
+"""Loads what notebooks import, once, in a process whose forks become rooms."""
 
 import gc
 import io
@@ -6,9 +6,9 @@ import os
 
 
 def load() -> None:
-    """Load what notebooks import, and what loads itself at the first figure.
+    """Load what notebooks import, and what is loaded with the first figure.
 
-    RuntimeError where a thread was started on the way.
+    RuntimeError if that started a thread.
     """
     import matplotlib.pyplot
     import numpy.linalg
@@ -26,10 +26,10 @@ def load() -> None:
     for modules in (None, "numpy"):  # a student's own, and the protocol's
         sympy.lambdify(q, matrix, modules)
     sympy.core.cache.clear_cache()
-    # Drawn anew by each process, and dummy symbols sort by it.
+    # Each process draws this number, and dummy symbols sort by it.
     sympy.Dummy._base_dummy_index = 10_000_000
     numpy.linalg.solve([[1.0]], [1.0])
     if len(os.listdir("/proc/self/task")) > 1:
-        raise RuntimeError("a thread was started: no fork of this process would be whole")
+        raise RuntimeError("a thread was started; a fork of this process would lack it")
     gc.collect()
     gc.freeze()  # a collection in a room would copy every page it looks at

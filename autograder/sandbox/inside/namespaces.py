@@ -1,4 +1,4 @@
-"""Linux namespaces, mounts and privileges, through the C library: Python 3.11 has no `os.unshare`."""
+"""Sets up Linux namespaces, mounts and privileges; Python 3.11 has no `os.unshare`."""
 
 import ctypes
 import os
@@ -25,29 +25,29 @@ KEYCTL = {"x86_64": 250, "aarch64": 219}
 KEYCTL_JOIN_SESSION_KEYRING = 1
 
 _libc = ctypes.CDLL(None, use_errno=True)
-_pythons = ctypes.PyDLL(None, use_errno=True)  # keeps the interpreter's lock: a fork has it, too
+_pythons = ctypes.PyDLL(None, use_errno=True)  # keeps the interpreter's lock, which a fork needs
 _libc.mount.argtypes = [ctypes.c_char_p] * 3 + [ctypes.c_ulong, ctypes.c_char_p]
 _libc.prctl.argtypes = [ctypes.c_int] + [ctypes.c_ulong] * 4
 
 
 def become_nobody() -> None:
-    """From root inside bubblewrap to a user without rights, whom the limit on processes holds."""
+    """Go from root inside bubblewrap to a user without rights, whose processes the kernel limits."""
     step_down()
-    # In a namespace of its own, this user's processes elsewhere do not count. Some kernels keep
-    # that from all but root: then all rooms share the limit.
+    # In a new namespace, this user's other processes do not count. Some kernels allow only root to
+    # make one; then all rooms share the limit.
     with suppress(OSError):
         unshare(CLONE_NEWUSER)
     drop_privileges()
 
 
 def step_down() -> None:
-    """From root inside bubblewrap to another user, with a /proc.
+    """Go from root inside bubblewrap to another user, with a /proc.
 
-    bubblewrap gives root the capabilities for these steps alone. Its own /proc would be partly
-    covered, and under a covered one the kernel lets no room mount its own.
+    bubblewrap gives root the capabilities for these steps alone. bubblewrap's own /proc would be partly
+    covered, and then the kernel would let no room mount one.
     """
     if os.path.exists("/proc/self"):
-        raise RuntimeError("this is no room: it has a /proc already")
+        raise RuntimeError("this process is not in a room: it has a /proc already")
     mount_proc()
     os.setgroups([])
     os.setresgid(NOBODY, NOBODY, NOBODY)
@@ -67,12 +67,12 @@ def clone(kinds: int) -> int:
 
 
 def enter(process: int, kinds: int) -> None:
-    """Into namespaces of the process that a pidfd stands for; of processes, for the next fork."""
+    """Enter the namespaces of the process behind a pidfd; one of processes counts for the next fork."""
     _checked("setns", _libc.setns(process, kinds))
 
 
 def unshare(kinds: int) -> None:
-    """Into new namespaces, one of users among them, as the same user."""
+    """Enter new namespaces, one of users among them, as the same user."""
     user, group = os.getuid(), os.getgid()
     _checked("unshare", _libc.unshare(kinds))
     map_user(user, group)
@@ -104,14 +104,14 @@ def furnish() -> None:
 
 
 def new_keys() -> None:
-    """A keyring that this process and those it starts share with nobody."""
+    """Make a keyring that only this process and those it starts can use."""
     if platform.machine() in KEYCTL:
         # Where the kernel has no keys there are none to share.
         _libc.syscall(KEYCTL[platform.machine()], KEYCTL_JOIN_SESSION_KEYRING, None)
 
 
 def _mounted_under(folder):
-    """The outermost mounts there: a Python that is installed in /tmp."""
+    """The outermost mounts in the folder, such as a Python that is installed in /tmp."""
     with open("/proc/self/mountinfo") as file:
         places = [line.split()[4] for line in file]
     places = [place.encode().decode("unicode_escape") for place in places]
@@ -139,12 +139,12 @@ def drop_privileges() -> None:
 
 
 def close_to_tracing() -> None:
-    """No process of the same user may read or steer this one."""
+    """Let no process of the same user read or trace this one."""
     _libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0)
 
 
 def adopt_orphans() -> None:
-    """Be the parent of all that descends from this process, when its own has ended."""
+    """Become the parent of every descendant whose own parent ends."""
     _checked("prctl", _libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0))
 
 

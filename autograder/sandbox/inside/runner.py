@@ -2,8 +2,8 @@
 
 One request a line on standard input, one reply a line on standard output, both JSON:
 {"files": {name: base64}} → {"failed": [names]}, {"run": source} → {"outputs": [...]}, {"ask": [calls]}
-→ a {"reply": ...} for each call in turn, up to the first fault. Both descriptors are moved out of the
-way first, so that what the student's code prints cannot mix with the replies.
+→ a {"reply": ...} for each call in turn, up to the first fault. The runner first moves both descriptors,
+so that what the student's code prints cannot mix with the replies.
 """
 
 import base64
@@ -19,13 +19,13 @@ from contextlib import suppress
 
 MEMORY_BYTES = 4 << 30
 FILE_BYTES = 64 << 20
-# No process needs more of the processor's time than a whole notebook may have: what hides from the
-# watch ends by this.
+# No process needs more processor time than a whole notebook may have; a process that hides from the
+# watch ends at this limit.
 PROCESS_SECONDS = 120
 MOST_TEXT = 200_000
 MOST_OUTPUTS = 50
-MOST_SAID = 500  # of a line that was left out
-# Quick calls are answered in one go: each time that the judge is woken costs more than a call.
+MOST_LEFT_OUT = 500  # characters about a line that was left out
+# Quick calls are answered together, as waking the judge costs more than a call.
 HELD_SECONDS = 0.02
 # What a feedback page shows of a student's output. No HTML or JavaScript: it would run in the
 # instructor's browser.
@@ -33,7 +33,7 @@ SHOWN = ("text/plain", "text/latex", "image/png")
 
 
 def main():
-    """runner.py [walled] DESCRIPTOR: of the socket on which the judge talks to the watch."""
+    """runner.py [walled] DESCRIPTOR, where the judge talks to the watch on the descriptor's socket."""
     walled = "walled" in sys.argv
     judge = socket.socket(fileno=int(sys.argv[-1]))
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -46,7 +46,7 @@ def main():
 
 
 def leave_to_watch(judge, walled):
-    """Go on as a child of this process, which ends the room with the judge, or for using too much."""
+    """Go on as a child of this process, which watches the room and ends it with the judge."""
     import watch
 
     linux = sys.platform == "linux"
@@ -73,8 +73,8 @@ def leave_to_watch(judge, walled):
 def serve(shell=None, walled=False):
     """Answer requests to the end of standard input, in `shell` or a new one.
 
-    walled: whether the user's processes are counted for this room alone, so that a limit on them
-    harms nothing else.
+    walled: whether the kernel counts the user's processes for this room alone, so that a limit on their
+    number harms nothing else.
     """
     requests, replies = _private_channel()
     _limit_resources(walled)
@@ -127,7 +127,7 @@ def _limit_resources(walled):
 
 
 def _run(shell, source, seconds, protocol):
-    """The cell's outputs, as a notebook stores them, and in those that say what went wrong, where."""
+    """The cell's outputs as a notebook stores them; an error also says at which line it arose."""
     import inline_figures
     from IPython.utils.capture import capture_output
 
@@ -145,8 +145,8 @@ def _run(shell, source, seconds, protocol):
         for name, text in (("stdout", captured.stdout), ("stderr", captured.stderr))
         if text
     ]
-    for said in shell.left_out[:MOST_OUTPUTS]:
-        text = protocol.one_line(said, MOST_SAID)
+    for sentence in shell.left_out[:MOST_OUTPUTS]:
+        text = protocol.one_line(sentence, MOST_LEFT_OUT)
         outputs.append(
             {"output_type": "stream", "name": "stderr", "text": f"{text}\n", "left_out": text}
         )
@@ -156,7 +156,7 @@ def _run(shell, source, seconds, protocol):
     errors = shell.errors or ([(type(stopped), stopped, [])] if stopped else [])
     if errors and shell.is_below_magic(source):
         stopped = errors[-1][1]
-    # After an error that was only shown, as a magic's, the cell may go on to one that stops it.
+    # A magic's error is only shown, and the cell goes on, perhaps to an error that stops it.
     told = [*errors[:1], *(error for error in errors[1:] if error[1] is stopped)]
     return outputs + [
         _error(shell, source, *error, protocol) | {"stopped": error[1] is stopped} for error in told
@@ -178,8 +178,8 @@ def _error(shell, source, kind, value, lines, protocol):
         at, line = 0, ""
         value, lines = f"{value.msg}, line {value.lineno}: {(value.text or '').strip()}", []
     elif is_offline:
-        value = f"{protocol.said_by(value)} (a notebook that is graded has no network)"
-    text = protocol.shortened(value if isinstance(value, str) else protocol.said_by(value))
+        value = f"{protocol.message_of(value)} (the grader has no network)"
+    text = protocol.shortened(value if isinstance(value, str) else protocol.message_of(value))
     return {
         "output_type": "error",
         "ename": kind.__name__,
@@ -196,7 +196,7 @@ def _text(data):
 
 
 def _answer(calls, namespace, replies, protocol):
-    """Write a line for each call, and let go of the lines written before one that may take long."""
+    """Write a reply for each call; send those written so far before a call that may take long."""
     written = time.monotonic()
     for call in calls:
         if time.monotonic() - written > HELD_SECONDS:

@@ -1,7 +1,7 @@
-"""The shell of a room: what JupyterLab's kernel takes, it takes, though nobody sits before it.
+"""The shell in which a student's cells run: it takes what JupyterLab's kernel takes.
 
-A magic or a shell command that cannot work here is left out with a sentence, and the rest of its cell
-runs. What has to give something back, as `input` has, fails where it is used.
+If a magic or a shell command cannot work here, it is left out, a sentence says why, and the rest of its
+cell runs. A function that must return something, as `input` must, raises an error.
 """
 
 import ast
@@ -30,7 +30,7 @@ from traitlets import Type
 from traitlets.config import Config
 
 CELL_MAGIC = re.compile(r"%%(\w+)")
-# Files that code of a student's own comes from: cells, and lines given to magics.
+# The file names of a student's own code: cells, and lines given to magics.
 TYPED = ("<ipython-input-", "<timed", "<magic-timeit", "<string>")
 NO_NETWORK = (errno.ENETUNREACH, errno.EHOSTUNREACH, errno.ENETDOWN)
 
@@ -47,7 +47,7 @@ def new_shell():
 
 
 class Displays(DisplayPublisher):
-    """What a cell shows beside its streams, in `shown`: mime bundles, each with its display_id."""
+    """Keeps what a cell displays in `shown`: mime bundles, each with its display_id."""
 
     def __init__(self, *args, **kwargs):
         super().__init__(*args, **kwargs)
@@ -90,9 +90,9 @@ class Results(DisplayHook):
 class RoomShell(InteractiveShell):
     """An IPython that shows what JupyterLab would show.
 
-    context: of the cells' context variables, NumPy's error state among them, from cell to cell.
-    running: the number of the cell that runs, or ran last. left_out: what was left out of it, and why.
-    errors: those that it showed, each as its type, value and traceback in lines.
+    context: keeps context variables, such as NumPy's error state, from cell to cell. running: the
+    number of the cell that runs, or ran last. left_out: what was left out of it, and why. errors: those
+    that it showed, each as its type, value and traceback in lines.
     """
 
     displayhook_class = Type(Results)
@@ -108,7 +108,7 @@ class RoomShell(InteractiveShell):
         self.set_hook("show_in_pager", lambda *args, **kwargs: None, 0)
 
     def move_in(self):
-        """Keep what IPython keeps in files where the environment says now."""
+        """Move IPython's files to where the environment says now."""
         self.init_ipython_dir(None)
         self.init_profile_dir(None)
 
@@ -181,7 +181,7 @@ class RoomShell(InteractiveShell):
         return super().enable_matplotlib("inline")
 
     def should_run_async(self, raw_cell, **known):
-        """A cell finds a running event loop, as in a kernel; one that another cell runs does not."""
+        """A cell finds a running event loop, as in a kernel; a cell that another cell runs does not."""
         if asyncio._get_running_loop() is None:
             return True
         return super().should_run_async(raw_cell, **known)
@@ -192,7 +192,7 @@ class RoomShell(InteractiveShell):
 
     @loop_runner.setter
     def loop_runner(self, runner):
-        """As `%autoawait` sets it, which changes nothing in a kernel either."""
+        """Ignore what `%autoawait` sets, as a kernel does."""
 
     def _in_loop(self, cell):
         if self._loop is None or self._loop.is_closed():
@@ -202,12 +202,12 @@ class RoomShell(InteractiveShell):
         try:
             return self._loop.run_until_complete(task)
         finally:
-            if not task.done():  # at its time limit: it must not go on below the next cell, or end
+            if not task.done():  # at its time limit: it must not go on while the next cell runs
                 self._abandoned.append((self._loop, task))
                 self._loop = None
 
     def _without_unknown_cell_magic(self, lines):
-        """Of a cell below a magic that is not there, what is Python runs."""
+        """Leave out an unknown cell magic, and run the cell below it if that is Python."""
         magic = CELL_MAGIC.match(lines[0]) if lines else None
         if magic is None or self._is_cell_magic(magic[1]):
             return lines
@@ -222,7 +222,7 @@ class RoomShell(InteractiveShell):
         return name not in left_out.MAGICS and self.find_cell_magic(name) is not None
 
     def _leave_out(self, line, error):
-        """Say why a line does nothing; an error of the student's own that came up in it is theirs."""
+        """Say why a line does nothing; but an error in the student's own code is shown as one."""
         at = error.__traceback__
         while at is not None and not at.tb_frame.f_code.co_filename.startswith(TYPED):
             at = at.tb_next
@@ -247,8 +247,8 @@ class RoomShell(InteractiveShell):
         return magic is not None and self._is_cell_magic(magic[1])
 
     def typed_lines(self, error, source):
-        """Where an error stopped the running cell of that source, as the number of its line, and the
-        last line of the student's own on the way to it; 0 and "" where they cannot be known.
+        """Where an error comes from: the number of the line at which it stopped the running cell, and
+        the last line of the student's own that led to it; 0 and "" where they cannot be known.
         """
         above = int(self.is_below_magic(source))
         # `%%capture` runs what is below it as a cell of its own, and `%%time` as a file of this name.
@@ -268,13 +268,11 @@ class RoomShell(InteractiveShell):
 
 
 def _no_input(*prompt, **options):
-    raise RuntimeError(
-        "input() asks for something while nobody is there to answer; write the value into the cell"
-    )
+    raise RuntimeError(left_out.INPUT)
 
 
 def needed_network(error) -> bool:
-    """Whether it, or an error that led to it, came of there being no network."""
+    """Whether the error, or one that led to it, arose because there is no network."""
     for _ in range(10):  # a chain of errors may be a ring
         reason = getattr(error, "reason", None)  # urllib keeps it there
         for one in (error, reason):

@@ -1,7 +1,7 @@
 """The warm process where there is no bubblewrap: each room is a group of its forks, without walls.
 
-    this process, loaded → the room's watch, which leads the group → the runner, where the student's
-    code is.
+    this process, loaded → the room's watch, which leads the group → the runner, which runs the
+    student's code.
 
 A request names the room's folder and brings its descriptors, as in forks.py.
 """
@@ -61,7 +61,7 @@ def main():
 
 
 def _end_groups(ended, rooms):
-    """End what is left of rooms whose watch has ended: only till it is reaped is its number taken."""
+    """End what is left of rooms whose watch has ended, before that is reaped and its number is free."""
     with suppress(BlockingIOError):
         os.read(ended, 1 << 12)
     with suppress(ChildProcessError):
@@ -92,7 +92,7 @@ def _start_room(folder, requests, replies, line, rooms, shell):
 
 
 def _run(folder, requests, replies, line, shell):
-    """Never returns. What goes wrong is said on the room's own channel."""
+    """Run the room's cells; never returns. Errors go to the judge."""
     import first
     import runner
 

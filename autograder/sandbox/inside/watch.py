@@ -1,12 +1,12 @@
-"""What all processes of a room use together, and which of them may stay.
+"""Watches what all processes of a room use together, and ends those that a cell leaves behind.
 
-The kernel limits each process alone. This process limits them together, ends those that a cell
-leaves behind, and ends the room with the judge. Out of reach of the student's code behind walls;
-without them, that may end it like any other process of its user.
+The kernel limits each process alone. This process limits them together, and ends the room with the
+judge. Behind walls, the student's code cannot reach it; without walls, that code may end it like any
+other process of its user.
 
 The judge sends a line, "used" or "sweep", and gets one: the same word, and the processor time of all
-processes so far, s. After "sweep" none but the runner is left. A last line, which opens with "!", says
-why the room ends.
+processes so far, s. After "sweep", only the runner is left. A last line, which starts with "!", says why
+the room ends.
 """
 
 import os
@@ -17,11 +17,11 @@ import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 
-# A room has no more processes and threads than this, its keeper among them. The kernel holds it
-# where the room's user is not root.
+# A room has no more processes and threads than this, with this one. The kernel sees to that if the
+# room's user is not root.
 MOST_PROCESSES = 64
-# And starts no more: those that live for less than a look, and whose parent does not wait for them,
-# are seen by their number alone.
+# A room starts no more than this. A process may end between two looks, without a parent that waits for
+# it; only its number then shows that it was there.
 MOST_STARTED = 5000
 ROOM_BYTES = 4 << 30
 LOOK_SECONDS = 0.1
@@ -34,9 +34,9 @@ ZOMBIE = ("Z", "X")
 class Watch:
     """A room's processes, seen from one that is not the student's.
 
-    judge: a stream socket to the judge; its end is the room's. runner: the process that stays.
-    walled: whether there are no processes and shared memory around it but the room's. reaper: as of
-    ProcessorTime.
+    judge: a stream socket to the judge; the room ends when it is closed. runner: the process that
+    stays. walled: whether all processes and shared memory that are to be seen belong to the room.
+    reaper: as in ProcessorTime.
     """
 
     def __init__(
@@ -102,7 +102,7 @@ class Watch:
         *requests, self._requests = self._requests.split(b"\n")
         for request in requests:
             if request == b"sweep" and not sweep(self._processes, self._runner):
-                self._say("! a process of the cell could not be ended")
+                self._say("! a process that the cell started could not be ended")
                 return False
             self._say(f"{request.decode()} {self._time.look(self._processes()):.3f}")
         return not event & (select.POLLHUP | select.POLLERR)
@@ -114,8 +114,8 @@ class Watch:
     def _too_much(self) -> str:
         """The limit that the room is over, if any.
 
-        The sum of what each process has mapped is quick to read and no less than what they use,
-        pages that several share counted once; only where it is too much is there a closer look.
+        The sum of what the processes have mapped is quick to read, and never less than what they use.
+        Only if it is too much, pages that several share are counted once.
         """
         processes = list(self._processes())
         self._time.look(processes)
@@ -133,11 +133,11 @@ class Watch:
 
 
 class ProcessorTime:
-    """What all processes of a room have used, s, those that ended between two looks as well.
+    """The time that all processes of a room have used, s, with those that ended between two looks.
 
-    The kernel adds the time of a child that was waited for to its parent's. Of a child that nobody
-    waited for, what was seen at the last look before it ended counts. reaper: who waits for orphans,
-    where that is another process than this.
+    When a parent waits for a child, the kernel adds the child's time to the parent's. For a child that
+    nobody waited for, the time at the last look before its end counts. reaper: the process that waits
+    for orphans, if that is not this one.
     """
 
     def __init__(self, reaper: int | None = None):
@@ -167,7 +167,7 @@ class ProcessorTime:
 
 
 def sweep(processes: Callable[[], Iterable[int]], *spared: int) -> bool:
-    """End every process but the spared; whether none is left."""
+    """End every process but the spared; return whether no other is left."""
     deadline = time.monotonic() + SWEEP_SECONDS
     while left := [p for p in processes() if p not in spared and _lives(p)]:
         if time.monotonic() > deadline:
@@ -181,20 +181,20 @@ def sweep(processes: Callable[[], Iterable[int]], *spared: int) -> bool:
 
 
 def reap() -> None:
-    """Take leave of children that ended, orphans among them, so that their time counts."""
+    """Wait for children that have ended, orphans among them, so that their time counts."""
     with suppress(ChildProcessError):
         while os.waitpid(-1, os.WNOHANG)[0]:
             pass
 
 
 def namespace() -> list[int]:
-    """The processes of this namespace but its first and this one."""
+    """The processes of this namespace, except for its first and this one."""
     own = (1, os.getpid())
     return [int(name) for name in os.listdir("/proc") if name.isdigit() and int(name) not in own]
 
 
 def descendants(process: int | None = None) -> list[int]:
-    """The processes below this one. Where it adopts orphans, none escapes."""
+    """The processes below this one; none escapes if it adopts orphans."""
     found, left = [], [process or os.getpid()]
     while left:
         above = left.pop()
@@ -227,13 +227,13 @@ def _has_ended(child) -> bool:
 
 
 def _lives(process) -> bool:
-    """Whether any thread of it does: the first may have ended before the others."""
+    """Whether any of its threads lives; the first may have ended before the others."""
     stat = _stat(process)
     return stat is not None and not (stat[0] in ZOMBIE and int(stat[17]) <= 1)
 
 
 def _last_number() -> int:
-    """Of the process or thread that was started last in this namespace: they are counted up."""
+    """The number of the process or thread that was started last in this namespace."""
     with suppress(OSError), open("/proc/loadavg") as file:
         return int(file.read().split()[-1])
     return 0
@@ -256,7 +256,7 @@ def _share(process):
         with open(f"/proc/{process}/smaps_rollup") as file:
             return sum(int(line.split()[1]) << 10 for line in file if line.startswith("Pss:"))
     except OSError:
-        return _mapped(process)  # it hides, or has just ended
+        return _mapped(process)  # the process hides, or has just ended
 
 
 def _segments():

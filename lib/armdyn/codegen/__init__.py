@@ -1,4 +1,4 @@
-"""A derivation as code: fast callables for Python, and readable source for other languages."""
+"""Writes code for a derivation: fast callables for Python, and readable source in other languages."""
 
 import warnings
 from collections.abc import Mapping

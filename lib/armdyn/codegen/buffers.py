@@ -1,9 +1,9 @@
-"""Straight-line NumPy code rewritten to work in a few reused buffers.
+"""Rewrites straight-line NumPy code so that it works in a few reused buffers.
 
-An expression such as `a*b + c` gives each intermediate result an array of its own. The C library
-soon hands the memory of such arrays back to the system, and to get it anew, page by page, takes
-longer than the arithmetic. Here every operation is one call that writes where a value lay that is
-no longer needed: `w_0 = multiply(a, b, out=b_0)`, `x = add(w_0, c, out=b_0)`.
+An expression such as `a*b + c` makes a new array for each intermediate result. The C library soon
+gives the memory of such arrays back to the system, and getting it again, page by page, takes longer
+than the arithmetic. Here every operation is one call that overwrites a value that is no longer
+needed: `w_0 = multiply(a, b, out=b_0)`, `x = add(w_0, c, out=b_0)`.
 """
 
 import ast

@@ -1,4 +1,4 @@
-"""Compiles the C source of a Python module, once: the result is kept under its contents' hash."""
+"""Compiles the C source of a Python module once, and keeps the result under the source's hash."""
 
 import hashlib
 import importlib.util
@@ -53,7 +53,7 @@ def cache_folder() -> Path:
 
 
 def compiled(source: str):
-    """The Python module armdyn_compiled of this C source, compiled now or taken from the cache.
+    """The Python module armdyn_compiled from this C source, compiled now or taken from the cache.
 
     Raises NoCompilerError if it has to be compiled and cannot be.
     """
@@ -112,7 +112,7 @@ def _with_command(file, flags):
 
 
 def _with_setuptools(file, flags):
-    """The same by setuptools, which finds Microsoft's compiler."""
+    """The same with setuptools, which finds Microsoft's compiler."""
     try:
         from setuptools import Distribution, Extension
 
@@ -133,7 +133,7 @@ def _include_folders():
 
 
 def _machine():
-    """What -march=native depends on: a home folder may be shared by unlike machines."""
+    """What -march=native depends on, as different machines may share a home folder."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:

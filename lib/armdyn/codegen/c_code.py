@@ -1,4 +1,4 @@
-"""The C source of a derivation's forward dynamics and RK4 loop."""
+"""Writes the C source of a derivation's forward dynamics and RK4 loop."""
 
 import math
 from decimal import Decimal, localcontext
@@ -284,7 +284,7 @@ class _Printer(ShortFloats, C99CodePrinter):
             return self.doprint(e)
         except PrintMethodNotImplementedError as error:
             name = unknown_function(error)
-            raise ValueError(f"derivation: holds {name}, which is not a function of C") from None
+            raise ValueError(f"derivation: contains {name}, which is not a function of C") from None
 
     def _print_Pow(self, expr):
         base, power = expr.as_base_exp()

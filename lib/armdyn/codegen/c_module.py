@@ -1,4 +1,4 @@
-"""The C source that makes a Python module of `c_code.source`, by Python's and NumPy's C interface."""
+"""Writes the C source that makes `c_code.source` a Python module, with the C API of Python and NumPy."""
 
 
 def source(program_source: str, suspect: float) -> str:

@@ -1,4 +1,4 @@
-"""A derivation as a compiled C callable: one state, many states, a whole RK4 loop."""
+"""Compiles a derivation to C callables: for one state, many states, and a whole RK4 loop."""
 
 import math
 import operator

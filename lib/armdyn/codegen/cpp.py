@@ -1,4 +1,4 @@
-"""A derivation as a C++ header for Eigen."""
+"""Writes a derivation as a C++ header for Eigen."""
 
 from sympy.printing.c import C99CodePrinter
 from sympy.printing.cxx import CXX17CodePrinter
@@ -26,7 +26,7 @@ def cpp(derivation, name: str = "Arm") -> str:
     """A C++ header (C++11, Eigen 3) with a struct `name`: parameters, and the equation's functions.
 
     M(q), C(q, qd), g_vec(q), potential_energy(q) and dynamics(q, qd, u), which solves for q̈ by
-    `ldlt`. A name that C++ has taken gets `_` behind it, as the header's first comment says.
+    `ldlt`. A name that C++ reserves gets `_` added; the header's first comment says so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
     model = program(derivation, name, RESERVED)

@@ -1,4 +1,4 @@
-"""A derivation as a Java record for EJML."""
+"""Writes a derivation as a Java record for EJML."""
 
 from sympy import E, pi
 from sympy.printing.c import C89CodePrinter
@@ -41,7 +41,7 @@ def java(derivation, name: str = "Arm") -> str:
     """The file `name`.java (Java 16, EJML): a record of the parameters, with the equation's functions.
 
     M(q), C(q, qd), g_vec(q), potential_energy(q) and dynamics(q, qd, u) take and give SimpleMatrix
-    columns. A name that Java has taken gets `_` behind it, as the file's first comment says.
+    columns. A name that Java reserves gets `_` added; the file's first comment says so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
     model = program(derivation, name, RESERVED)

@@ -1,4 +1,4 @@
-"""A derivation as MATLAB functions, for Octave too."""
+"""Writes a derivation as MATLAB functions, for Octave too."""
 
 import re
 
@@ -39,8 +39,8 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
 
     With the folder that holds `+name` on the path, `name.M(q, arm)`, `name.C(q, qd, arm)`,
     `name.g_vec(q, arm)`, `name.potential_energy(q, arm)` and `name.dynamics(q, qd, u, arm)` take
-    columns and a struct `arm` of the parameters. They run in Octave too. A name that MATLAB has
-    taken gets `_` behind it, as the comments say.
+    columns and a struct `arm` of the parameters. They run in Octave too. A name that MATLAB
+    reserves gets `_` added; the comments say so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
     model = program(derivation, name, RESERVED)

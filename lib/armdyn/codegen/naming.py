@@ -1,4 +1,4 @@
-"""Names for generated source: of symbols as the language allows them, and of shared terms."""
+"""Finds names for generated source: for symbols, as the language allows them, and for shared terms."""
 
 import re
 
@@ -24,7 +24,7 @@ def checked_name(name: str, reserved) -> str:
     if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*", name):
         raise ValueError(f"name = {name!r}: needs ASCII letters and digits, a letter first")
     if name in reserved:
-        raise ValueError(f"name = {name!r}: needs a name that the language has not taken")
+        raise ValueError(f"name = {name!r}: needs a name that the language does not reserve")
     return name
 
 

@@ -1,4 +1,4 @@
-"""A derivation as NumPy callables, with batch axes."""
+"""Makes NumPy callables of a derivation, with batch axes."""
 
 import builtins
 import math
@@ -172,7 +172,7 @@ class _Callable:
         try:
             results = self.on_floats(*(x for s in states for x in s.tolist()))
         except (ArithmeticError, ValueError):
-            # `math` raises where NumPy gives inf or NaN, or warns as the user told it to.
+            # `math` raises an error where NumPy gives inf or NaN, or warns as the user has set it.
             return self._many(states, ())
         found = np.array(results[: self.size], dtype=float)
         if self.judge and not self.judge(found, *results[self.size :]):
@@ -187,7 +187,7 @@ def _plain(array, n):
 def _regular(accelerations, pivot, trace):
     """Whether every q̈ is finite and no M close to singular."""
     return np.isfinite(np.sum(accelerations)) and (
-        np.min(pivot) > SUSPECT * np.max(trace)  # most often, and sooner told
+        np.min(pivot) > SUSPECT * np.max(trace)  # true most often, and quick to find out
         or np.all(pivot > SUSPECT * trace)
     )
 
@@ -292,7 +292,7 @@ def _sincos_call(s, c, angle):
 
 
 def _half_angle(s, c, angle):
-    """sin x and cos x from tan(x/2), which NumPy has sooner than both."""
+    """sin x and cos x from tan(x/2), which NumPy computes faster than both."""
     return [
         f"tan_{s} = tan(0.5*({angle}))",
         f"two_{c} = 2/(1 + tan_{s}*tan_{s})",

@@ -1,4 +1,4 @@
-"""A derivation as straight-line code: what the source printers of all languages share."""
+"""Turns a derivation into straight-line code, for the source printers of all languages."""
 
 import re
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from sympy.simplify.fu import TR8
 
 from armdyn.codegen.naming import TermNames, checked_name, identifiers, meaning
 
-# Combining products of sines takes seconds beyond this: there only what is shared is shared.
+# Beyond this, combining products of sines would take seconds, so it is left out.
 COMBINED_UP_TO = 120
 WIDTH = 96
 FUNCTIONS = {"M", "C", "g_vec", "potential_energy", "dynamics"}
@@ -71,7 +71,7 @@ class Program:
 def program(derivation, name: str, reserved, **spelling) -> Program:
     """The derivation in the names and the routines of a source file.
 
-    reserved: names that the language or the file has taken; spelling: see `identifiers`.
+    reserved: names that the language or the file reserves; spelling: see `identifiers`.
     Raises ValueError, naming it, for a symbol or a name that cannot be written, and for an
     expression with functions that are not known.
     """
@@ -111,7 +111,7 @@ def _check(part, expression, symbols):
             "needs q, qd and parameters only"
         )
     for odd in expression.atoms(AppliedUndef, sp.Derivative, sp.Integral):
-        raise ValueError(f"{part} holds {odd}: needs functions that have values")
+        raise ValueError(f"{part} contains {odd}: needs functions whose values are known")
 
 
 def _routine(part, expression, q, qd, parameters, taken) -> Routine:
@@ -205,7 +205,7 @@ def code(printer, expression, language: str) -> str:
         text = printer.doprint(expression)
     except PrintMethodNotImplementedError as error:
         raise ValueError(
-            f"no {language} for {expression}: it has no {unknown_function(error)}"
+            f"{expression} cannot be written in {language}: it has no {unknown_function(error)}"
         ) from None
     return re.sub(r"\s+", " ", text.replace("...\n", " ")).strip()
 

@@ -1,4 +1,4 @@
-"""A derivation as straight-line code: constants once per arm, then angles, then numbered steps."""
+"""Turns a derivation into straight-line code: constants once per arm, angles, then numbered steps."""
 
 from dataclasses import dataclass, field
 
@@ -129,7 +129,7 @@ class _Lifting:
 
     def _rewritten(self, e):
         if isinstance(e, AppliedUndef | sp.Derivative | sp.Integral):
-            raise ValueError(f"derivation: holds {e}, which has no value that code could compute")
+            raise ValueError(f"derivation: contains {e}, which code cannot compute")
         moving = [self._walk(a) for a in e.args if not self._fixed(a)]
         if isinstance(e, sp.Add | sp.Mul):
             fixed = [a for a in e.args if self._fixed(a)]

@@ -1,4 +1,4 @@
-"""A derivation as definitions in the Wolfram Language."""
+"""Writes a derivation as definitions in the Wolfram Language."""
 
 from sympy.printing.mathematica import MCodePrinter, known_functions
 
@@ -16,8 +16,8 @@ def wolfram(derivation, name: str = "arm") -> str:
 
     nameM[q], nameC[q, qd], nameGVec[q], namePotentialEnergy[q] and nameDynamics[q, qd, u] take
     lists, of symbols or of numbers; parameters are given values with /. {l1 -> 1, …}. There are no
-    underscores in the language's names: l_1 becomes l1. A name that the system has taken gets
-    `Sym` behind it; the first comment says which.
+    underscores in the language's names: l_1 becomes l1. A name that the system reserves gets
+    `Sym` added; the first comment says which.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
     model = program(derivation, name, RESERVED, mark="Sym", underscores=False)

@@ -1,4 +1,4 @@
-"""Symbolic derivation: from energies, or from links and joints, to M, C (Christoffel) and g."""
+"""Derives M, C (Christoffel) and g in symbols, from energies or from links and joints."""
 
 from armdyn.derive.derivation import Derivation, christoffel_symbols
 from armdyn.derive.energies import from_energies, from_lagrangian

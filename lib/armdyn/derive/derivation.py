@@ -1,4 +1,4 @@
-"""What a derivation gives: the terms of M q̈ + C q̇ + g = u as SymPy expressions."""
+"""Holds the result of a derivation: the terms of M q̈ + C q̇ + g = u as SymPy expressions."""
 
 import re
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""From kinetic and potential energy, or a Lagrangian, to the equation of motion."""
+"""Derives the equation of motion from kinetic and potential energy, or from a Lagrangian."""
 
 import sympy as sp
 from sympy.core.function import AppliedUndef

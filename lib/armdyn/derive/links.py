@@ -1,4 +1,4 @@
-"""From links and joints: M = Σ JᵀIJ in symbols."""
+"""Derives the equation of motion from links and joints: M = Σ JᵀIJ in symbols."""
 
 from dataclasses import dataclass, field
 

@@ -1,4 +1,4 @@
-"""Planar chains of n revolute links, from suffix sums over the links: no derivative is taken."""
+"""Derives planar chains of n revolute links from sums over the links, without any derivative."""
 
 import sympy as sp
 

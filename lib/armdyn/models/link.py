@@ -1,4 +1,4 @@
-"""A rigid link and the joint that carries it, as a serial chain is made of them."""
+"""A rigid link and the joint that carries it: the parts of a serial chain."""
 
 import reprlib
 from dataclasses import dataclass, field

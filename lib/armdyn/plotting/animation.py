@@ -1,4 +1,4 @@
-"""A motion to play in a notebook: a canvas and its data, with a still figure beside it."""
+"""Plays a motion in a notebook: a canvas and its data, with a still figure beside it."""
 
 import hashlib
 import json

@@ -1,4 +1,4 @@
-"""An arm as it stands, and the way of its tip."""
+"""Draws an arm, and the way of its tip."""
 
 import numpy as np
 from matplotlib.axes import Axes

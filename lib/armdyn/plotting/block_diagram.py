@@ -1,4 +1,4 @@
-"""A block diagram, drawn from its own blocks and wires."""
+"""Draws a block diagram from its blocks and wires."""
 
 from collections import defaultdict
 

@@ -1,4 +1,4 @@
-"""The inertia matrix as an ellipse: the joint velocities that carry one kinetic energy."""
+"""Draws the inertia matrix as an ellipse: the joint velocities with the same kinetic energy."""
 
 import numpy as np
 from matplotlib.axes import Axes

@@ -1,4 +1,4 @@
-"""The potential energy over the two joint angles, with the equilibria in it."""
+"""Draws the potential energy over the two joint angles, with its equilibria."""
 
 from typing import Any
 

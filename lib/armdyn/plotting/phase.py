@@ -1,4 +1,4 @@
-"""The phase plane: angle against velocity."""
+"""Draws the phase plane: angle against velocity."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""A figure with the text that stands for it."""
+"""Shows a figure with a text for readers who do not see it."""
 
 import base64
 import html

@@ -1,4 +1,4 @@
-"""Where the parts of an arm are: the geometry behind every picture of one."""
+"""Computes where the parts of an arm are, for every picture of one."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The terms of the equation of motion as bars."""
+"""Draws the terms of the equation of motion as bars."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""The planar 2R arm, and what `codegen` writes, in other languages: states in, numbers out.
+"""Runs the planar 2R arm, and what `codegen` writes, in other languages: states in, numbers out.
 
     from armdyn import Planar2R, ports
 

@@ -1,4 +1,4 @@
-"""The arm as a block diagram, as one draws it in Simulink, run by bdsim.
+"""Runs the arm as a block diagram, like one in Simulink, with bdsim.
 
 A function block gives q̈ for u, q and q̇; one integrator makes q̇ of it, a second one q; both are led
 back into the function block. bdsim integrates the states of all the blocks together, by SciPy's

@@ -1,4 +1,4 @@
-"""`run` and `simulate`: build a model's program where it is not kept from before, and ask it."""
+"""`run` and `simulate` build a model's program, if it is not kept from before, and ask it."""
 
 import dataclasses
 from collections.abc import Mapping, Sequence
@@ -21,7 +21,7 @@ LANGUAGES = tuple(_MODULES)
 
 
 def missing(language: str) -> str | None:
-    """What the language needs and this computer has not, in one line; None where all is there."""
+    """What the language needs and this computer lacks, in one line; None if nothing is missing."""
     return missing_tool(_module(language).toolchain)
 
 

@@ -1,4 +1,4 @@
-"""A model's program in another language, running: terms of states, and simulations."""
+"""Runs a model's program in another language: the terms at states, and simulations."""
 
 from dataclasses import dataclass, field
 
@@ -8,7 +8,7 @@ from armdyn.parameters import all_finite, positive, real_array, state_vector
 from armdyn.ports.toolchain import Conversation, ProgramError
 
 TERMS, SIMULATE = 0, 1
-# A request is read as a whole before it is answered: more states go in several.
+# The program reads a whole request before it answers, so that more states take several requests.
 ROWS = 10_000
 
 
@@ -104,7 +104,7 @@ class Program:
         due = int(np.prod(shape))
         answer = self._conversation.ask(np.concatenate([[kind], np.ravel(numbers)]), at_most=due)
         if answer.size != due:
-            raise ProgramError(f"the program gave {answer.size} numbers where {due} are due")
+            raise ProgramError(f"the program gave {answer.size} numbers instead of {due}")
         return answer.reshape(shape)
 
 

@@ -30,7 +30,7 @@ SIGNATURE = f"g({NAMES})"
 
 
 def reply_to(body: str) -> Reply:
-    """The reply of a function with this body, as it comes through the wall."""
+    """The reply of a function with this body, as it comes from the sandbox."""
     namespace = {"__name__": "__main__", "np": np}
     exec(f"def g({NAMES}):\n    {body}\n    return 1.0", namespace)
     reply = protocol.answer(Call("g", ARGS), namespace)
@@ -135,8 +135,8 @@ def test_a_forged_reply_says_nothing_of_its_own_and_gains_nothing(changes, again
     assert wrong.credit == 0
 
 
-COPY = "work on a copy."
-HARMLESS = f"which its caller may still need: {COPY}"
+COPY = "Work on a copy."
+HARMLESS = f"which the caller may still need. {COPY}"
 
 
 def test_a_right_answer_that_changes_no_result_keeps_its_points_with_the_remark():
@@ -150,7 +150,7 @@ def test_what_a_second_call_loses_is_lost():
     verdict = judged("p3-M", "pend.I += 0.1\nreturn pend.I - 0.1")
     assert (verdict.state, verdict.credit, verdict.diagnosis) == (State.INCORRECT, 0.0, ())
     assert verdict.remark == (
-        f"Your M changes its argument pend.I, so a second call with it goes wrong: {COPY}"
+        f"Your M changes its argument pend.I, so a second call with it goes wrong. {COPY}"
     )
     assert "on a second call, with its arguments as the first call left them" in (
         verdict.witness.returned
@@ -183,17 +183,17 @@ def test_a_wrong_answer_is_told_what_is_wrong_with_it_and_the_remark():
 @pytest.mark.parametrize(
     ("body", "said"),
     [
-        ("I = pend.I\ndel pend.I\nreturn I", "Then M(q, pend) raised AttributeError: "),
-        ("I, pend.I = pend.I, None\nreturn I", "Then M(q, pend) returned None; "),
-        ("I, pend.I = pend.I, np.ones(2)\nreturn I", "Then M(q, pend) returned 2 numbers of shape"),
-        ("I, pend.I = pend.I, np.inf\nreturn I", "Then M(q, pend) returned inf, which is not"),
+        ("I = pend.I\ndel pend.I\nreturn I", "M(q, pend) raised AttributeError: "),
+        ("I, pend.I = pend.I, None\nreturn I", "M(q, pend) returned None. "),
+        ("I, pend.I = pend.I, np.ones(2)\nreturn I", "M(q, pend) returned 2 numbers of shape"),
+        ("I, pend.I = pend.I, np.inf\nreturn I", "M(q, pend) returned inf, which is not"),
     ],
 )
 def test_a_second_call_without_numbers_is_an_error(body, said):
     verdict = judged("p3-M", body)
     assert (verdict.state, verdict.credit) == (State.ERROR, 0.0)
     assert verdict.problem.startswith("Your M changes its argument pend.I, so a second call")
-    assert said in verdict.problem
+    assert f" Work on a copy. On the second call, {said}" in verdict.problem
 
 
 def test_a_slow_second_call_is_not_counted(monkeypatch):

@@ -58,8 +58,8 @@ def test_what_cannot_be_read_is_refused_in_one_sentence(course, name):
 
 
 def test_the_instructor_is_told(course):
-    assert course.lines["latin_1"].endswith("is not valid JSON: ask for it again")
-    said = "characters that no text can hold were replaced by \ufffd"
+    assert course.lines["latin_1"].endswith("is not valid JSON: ask the student for it again")
+    said = "broken Unicode was replaced by \ufffd"
     assert said in course.lines["half_characters"]
     assert "Traceback" not in course.printed
 

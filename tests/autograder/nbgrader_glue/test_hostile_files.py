@@ -51,5 +51,8 @@ def test_what_cannot_be_read_earns_nothing_and_is_named(course, name):
 
 
 def test_the_instructor_is_told(course):
-    for note in ("was no whole cell", "duplicated_cells: p3-M was there more than once"):
+    for note in (
+        "was damaged: its type, text or settings were missing",
+        "duplicated_cells: p3-M was there more than once",
+    ):
         assert note in course.log

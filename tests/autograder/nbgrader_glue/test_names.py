@@ -29,15 +29,15 @@ from tests.submissions import p3_pendulum
 
 # Unfit names, and what is said of them. Some are graded in the others' place where nobody looks.
 UNFIT = {
-    "a\nb": r"holds '\n', which no list can show",
-    "red\x1b[31m": r"holds '\x1b', which no list can show",
-    "\u202egpj": r"holds '\u202e', which no list can show",
-    "b[1]": "holds [, which nbgrader takes for a pattern",
-    "B[1]": "holds [, which nbgrader takes for a pattern",
-    "b?": "holds ?, which nbgrader takes for a pattern",
-    "*": "holds *, which nbgrader takes for a pattern",
-    ".hidden": "begins with a dot, and nbgrader overlooks it",
-    "l" * 200: "has 200 characters, and the gradebook holds 128",
+    "a\nb": r"contains '\n', which no list can show",
+    "red\x1b[31m": r"contains '\x1b', which no list can show",
+    "\u202egpj": r"contains '\u202e', which no list can show",
+    "b[1]": "contains [, which nbgrader takes for a pattern",
+    "B[1]": "contains [, which nbgrader takes for a pattern",
+    "b?": "contains ?, which nbgrader takes for a pattern",
+    "*": "contains *, which nbgrader takes for a pattern",
+    ".hidden": "starts with a dot, so nbgrader does not see it",
+    "l" * 200: "has 200 characters; the gradebook takes 128 at most",
 }
 BESIDE = ["\x1b]0;data\x07.csv", "data[1].csv", "two\nlines.csv"]  # files of zoe's
 if sys.platform == "linux":  # elsewhere a name is text
@@ -104,8 +104,8 @@ def test_an_unfit_name_has_a_line_of_its_own(course, name):
 
 def test_names_that_read_the_same_are_pointed_out(course):
     for name in ("b[1]", "B[1]"):
-        assert f"reads like {name!a}: are these folders one student's?" in course.graded
-    assert course.graded.count("reads like") == 2
+        assert f"looks like {name!a}: do these folders belong to one student?" in course.graded
+    assert course.graded.count("looks like") == 2
 
 
 @pytest.mark.parametrize("other", ["ADA é", "ada\u00a0e\u0301", " Ada É ", "\uff41da é"])

@@ -198,7 +198,7 @@ def test_instructor_is_told_what_was_mended(course):
         "the nbgrader settings of p3-C had been changed",
         "p3-lagrangian had been made a markdown cell",
         "answer-small_angle_frequency had lost its nbgrader settings; they were put back",
-        "the text of p3-inertia_about_pivot had been changed; it was put back",
+        "the text of p3-inertia_about_pivot had been changed; the original was put back",
     ):
         assert f"mangled: {note}" in course.log
 

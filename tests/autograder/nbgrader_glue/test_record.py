@@ -187,16 +187,17 @@ def test_what_was_tested_is_not_trivial(pair):
     "line",
     [
         "right 10 of 15 6 correct, 1 to be read",
-        f"invalid could not be graded {NOTEBOOK} is not valid JSON: ask for it again",
+        f"invalid could not be graded {NOTEBOOK} is not valid JSON: ask the student for it again",
         "format_3 10 of 15 6 correct, 1 to be read the notebook was in format 3; it was converted",
         f"other_name 10 of 15 6 correct, 1 to be read there is no {NOTEBOOK}; Pendulum final (2).ipynb",
-        f"two_other_names could not be graded there is no {NOTEBOOK}, and it could be a.ipynb and",
+        f"two_other_names could not be graded there is no {NOTEBOOK}, but there are a.ipynb and",
         f"in_a_subfolder could not be graded there is no {NOTEBOOK}, only my work/{NOTEBOOK}",
         f"as_an_archive could not be graded there is no {NOTEBOOK}, only p3-pendulum.zip",
-        f"copy_beside 0 of 15 6 not attempted, 1 to be read {NOTEBOOK} was graded and has",
-        f"damaged_beside could not be graded {NOTEBOOK} is not valid JSON: ask for it again; {COPY}",
-        "p3-derivation holds no answer; it may be in the student's own cell below",
-        "p3-derivation holds no answer; it may be in the student's own file IMG 1234.jpg",
+        f"copy_beside 0 of 15 6 not attempted, 1 to be read {NOTEBOOK} was graded but has",
+        f"damaged_beside could not be graded {NOTEBOOK} is not valid JSON: ask the student for it "
+        f"again; {COPY}",
+        "p3-derivation has no answer; it may be in the student's own cell below",
+        "p3-derivation has no answer; it may be in the student's own file IMG 1234.jpg",
         "16 cells had lost their nbgrader settings",
         "edited_locked_cells 10 of 15 6 correct, 1 to be read the text of p3-setup had been",
         "files_beside 8 of 15 4 correct, 2 error in your code",
@@ -212,18 +213,19 @@ def test_table_says(pair, line):
 @pytest.mark.parametrize(
     ("student", "sentence"),
     [
-        ("copy_beside", f"{NOTEBOOK} was graded and has no answers, but {COPY} beside it has"),
-        ("other_name", "Pendulum final (2).ipynb was graded in its place"),
-        ("edited_locked_cells", "the text of p3-setup had been changed; it was put back"),
+        ("copy_beside", f"{NOTEBOOK} was graded but has no answers; {COPY} beside it has some"),
+        ("other_name", "Pendulum final (2).ipynb was graded instead"),
+        ("edited_locked_cells", "the text of p3-setup had been changed; the original was put back"),
         (
             "edited_locked_cells",
-            "this cell holds no answer; it may be in the student's own cell below",
+            "this cell has no answer; it may be in the student's own cell below",
         ),
         (
             "files_beside",
-            "The notebook defines no C: the cell that should define it stopped with FileNotFoundError: "
-            "[Errno 2] No such file or directory: 'huge.npy' (huge.npy was handed in, but the notebook "
-            "is graded without it: the files beside it have more than 8 MB)",
+            "The notebook does not define C: the cell that should define it stopped with "
+            "FileNotFoundError: [Errno 2] No such file or directory: 'huge.npy' (huge.npy was handed "
+            "in, but the notebook is graded without it: the files beside the notebook have more than "
+            "8 MB)",
         ),
         ("files_beside", "nowhere.csv was not handed in with the notebook"),
     ],
@@ -238,11 +240,11 @@ def test_the_student_is_told(pair, student, sentence):
 
 def test_nbgraders_log_says_the_same(pair):
     for said in (
-        "other_name: there is no p3-pendulum.ipynb; Pendulum final (2).ipynb was graded in its place",
-        f"two_other_names/{P3}: there is no p3-pendulum.ipynb, and it could be a.ipynb and b.ipynb",
-        f"copy_beside: {NOTEBOOK} was graded and has no answers, but {COPY} beside it has",
+        "other_name: there is no p3-pendulum.ipynb; Pendulum final (2).ipynb was graded instead",
+        f"two_other_names/{P3}: there is no p3-pendulum.ipynb, but there are a.ipynb and b.ipynb",
+        f"copy_beside: {NOTEBOOK} was graded but has no answers; {COPY} beside it has some",
         "edited_locked_cells: the text of p3-M had been changed",
-        "edited_locked_cells: p3-derivation holds no answer",
+        "edited_locked_cells: p3-derivation has no answer",
     ):
         assert said in pair.log
 

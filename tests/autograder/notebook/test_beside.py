@@ -14,7 +14,7 @@ FILES = {
     "package/part.py": b"x = 'part'",
     "my data/one.csv": b"1,2",
     "script.py": b"y = 'run'",
-    # Names that the room itself, the wall and Python have.
+    # Names that the room itself, the protocol and Python have.
     "runner.py": b"x = 'not the room'",
     "numpy.py": b"raise SystemExit",
     "sympy.py": b"raise SystemExit",
@@ -111,10 +111,11 @@ WITHOUT = "was handed in, but the notebook is graded without it"
          f"raw/deep.bin {WITHOUT}: it is deep"),
         ("ModuleNotFoundError: No module named 'pack.part'", f"pack/part.py {WITHOUT}: it is a pack"),
         ("File `'other.py'` not found.", "other.py was not handed in with the notebook"),
-        ("FileNotFoundError: there is no file M.cpp. Was the cell with …",
+        ("FileNotFoundError: there is no file M.cpp. Run the cell with …",
          "M.cpp was not handed in with the notebook"),
         ("No such file or directory: 'D:\\\\ada\\\\run.csv'",
-         r"data/run.csv was handed in, but D:\\ada\\run.csv is no way to it from the notebook"),
+         r"data/run.csv was handed in, but the path D:\\ada\\run.csv does not lead "
+         "to it from the notebook"),
         ("ModuleNotFoundError: No module named 'yours'",
          "no yours.py was handed in, and no package of this name is installed here"),
         ("ValueError: the key was not found.", ""),

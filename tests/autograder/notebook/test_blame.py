@@ -90,7 +90,7 @@ def test_a_cell_that_may_define_anything_is_blamed_where_no_other_is(source):
 def test_a_line_that_was_left_out_is_told():
     fault = explained("M", MISSING, [Ran("%run m.py", left_out=("%run m.py was left out: no",))])
     said = describe_fault(fault, "M", "M(q, arm)")
-    assert said.endswith("was its cell run? Before that, %run m.py was left out: no.")
+    assert said.endswith("Did you run its cell? Before that, %run m.py was left out: no.")
 
 
 @pytest.mark.parametrize("fault", [UNWRITTEN, Fault(FaultKind.RAISED, "ValueError: z", "line 1")])

@@ -23,6 +23,7 @@ from autograder.notebook.grade import Sitting, grade, is_judged, of_content, str
 from autograder.notebook.scores import outputs_for
 from autograder.problems import CHECKS
 from autograder.protocol import Call, Fault, FaultKind, Reply
+from autograder.sandbox.inside.left_out import INPUT
 from autograder.sandbox.room import RoomLostError, StarvedError, TooLongError
 from autograder.student.cell import VISIBLE_SEED
 from tests.autograder.course_problems import problem, states, without_plots
@@ -186,12 +187,12 @@ SIX_WAYS_TO_STOP = {
     "lagrangian": (
         "kappa = kapa\ndef lagrangian(q, qd, m, lc, I, g):\n    return 0",
         "the cell that should define it stopped with NameError: name 'kapa' is not defined "
-        "(line 1: kappa = kapa). Mend that line; what stands below it in the cell runs then.",
+        "(line 1: kappa = kapa). Fix that line, so that the lines below it run as well.",
     ),
     "M": (
         "%matplotlib inline\nI = float(input('I = '))\nM = lambda q, pend: I",
-        "the cell that should define it stopped with RuntimeError: input() asks for something while "
-        "nobody is there to answer; write the value into the cell (line 2: I = float(input('I = '))).",
+        f"the cell that should define it stopped with RuntimeError: {INPUT} "
+        "(line 2: I = float(input('I = '))).",
     ),
     "C": (
         "from pendulum import C",
@@ -201,7 +202,7 @@ SIX_WAYS_TO_STOP = {
     ),
     "g_vec": (
         "%run pendulum.py",
-        "by exactly this name; was its cell run? Before that, %run pendulum.py was left out: "
+        "by exactly this name. Did you run its cell? Before that, %run pendulum.py was left out: "
         "Exception: File `'pendulum.py'` not found.",
     ),
     "inertia_about_pivot": (
@@ -210,7 +211,7 @@ SIX_WAYS_TO_STOP = {
     ),
     "small_angle_frequency": (
         "def small_angle_frequency(pend):\n    raise NotImplementedError",
-        "An earlier small_angle_frequency was judged: the cell that defines it again "
+        "The check judged an earlier small_angle_frequency: the cell that defines it again "
         "stopped with SyntaxError: expected ':', line 1: def small_angle_frequency(pend).",
     ),
 }
@@ -234,8 +235,8 @@ def test_a_verdict_on_an_earlier_function_says_so(release):
     verdict = grade(wrong, SOURCE, "seed").verdicts["p3-M"]
     assert verdict.state is State.INCORRECT
     assert verdict.next_step.startswith(
-        "An earlier M was judged: the cell that defines it again stopped with NameError: "
-        "name 'pend' is not defined (line 1: x = pend). Mend that line."
+        "The check judged an earlier M: the cell that defines it again stopped with NameError: "
+        "name 'pend' is not defined (line 1: x = pend). Fix that line."
     )
 
 
@@ -314,7 +315,7 @@ def failing(times: int):
         def ask(self, calls):
             if type(self).left:
                 type(self).left -= 1
-                raise OSError("the process that keeps the sandboxes ended")
+                raise OSError("the process that starts the sandboxes ended")
             return super().ask(calls)
 
     return Failing
@@ -324,12 +325,14 @@ def test_a_sandbox_that_ends_by_itself_costs_nobody_a_point(release, wrong, monk
     monkeypatch.setattr(grading, "Sitting", failing(1))
     again = grade(p3_pendulum.wrong(release), SOURCE, "seed")
     assert again.verdicts == wrong.verdicts
-    assert "the process that keeps the sandboxes ended: the notebook is graded" in caplog.text
+    assert (
+        "the process that starts the sandboxes ended; grading the notebook once more" in caplog.text
+    )
 
 
 def test_a_sandbox_that_always_ends_is_tried_twice(release, monkeypatch):
     monkeypatch.setattr(grading, "Sitting", sitting := failing(9))
-    with pytest.raises(OSError, match="keeps the sandboxes"):
+    with pytest.raises(OSError, match="starts the sandboxes"):
         grade(p3_pendulum.wrong(release), SOURCE, "seed")
     assert sitting.left == 7
 
@@ -433,7 +436,7 @@ def test_a_notebook_has_limits_of_the_processor_and_of_the_clock(monkeypatch, us
         assert shown["ename"] == "RoomLostError"
         assert reply.fault == Fault(FaultKind.TIMED_OUT, "the 60 s that the whole notebook has")
     else:
-        said = f"not run: the notebook took {limit} before it came to this cell"
+        said = f"not run: the notebook had used up its {limit} before this cell"
         assert (shown["ename"], shown["evalue"]) == ("TimeoutError", said)
         assert reply.fault.message == f"the {limit} that the whole notebook has"
 
@@ -492,8 +495,9 @@ def test_all_cells_share_what_a_notebook_may_show(output, most):
     allowance = outputs.Allowance()
     shown = [allowance.shown([output] * 5) for _ in range(20)]
     assert 0.8 * most < len(str(shown)) < 1.1 * most
-    assert "(5 of this cell's outputs left out: a notebook's outputs may take 2 MB" in str(
-        shown[-1]
+    assert (
+        "(the grader left out 5 of this cell's outputs: a notebook's outputs may take 2 MB"
+        in str(shown[-1])
     )
     assert "left out" not in str(shown[0][:-1])
 

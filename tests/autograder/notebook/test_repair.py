@@ -25,10 +25,10 @@ from tests.submissions.answers import blank, cell_of
 P3 = "p3-pendulum"
 SOURCE = problem(P3).source
 CHANGED = (
-    "the text of {} had been changed; it was put back, and the changed text runs as a cell of its "
-    "own before it"
+    "the text of {} had been changed; the original was put back, and the changed text runs in a cell "
+    "of its own before it"
 )
-BELOW = "p3-derivation holds no answer; it may be in the student's own cell below"
+BELOW = "p3-derivation has no answer; it may be in the student's own cell below"
 KNOWN = {grade_id(cell): cell for cell in SOURCE.cells if grade_id(cell)}
 INDEX = st.integers(0, 99)
 EDITS = st.one_of(
@@ -195,8 +195,8 @@ def test_notes_say_what_was_mended(release):
             "p3-M was there more than once; the last one counts",
             "answer-M was there more than once; the last one counts",
             "p3-g_vec was missing; it was put back",
-            "the nbgrader settings of p3-C had been changed",
-            "p3-lagrangian had been made a markdown cell",
+            "the nbgrader settings of p3-C had been changed; they were put back",
+            "p3-lagrangian had been made a markdown cell; it is a code cell again",
             "answer-small_angle_frequency had lost its nbgrader settings; they were put back",
             CHANGED.format("p3-inertia_about_pivot"),
         ]
@@ -221,7 +221,7 @@ def test_an_unknown_claim_is_taken_away_and_told(release):
     cell.metadata.nbgrader.grade_id = "p9-bonus"
     submission.cells.append(cell)
     mended, notes = repair(submission, SOURCE)
-    assert notes == ["a cell that claims to be p9-bonus, which the source does not have"]
+    assert notes == ["a cell claims to be p9-bonus, which this assignment does not have"]
     assert "nbgrader" not in mended.cells[-1].metadata
 
 
@@ -241,7 +241,7 @@ def test_many_notes_are_counted():
         cell.metadata.nbgrader = {"grade_id": "p9-made-up"}
     _, notes = repair(new_notebook(cells=cells), new_notebook())
     assert len(notes) == MOST_NOTES + 1
-    assert notes[-1] == f"and {100 - MOST_NOTES} more such notes"
+    assert notes[-1] == f"and {100 - MOST_NOTES} more notes like these"
 
 
 def of_one_id(number):
@@ -429,7 +429,7 @@ def test_a_picture_attached_to_an_untouched_answer_is_seen(release):
     submission = copy.deepcopy(release)
     cell_of(submission, "p3-derivation").attachments = PICTURE
     mended, (note,) = repair(submission, SOURCE)
-    assert note.endswith("own picture, attached to it")
+    assert note.endswith("own picture in this cell")
     assert cell_of(mended, "p3-derivation").attachments == PICTURE
 
 
@@ -444,7 +444,7 @@ def test_a_document_beside_the_notebook_may_be_the_answer(release):
     mended, (note,) = repair(release, SOURCE, documents=documents)
     assert (
         note
-        == "p3-derivation holds no answer; it may be in the student's own file my_*derivation*.pdf"
+        == "p3-derivation has no answer; it may be in the student's own file my_*derivation*.pdf"
     )
     assert r"own file my\_\*derivation\*.pdf" in cell_of(mended, "p3-derivation").source
     assert repair(p3_pendulum.right(release), SOURCE, documents=documents)[1] == []

@@ -14,7 +14,7 @@ from autograder.digest import digest
 from autograder.pipeline import run as pipeline
 from autograder.pipeline.cache import Cache
 from autograder.pipeline.executors import Processes, outcomes
-from autograder.sandbox.room import borrow, lend
+from autograder.sandbox.room import share, use_shared
 from tests.autograder import courses
 from tests.autograder.courses import P3, submit
 from tests.submissions import p3_pendulum
@@ -78,7 +78,7 @@ def test_a_process_that_dies_takes_nobody_along():
     tasks = [(str(n), (abs, -n)) for n in range(6)]
     tasks.insert(2, ("deadly", (os._exit, 1)))
     tasks.insert(4, ("failing", (operator.truediv, 1, 0)))
-    with Processes(2, ("autograder.pipeline.run",), lend, borrow) as pool:
+    with Processes(2, ("autograder.pipeline.run",), share, use_shared) as pool:
         found = dict(outcomes(operator.call, tasks, pool))
     assert {name: found[name] for name in "012345"} == {str(n): n for n in range(6)}
     assert isinstance(found["failing"], ZeroDivisionError)
@@ -99,7 +99,7 @@ def test_a_second_run_at_once_is_told_so(course):
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as holder:
         assert holder.stdout.readline() == b"held\n"
         said = courses.run(course, "autograder", "grade", P3, status=2)
-        assert said == f"autograder: another `autograder grade` is at work in {course}\n"
+        assert said == f"autograder: another `autograder grade` is running in {course}\n"
         assert not (course / "course" / "autograded").exists()
         holder.kill()
     assert main(["grade", P3, "--jobs", "1"]) == 0

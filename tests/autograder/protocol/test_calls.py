@@ -1,4 +1,4 @@
-"""The wall: what goes in comes out the same, only numbers come back, and nothing breaks the judge."""
+"""The protocol: what goes in comes out the same, only numbers come back, nothing breaks the judge."""
 
 import json
 import linecache
@@ -171,12 +171,12 @@ def test_whatever_holds_numbers_is_read(value, expected):
         (
             sp.Symbol("q") * sp.Symbol("m"),
             FaultKind.NOT_NUMBERS,
-            "an expression that still holds m, q",
+            "an expression that still contains m, q",
         ),
         (
             sp.Matrix([[1, sp.Symbol("q")]]),
             FaultKind.NOT_NUMBERS,
-            "an expression that still holds q",
+            "an expression that still contains q",
         ),
         (np.zeros(readings.MOST_NUMBERS + 1), FaultKind.NOT_NUMBERS, "50001 entries, far too many"),
         (np.datetime64("2026-01-01"), FaultKind.NOT_NUMBERS, "datetime64"),
@@ -263,7 +263,7 @@ def test_symbols_come_as_real_symbols_and_the_answer_is_evaluated_at_each_point(
 @pytest.mark.parametrize(
     ("result", "fault"),
     [
-        ("q * sp.Symbol('l')", Fault(FaultKind.NOT_NUMBERS, "an expression that still holds l")),
+        ("q * sp.Symbol('l')", Fault(FaultKind.NOT_NUMBERS, "an expression that still contains l")),
         ("None", Fault(FaultKind.NOTHING)),
         ("'q'", Fault(FaultKind.NOT_NUMBERS, "str 'q'")),
         ("[1, 'q']", Fault(FaultKind.NOT_NUMBERS, "list [1, 'q']")),

@@ -64,7 +64,7 @@ def test_mistakes_are_counted_the_most_frequent_first():
 def test_the_page_says_it_all():
     text = str(Text(report.page("p3-pendulum", 15.0, CLASS)))
     assert "4 of 5 submissions graded; mean 4, median 2.5 of 15 points" in text
-    assert "without points so far: 1 answer." in text
+    assert "A person still has to read 1 answer, which has no points yet." in text
     assert f"2 p3-M {M[1].name}. {M[1].sentence} who cem, dee" in text
     assert "bob 4" in text
     assert "<i>eve</i> the notebook is not valid JSON" in text
@@ -115,7 +115,7 @@ def test_the_command_reports_what_grading_left(tmp_path, monkeypatch, capsys):
     for check, verdict in wrong.items():
         for sentence in verdict.diagnosis:
             assert f"{sentence} who bob" in text, check
-    assert "cem not graded yet, or could not be" in text
+    assert "cem not graded yet, or it could not be graded" in text
 
 
 def test_an_unknown_assignment_is_refused_by_name(tmp_path, monkeypatch, capsys):

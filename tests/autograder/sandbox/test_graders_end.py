@@ -35,7 +35,7 @@ if os.fork() == 0:
 print("ready", flush=True)
 room.run(os.environ["CELL"])
 """
-# A grader of several: this process lends, the one that it starts borrows.
+# A grader of several: this process shares its warm process with the one that it starts.
 WORKERS = """
 import os, sys
 from autograder.sandbox import room as sandbox
@@ -45,7 +45,7 @@ def spin(source):
     sandbox.Room().run(source)
 
 if __name__ == "__main__":
-    with Processes(1, ("autograder.sandbox.room",), sandbox.lend, sandbox.borrow) as pool:
+    with Processes(1, ("autograder.sandbox.room",), sandbox.share, sandbox.use_shared) as pool:
         future = pool.executor().submit(spin, os.environ["CELL"])
         (worker,) = pool.executor()._processes
         print(worker, flush=True)

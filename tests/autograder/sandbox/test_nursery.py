@@ -174,21 +174,21 @@ class TestLife:
             assert printed(room, "print('alive')") == "alive"
         assert own_nursery() is not first
 
-    def test_a_lent_one_is_used_while_it_lives(self, own_nursery, monkeypatch, way):
+    def test_a_shared_one_is_used_while_it_lives(self, own_nursery, monkeypatch, way):
         Room(way).close()
         owner = own_nursery()
         monkeypatch.setattr(nursery, "_nurseries", {})
-        nursery.borrow(way, owner.lend())
-        borrowed = own_nursery()
+        nursery.use_shared(way, owner.share())
+        shared = own_nursery()
         with Room(way) as room:
             assert printed(room, "print('alive')") == "alive"
-            assert own_nursery() is borrowed
+            assert own_nursery() is shared
             _kill(owner, way)
-            assert eventually(lambda: not borrowed.alive)
+            assert eventually(lambda: not shared.alive)
             _assert_orphaned(room)
         with Room(way) as room:
             assert printed(room, "print('alive')") == "alive"
-        assert own_nursery() is not borrowed
+        assert own_nursery() is not shared
         owner.close()
 
     def test_it_outlives_the_thread_that_started_it(self, own_nursery, way):
@@ -297,7 +297,7 @@ def _assert_orphaned(room) -> None:
     """A room whose warm process ended: with walls it went along."""
     if room.way.walled:
         # Not the student's doing, so not RoomLostError.
-        with pytest.raises(OSError, match="process that keeps the sandboxes"):
+        with pytest.raises(OSError, match="process that starts the sandboxes"):
             room.run("1")
     else:
         assert printed(room, "print('alive')") == "alive"

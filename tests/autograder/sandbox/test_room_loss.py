@@ -297,4 +297,4 @@ def test_missing_bubblewrap_is_warned_of_once(monkeypatch, caplog):
     finally:
         bubblewrap.has_bubblewrap.cache_clear()
     (record,) = caplog.records
-    assert "NOT shut off from files and network" in record.getMessage()
+    assert "NOT shut off from your files, the network" in record.getMessage()

@@ -151,7 +151,7 @@ def test_what_is_no_text_is_said_to_be_none(wrong):
 def test_an_old_definition_is_said_to_be_one(kernel):
     (card,) = kernel[1]["old"]  # it is right: no error
     said = (
-        "This is your old kinetic_energy: the cell that was to define it anew stopped with "
+        "This is your old kinetic_energy: the cell that should define it again stopped with "
         "SyntaxError: invalid syntax, line 2."
     )
     assert said in " ".join(card.data["text/plain"].split())
@@ -163,7 +163,7 @@ def test_a_missing_function_is_blamed_on_the_cell_that_failed(kernel):
     card, error = kernel[1]["missing"]
     assert error.evalue == f"{START}: error in your code"
     said = (
-        "The notebook defines no kinetic_energy: the cell that should define it stopped with "
+        "The notebook does not define kinetic_energy: the cell that should define it stopped with "
         "SyntaxError: invalid syntax, line 2."
     )
     assert said in " ".join(card.data["text/plain"].split())

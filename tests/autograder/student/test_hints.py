@@ -18,7 +18,7 @@ from autograder.student import hints
 from autograder.student.cell import check
 from autograder.student.hints import hint
 
-LAST = "That was the last one. The matching lesson has the rest."
+LAST = "That was the last hint. The matching lesson has the rest."
 
 
 @pytest.fixture(autouse=True)
@@ -70,7 +70,8 @@ def test_each_time_one_more_and_the_last_again(id, capsys):
         assert title == f"Hints for {id}"
         assert lines == [f"{k}. {text}" for k, text in enumerate(known[:given_now], 1)]
         more = len(known) - given_now
-        assert left == (f'{more} more: run hint("{id}") again.' if more else LAST)
+        again = f'Hint {given_now} of {len(known)}. For the next one, run hint("{id}") again.'
+        assert left == (again if more else LAST)
 
 
 @given(st.lists(st.sampled_from([id for id in CHECKS if CHECKS[id].hints]), max_size=12))
@@ -89,7 +90,7 @@ def test_a_check_without_hints_says_so(capsys):
     assert ids == [check.id for check in FIRST]
     for id in ids:
         for _ in range(2):
-            assert printed(capsys, id) == [f"Hints for {id}", "There are no hints for this one."]
+            assert printed(capsys, id) == [f"Hints for {id}", "There are no hints for this check."]
 
 
 @pytest.mark.parametrize("id", ["p1-Mm", "p1-m", "", "nothing like it", "p5"])

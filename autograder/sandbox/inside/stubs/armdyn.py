@@ -1,6 +1,6 @@
-"""Stands for `armdyn` where a submission is graded."""
+"""Stands for `armdyn` in the sandbox."""
 
 raise ImportError(
-    "armdyn holds the formulas that this problem asks for, so a graded answer cannot import it; "
+    "armdyn contains the formulas that this problem asks for, so a graded answer cannot import it; "
     "use numpy and sympy"
 )

@@ -1,8 +1,8 @@
-"""Stands for `autograder` where a submission is graded: the judging happens elsewhere."""
+"""Stands for `autograder` in the sandbox; the grader judges outside it."""
 
 
 def check(id=None, fresh=False):
-    """Do nothing: grade cells are judged outside, on numbers."""
+    """Do nothing: the grader judges the functions outside the sandbox."""
 
 
 def from_file(name):
@@ -13,11 +13,11 @@ def from_file(name):
 
 
 def hint(id=None):
-    """Do nothing: hints are for the one who writes."""
+    """Do nothing: nobody reads hints here."""
 
 
 def look_at(*ids):
-    """A block that uses the student's functions, for the feedback page: an error becomes one line."""
+    """A block that uses the student's functions; an error in it becomes one line."""
     import sys
 
     from protocol import Look

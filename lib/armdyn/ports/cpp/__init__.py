@@ -1,4 +1,4 @@
-"""C++ with Eigen."""
+"""The files of a model's program in C++ with Eigen."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Java with EJML."""
+"""The files of a model's program in Java with EJML."""
 
 from pathlib import Path
 

@@ -1,6 +1,6 @@
-"""MATLAB, run by GNU Octave.
+"""The files of a model's program in MATLAB, which GNU Octave runs.
 
-Beside this file: the package `+planar_2r`, the arm by hand, a function a file; `demo_2r.m`, which
+Beside this file: the package `+planar_2r`, the arm by hand, one function per file; `demo_2r.m`, which
 shows it; and `driver.m` with `model.m`, `terms.m` and `simulation.m`, which speak for it. All but
 the driver run in MATLAB as they do in Octave.
 """
@@ -60,7 +60,7 @@ def demo(seconds: float = 60) -> str:
             command, cwd=FOLDER, capture_output=True, text=True, timeout=seconds, check=False
         )
     except subprocess.TimeoutExpired:
-        raise ProgramError(f"no end of demo_2r.m within {seconds:g} s") from None
+        raise ProgramError(f"demo_2r.m did not end within {seconds:g} s") from None
     if done.returncode:
         raise ProgramError(f"demo_2r.m failed: {done.stderr.strip()}")
     return done.stdout

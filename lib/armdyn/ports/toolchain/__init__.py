@@ -1,6 +1,6 @@
-"""Programs in other languages: found, built, kept and talked to; nothing of any arm is known here.
+"""Finds, builds, keeps and talks to programs in other languages; it knows nothing of any arm.
 
-The folder is used under another name too, in the room where student code runs: it imports
+The sandbox in which student code runs has this folder too, under another name. So it imports
 relatively, and only the standard library and NumPy.
 """
 

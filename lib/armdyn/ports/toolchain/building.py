@@ -1,4 +1,4 @@
-"""Compiles source files, once: what was built is kept under the hash of what it was built from."""
+"""Compiles source files once, and keeps the result under the hash of the sources."""
 
 import hashlib
 import json
@@ -52,7 +52,7 @@ def build(
 
 
 def _run(command, folder, seconds) -> str:
-    """What the command writes; BuildError where it fails."""
+    """What the command writes; BuildError if it fails."""
     pipe = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
     process = processes.start(command, cwd=folder, **pipe)
     try:

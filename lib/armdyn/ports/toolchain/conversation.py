@@ -1,4 +1,4 @@
-"""A running program that answers numbers with numbers.
+"""Talks to a running program that answers numbers with numbers.
 
 A message is a count and so many numbers, all as little-endian doubles, so that each arrives as it
 was. An answer opens with the eight bytes `numbers:`; whatever the program printed before them is
@@ -25,7 +25,7 @@ SHOWN = 2000
 
 
 class ProgramError(RuntimeError):
-    """A program ended, hung or wrote what is no answer; the message has what it said."""
+    """A program ended, hung or wrote something else than an answer; the message quotes its output."""
 
 
 class Conversation:
@@ -66,12 +66,12 @@ class Conversation:
         if self._process.returncode is not None:
             raise ProgramError("the program has ended")
         numbers = np.asarray(numbers, DOUBLE).ravel()
-        del self._printed[:-SHOWN]  # what is said before this answer is all that may be too much
+        del self._printed[:-SHOWN]  # only the text before this answer counts
         answered = threading.Event()
         arguments = (answered, processes.processor_seconds(self._process))
         threading.Thread(target=self._watch, args=arguments, daemon=True).start()
         try:
-            with contextlib.suppress(OSError):  # its end is seen where it is read
+            with contextlib.suppress(OSError):  # reading its output shows that it has ended
                 self._stdin.write(np.array([numbers.size], DOUBLE).tobytes())
                 self._stdin.write(numbers.tobytes())
                 self._stdin.flush()
@@ -88,7 +88,7 @@ class Conversation:
         """Whether the program has ended, by itself or not."""
         return self._process.poll() is not None
 
-    def said(self) -> str:
+    def text(self) -> str:
         """The text that the program has written so far, to its output and then its errors."""
         self._errors.seek(0)
         text = bytes(self._printed) + self._errors.read()
@@ -110,7 +110,7 @@ class Conversation:
         self._errors.close()
 
     def _watch(self, answered, used_before):
-        """End the program where its answer takes too long."""
+        """End the program if its answer takes too long."""
         seconds, deadline = self.seconds, time.monotonic() + self.patience * self.seconds
         wait = seconds
         while not answered.wait(wait):
@@ -130,11 +130,11 @@ class Conversation:
         while mark != MARK:
             self._printed.append(mark.pop(0))
             if len(self._printed) > MOST_TEXT:
-                raise ProgramError(f"the program writes text and no answer: {self._shown()}")
+                raise ProgramError(f"the program wrote text instead of an answer: {self._shown()}")
             mark += self._read(1)
         (count,) = np.frombuffer(self._read(DOUBLE.itemsize), DOUBLE)
         if not 0 <= count <= at_most or count != int(count):
-            raise ProgramError(f"the program gave {count:g} numbers; at most {at_most} are due")
+            raise ProgramError(f"the program gave {count:g} numbers; at most {at_most} are allowed")
         return np.frombuffer(self._read(int(count) * DOUBLE.itemsize), DOUBLE)
 
     def _read(self, size):
@@ -157,5 +157,5 @@ class Conversation:
         return f": {shown}" if (shown := self._shown()) else ""
 
     def _shown(self):
-        said = self.said()
-        return said if len(said) <= SHOWN else f"…{said[-SHOWN:]}"
+        text = self.text()
+        return text if len(text) <= SHOWN else f"…{text[-SHOWN:]}"

@@ -1,4 +1,4 @@
-"""Finds compilers, interpreters and libraries; where one is missing, says in a line what to do."""
+"""Finds compilers, interpreters and libraries; if one is missing, a line says what to install."""
 
 import os
 import shutil

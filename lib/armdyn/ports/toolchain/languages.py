@@ -1,4 +1,4 @@
-"""How each language's programs are compiled and started, with what this computer has."""
+"""Says how to compile and start each language's programs with the tools on this computer."""
 
 import os
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""A program and all that it starts, as one group that can be ended."""
+"""Starts a program so that it and everything that it starts can be ended together."""
 
 import contextlib
 import os
@@ -13,7 +13,7 @@ def start(command, **options) -> subprocess.Popen:
 
 
 def processor_seconds(process: subprocess.Popen) -> float | None:
-    """What the processor has spent on the process, s; None where the system does not say."""
+    """The processor time that the process has used, s; None if the system does not say."""
     try:
         stat = Path(f"/proc/{process.pid}/stat").read_text()
     except OSError:

@@ -1,4 +1,4 @@
-"""The Wolfram Language, run by Mathics3.
+"""The files of a model's program in the Wolfram Language, which Mathics3 runs.
 
 Beside this file: `planar_2r.wl`, the arm derived from the positions of its centres of mass; and
 `driver.wl` with `model.wl`, which speak for it, in Mathics3 through `driver.py`. The .wl files run

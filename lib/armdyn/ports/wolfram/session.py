@@ -1,4 +1,4 @@
-"""A session of Mathics3 with an arm in it: asked in the Wolfram Language, read by SymPy."""
+"""Runs a session of Mathics3 that knows an arm: you ask in the Wolfram Language, SymPy reads."""
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -33,7 +33,7 @@ class Session:
         self.program = Program(self._conversation, model.n, count)
 
     def evaluate(self, text: str) -> str:
-        """The InputForm of what an expression in the Wolfram Language comes to.
+        """The InputForm of the value of an expression in the Wolfram Language.
 
         Raises ProgramError with the messages of Mathics3, if there are any; it has ended then.
         """
@@ -49,7 +49,7 @@ class Session:
         said = self.evaluate(text)
         value = sp.sympify(parse_mathematica(said))
         if unknown := value.atoms(AppliedUndef):
-            raise ProgramError(f"{text} came to {said}: SymPy does not know {unknown}")
+            raise ProgramError(f"{text} gave {said}: SymPy does not know {unknown}")
         return value.xreplace(self._symbols())
 
     def derivation(self) -> Derivation:

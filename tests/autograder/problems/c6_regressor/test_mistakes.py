@@ -594,16 +594,16 @@ def test_two_mistakes_at_once_are_told_apart(body, credit, sentences):
     [
         (
             ("mc2[1] = l1 * c2 * a1", "mc2[1] = 1.2 * l1 * c2 * a1"),
-            "What is off in your column of m2 ℓc2, joint 2 varies like its part of accelerations "
+            "The error in your column of m2 ℓc2, joint 2 varies like its part of accelerations "
             "(+0.2 times it).",
         ),
         (
             ("mc1[0] = g * c1", "mc1[0] = 0.7 * g * c1", "l1 * mc1[0]", "l1 * g * c1"),
-            "What is off in your column of m1 ℓc1 varies like its part of gravity (-0.3 times it).",
+            "The error in your column of m1 ℓc1 varies like its part of gravity (-0.3 times it).",
         ),
         (
             (ALL_V, f"- 2.5{ALL_V[1:].replace('l1', '* l1', 1)}"),
-            "What is off in your column of m2 ℓc2, joint 1 varies like its part of velocities "
+            "The error in your column of m2 ℓc2, joint 1 varies like its part of velocities "
             "(+1.5 times it).",
         ),
     ],

@@ -645,24 +645,24 @@ def test_two_mistakes_in_the_arm_are_both_named():
         (
             "p1-M",
             arm("M11 -= 0.1 * m1 * lc1**2"),
-            "What is off in your M11 varies like the centre of mass of link 1 (-0.1 times it).",
+            "The error in your M11 varies like the centre of mass of link 1 (-0.1 times it).",
         ),
         (
             "p1-M",
             arm("M12 += 0.5 * c", "M21 += 0.5 * c"),
-            "What is off in your M12 and M21 varies like the coupling of the two links "
+            "The error in your M12 and M21 varies like the coupling of the two links "
             "(+0.5 times it).",
         ),
         (
             "p1-M",
             arm("M22 += I2"),
-            "What is off in your M22 varies like the rotation of link 2 (+1 times it).",
+            "The error in your M22 varies like the rotation of link 2 (+1 times it).",
         ),
         (
             "p1-inertia_from_links",
             "sum(J.T @ I @ J + 0.5 * J[3:].T @ I[3:, 3:] @ J[3:] for J, I in zip(jacobians, inertias))"
             " if len(jacobians) > 1 else jacobians[0].T @ inertias[0] @ jacobians[0]",
-            "What is off in your matrix of several links varies like the translation of the links "
+            "The error in your matrix of several links varies like the translation of the links "
             "(+0.5 times it).",
         ),
     ],

@@ -366,7 +366,7 @@ def test_two_mistakes_in_different_terms_are_both_named():
 )
 def test_unknown_error_is_traced_to_its_term(check_id, returned, said):
     verdict = judged(check_id, returned)
-    assert verdict.diagnosis == (f"What is off in your {said} times it).",)
+    assert verdict.diagnosis == (f"The error in your {said} times it).",)
     assert verdict.witness is not None
 
 

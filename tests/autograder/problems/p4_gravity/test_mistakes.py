@@ -484,7 +484,7 @@ def test_mistakes_in_different_terms_are_all_named(check_id, body, sentences):
         (
             "p4-potential_energy",
             with_lines(of_links(), "lc2 = 1.1 * lc2"),
-            "What is off in your change of P as the elbow turns from 0 to q2 varies like the weight "
+            "The error in your change of P as the elbow turns from 0 to q2 varies like the weight "
             "of link 2 beyond the elbow (+0.1 times it).",
         ),
         (
@@ -495,13 +495,13 @@ def test_mistakes_in_different_terms_are_all_named(check_id, body, sentences):
         (
             "p4-g_vec",
             with_lines(torque(), "l1 = 1.3 * l1"),
-            "What is off in your gravity torque g1 of joint 1 varies like the weight of link 2 at the "
+            "The error in your gravity torque g1 of joint 1 varies like the weight of link 2 at the "
             "elbow (+0.3 times it).",
         ),
         (
             "p4-gravity_from_jacobians",
             SUM.format("-m * Jv.T @ (g0 * [1, 1, 0.75])"),
-            "What is off in your gravity torque from the Jacobians varies like the pull along z "
+            "The error in your gravity torque from the Jacobians varies like the pull along z "
             "(-0.25 times it).",
         ),
     ],
