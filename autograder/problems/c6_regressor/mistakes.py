@@ -637,17 +637,8 @@ RANK = (
         _columns_that_move,
         "You count the columns that are not zero. Can a column be made of the others?",
     ),
+    # Also that of the sum of the samples, and of all of them side by side: two rows, one rank.
     Mistake("first sample", _rank_of(slice(0, 1)), ONE_STATE),
-    Mistake(
-        "sum of the samples",
-        lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(np.sum(regressor(q, qd, qdd, arm), 0))),
-        ONE_STATE,
-    ),
-    Mistake(
-        "side by side",
-        lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(np.hstack(regressor(q, qd, qdd, arm)))),
-        ONE_STATE,
-    ),
     Mistake(
         "joint 1 only",
         _rank_of((slice(None), 0)),

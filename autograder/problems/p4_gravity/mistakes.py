@@ -367,6 +367,7 @@ STRETCHED = (
     "Yours are equilibria, but only with the arm stretched. Must both links point the same way for "
     "both torques to vanish?"
 )
+# Folded back, the same torques and distances come out: one model stands for both.
 QUARTER = (
     "Where you fold the elbow by a quarter turn, link 2 lies level and pulls on both joints. By how "
     "much must the elbow turn from stretched to folded?"
@@ -406,7 +407,6 @@ EQUILIBRIA = (
         "Your second angle is the direction of link 2 in space. From what is q2 measured?",
     ),
     Mistake("folded by a quarter turn", _all((-pi / 2, pi / 2), (0, pi / 2)), QUARTER),
-    Mistake("folded by a quarter turn back", _all((-pi / 2, pi / 2), (0, -pi / 2)), QUARTER),
     Mistake(
         "in degrees",
         _all((-90, 90), (0, 180)),
