@@ -64,3 +64,9 @@ def assert_told_apart(check: Check, seed: int) -> None:
 def assert_right(verdict: Verdict) -> None:
     assert verdict.state is State.CORRECT, str(verdict)
     assert (verdict.credit, verdict.diagnosis, verdict.witness) == (1, (), None)
+
+
+def sentences(check_id: str, *names: str) -> tuple[str, ...]:
+    """What the check says of these mistakes: a test names a mistake, and types no sentence."""
+    said = {mistake.name: mistake.sentence for mistake in CHECKS[check_id].mistakes}
+    return tuple(said[name] for name in names)

@@ -60,9 +60,3 @@ def verdict_on(row: Row) -> Verdict:
 def names_in(verdict: Verdict) -> tuple[str, ...]:
     """The names of the mistakes in a verdict; "" where a sentence is no mistake's."""
     return tuple(getattr(sentence, "of", "") for sentence in verdict.diagnosis)
-
-
-def sentences(check_id: str, *names: str) -> tuple[str, ...]:
-    """What the check says of these mistakes."""
-    said = {mistake.name: mistake.sentence for mistake in CHECKS[check_id].mistakes}
-    return tuple(said[name] for name in names)

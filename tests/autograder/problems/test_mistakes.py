@@ -8,7 +8,8 @@ import pytest
 from autograder.judging.verdict import State
 from autograder.judging.witness import TRUTH
 from autograder.problems import CHECKS, MODULES
-from tests.autograder.problems.row import Row, names_in, sentences, verdict_on
+from tests.autograder.problems.row import Row, names_in, verdict_on
+from tests.autograder.verdicts import sentences
 
 FOLDERS = [module.__package__.rpartition(".")[2] for module in MODULES]
 TABLES = {name: import_module(f"tests.autograder.problems.{name}.table").TABLE for name in FOLDERS}

@@ -17,8 +17,7 @@ from tests.autograder.problems.c6_regressor.table import (
     count,
     fit,
 )
-from tests.autograder.problems.row import sentences
-from tests.autograder.verdicts import assert_told_apart, judged
+from tests.autograder.verdicts import assert_told_apart, judged, sentences
 
 
 @pytest.mark.parametrize(
@@ -74,8 +73,8 @@ def test_a_weighted_fit_is_told_what_least_squares_means():
     )
     assert verdict.credit == pytest.approx(0.6)
     assert verdict.diagnosis == (
-        "With noise, your estimate is not the one of least squares: the sum of the squares of all 2K "
-        "residuals can still be made smaller.",
+        "With noise, your estimate is not the one of least squares: you can still make the sum of the "
+        "squares of all 2K residuals smaller.",
     )
 
 

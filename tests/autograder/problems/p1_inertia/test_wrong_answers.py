@@ -11,8 +11,7 @@ from autograder.judging.verdict import State
 from autograder.problems.material.definiteness import MATRICES, Kind, is_symmetric, least_eigenvalue
 from autograder.problems.p1_inertia import mistakes as p1_inertia
 from tests.autograder.problems.p1_inertia.table import BASE, LINKS, TABLE, arm
-from tests.autograder.problems.row import sentences
-from tests.autograder.verdicts import judged
+from tests.autograder.verdicts import judged, sentences
 
 ROOT = Path(__file__).parents[4]
 

@@ -6,8 +6,7 @@ from autograder.judging.diagnosis import TOLERANCE
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from tests.autograder.problems.p2_energy_skew.table import ARM, HEADS, C
-from tests.autograder.problems.row import sentences
-from tests.autograder.verdicts import judged
+from tests.autograder.verdicts import judged, sentences
 
 
 @pytest.mark.parametrize(
@@ -50,9 +49,9 @@ def test_an_unknown_error_is_put_in_its_term(check_id, body, said):
 
 
 NEITHER = (
-    "With your C the energy would change where nobody does work: q̇ᵀ(Ṁ − 2C)q̇ is not zero.",
-    "With your C the matrix Ṁ − 2C is not skew-symmetric. That is a property of the Christoffel "
-    "choice, beyond a right C q̇: how does it share the product q̇1 q̇2 between the entries of a row?",
+    "With your C the energy would change although nobody does work: q̇ᵀ(Ṁ − 2C)q̇ is not zero.",
+    "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the Christoffel form. A right "
+    "C q̇ is not enough: how does that form share the product q̇1 q̇2 between the entries of a row?",
 )
 
 
@@ -87,7 +86,7 @@ def test_another_c_must_differ_clearly():
     barely = f"return {C} + 1e-4 * h * np.outer([1, 2], [-b, a])"
     verdict = judged("p2-C_other", ARM + barely)
     assert verdict.credit == 0.5
-    assert verdict.diagnosis[0].startswith("An answer counts as not skew where")
+    assert verdict.diagnosis[0].startswith("Your answer counts as not skew-symmetric only where")
 
 
 def test_not_skew_counts_only_with_the_right_c_qd():

@@ -8,8 +8,7 @@ import pytest
 from autograder.judging.diagnosis import TOLERANCE
 from autograder.judging.verdict import State
 from tests.autograder.problems.p4_gravity.table import HALF_PI, SUM, of_links, torque, with_lines
-from tests.autograder.problems.row import sentences
-from tests.autograder.verdicts import judged
+from tests.autograder.verdicts import judged, sentences
 
 
 @pytest.mark.parametrize(
@@ -103,7 +102,7 @@ def test_one_configuration_too_many_costs_the_other_half():
     verdict = judged("p4-equilibria", repr([*FOUR, (0.3, 0.0)]))
     assert [row.met for row in verdict.rows] == [False, True]
     assert verdict.diagnosis == (
-        "At one of your configurations at least, gravity still asks for a torque. Put each of them "
+        "At least one of your configurations still needs a torque against gravity. Put each of them "
         "into your g_vec.",
     )
 
