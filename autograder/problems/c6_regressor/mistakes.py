@@ -231,7 +231,7 @@ REGRESSOR = (
     Mistake(
         "J2 left out at joint 1",
         _plus(lambda s, arm: {(0, J2): -s.spin_2}),
-        "In your column of J2 the row of joint 1 is empty. Must joint 1 not turn link 2 as well?",
+        "In your column of J2, the row of joint 1 is empty. Does joint 1 not turn link 2 as well?",
     ),
     Mistake(
         "J1 at joint 2",
@@ -501,8 +501,8 @@ IDENTIFY = (
     Mistake(
         "mean of the samples' own solutions",
         _mean_of_samples,
-        "You solve each sample by itself and take the mean. A sample has two equations for four "
-        "numbers, and so many solutions. Stack the samples first, then solve.",
+        "You solve each sample by itself and take the mean. A sample gives two equations for four "
+        "numbers, which have many solutions. Stack the samples first, then solve.",
     ),
     Mistake(
         "torques joint by joint",
@@ -532,7 +532,7 @@ IDENTIFY = (
         "entries of the shortest π",
         _shortest_pi,
         "You solve for six parameters and return four of them. The six are not unique: of all "
-        "that fit, lstsq gives the shortest. What of it do the torques really show?",
+        "that fit, lstsq gives the shortest. Which part of it do the torques really show?",
     ),
     Mistake("inertias first", _reordered(1, 0, 3, 2), ESTIMATE_ORDER),
     Mistake("by kind", _reordered(0, 2, 1, 3), ESTIMATE_ORDER),

@@ -10,7 +10,7 @@ INVERSE_OF_M = (
     "You return the inverse of M. Which of the two, M or M⁻¹, multiplies q̈ in the equation of "
     "motion?"
 )
-RADIANS_CONVERTED = "You convert from degrees to radians, but q is in radians already."
+RADIANS_CONVERTED = "You convert q from degrees to radians, but q is in radians already."
 IN_DEGREES = (
     "You convert q to degrees. NumPy's sine and cosine take radians, and q is in radians already."
 )

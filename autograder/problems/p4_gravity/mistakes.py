@@ -176,8 +176,8 @@ GRAVITY = (
     Mistake(
         "elbow left out of g1",
         lambda q, arm: g_vec(q, arm) - [arm.m2 * arm.l1 * arm.g * np.cos(q[0]), 0.0],
-        "Your g1 leaves out that m2 is carried along with the elbow. What does joint 1 carry "
-        "besides its own link?",
+        "Your g1 leaves out the weight of m2 at the elbow. What does joint 1 carry besides its "
+        "own link?",
     ),
     Mistake(
         "link 1 left out",

@@ -222,7 +222,7 @@ RATE = (
     Mistake(
         "sign of the angle",
         _with(lambda q, qd, u, arm: arm.coulomb * (np.sign(qd) - np.sign(q))),
-        "Your Coulomb friction looks at the sign of the angle. Does friction depend on where a joint "
+        "Your Coulomb friction has the sign of the angle. Does friction depend on where a joint "
         "is, or on how it moves?",
     ),
     *(
@@ -288,8 +288,8 @@ RATE = (
     Mistake(
         "example arm hard-coded",
         lambda x, u, arm: rate(x, u, EXAMPLE),
-        "Your f always uses the arm of this notebook. The check passes other arms to it: which "
-        "argument are they?",
+        "Your f always uses the arm of this notebook. The check passes other arms to f: in which "
+        "argument do they come?",
     ),
 )  # fmt: skip
 
@@ -353,13 +353,12 @@ METHODS = (
     Mistake(
         "half a step in k4",
         explicit((*ROWS[:3], (0, 0, 1 / 2)), WEIGHTS),
-        "Your k4 is taken in the middle of the step. How far ahead does the last slope look?",
+        "You take k4 in the middle of the step. How far ahead does the last slope look?",
     ),
     Mistake(
         "whole steps in k2 and k3",
         explicit(((), (1,), (0, 1), (0, 0, 1)), WEIGHTS),
-        "Your k2 and k3 are taken at the end of the step. How far ahead do the two middle slopes "
-        "look?",
+        "You take k2 and k3 at the end of the step. How far ahead do the two middle slopes look?",
     ),
     Mistake(
         "equal weights",
@@ -509,7 +508,7 @@ SIMULATE = (
     Mistake(
         "steps taken to be equal",
         _equal,
-        "You take all time steps to be as long as the first one. The times in t need not be equally "
+        "You make all time steps as long as the first one. The times in t need not be equally "
         "spaced: how long is step k?",
     ),
     Mistake(
@@ -756,6 +755,6 @@ DRIFT = (
         "example arm hard-coded",
         lambda x, arm: drift(x, EXAMPLE),
         "Your energy is always that of the arm of this notebook. The check passes other arms to "
-        "your function: which argument are they?",
+        "your function: in which argument do they come?",
     ),
 )  # fmt: skip
