@@ -39,6 +39,7 @@ FIRST = (
     "test_honest.py",
     "test_from_file.py",
     "test_agreement.py",
+    "test_mistakes.py",
 )
 
 np.seterr(all="raise", under="ignore")  # underflow to zero is right for a decayed state

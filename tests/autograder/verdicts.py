@@ -7,7 +7,6 @@ import scipy.optimize  # so that no call with a time limit pays for it
 import sympy as sp
 
 from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES, Check
-from autograder.judging.diagnosis import Mistake
 from autograder.judging.verdict import State, Verdict
 from autograder.problems import CHECKS
 from autograder.protocol import answer_all, calls
@@ -28,16 +27,25 @@ def namespace_of(check_id: str, body: str) -> dict:
 
 def judged_in(namespace: dict, check_id: str, seed: int = 0, count: int = HIDDEN_CASES) -> Verdict:
     """The verdict on the function in this namespace, however slow the machine is."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(calls, "CALL_SECONDS", 60.0)
-        return CHECKS[check_id].run(
-            lambda asked: answer_all(asked, namespace), np.random.default_rng(seed), count
-        )
+    return _run(CHECKS[check_id], namespace, seed, count)
 
 
 def judged(check_id: str, body: str, seed: int = 0, count: int = HIDDEN_CASES) -> Verdict:
     """The verdict on a student's function: `body` is the expression it returns, or its whole body."""
     return judged_in(namespace_of(check_id, body), check_id, seed, count)
+
+
+def judged_by(check: Check, body: str, seed: int = 0, count: int = HIDDEN_CASES) -> Verdict:
+    """As `judged`, by a check of one's own."""
+    return _run(check, namespace_of(check.id, body), seed, count)
+
+
+def _run(check, namespace, seed, count):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(calls, "CALL_SECONDS", 60.0)
+        return check.run(
+            lambda asked: answer_all(asked, namespace), np.random.default_rng(seed), count
+        )
 
 
 def assert_told_apart(check: Check, seed: int) -> None:
@@ -58,27 +66,7 @@ def assert_right(verdict: Verdict) -> None:
     assert (verdict.credit, verdict.diagnosis, verdict.witness) == (1, (), None)
 
 
-def assert_named(check_id: str, body: str, credit: float, *sentences: str) -> None:
-    """This wrong answer gets exactly these sentences, this credit, and a witness with a unit."""
-    verdict = judged(check_id, body)
-    assert verdict.diagnosis == sentences
-    assert abs(verdict.credit - credit) < 1e-12
-    assert verdict.state is (State.PARTLY_CORRECT if credit else State.INCORRECT)
-    assert verdict.witness.call.startswith(f"{CHECKS[check_id].name}(")
-    unit = next(
-        criterion.unit
-        for criterion, row in zip(CHECKS[check_id].criteria, verdict.rows, strict=True)
-        if not row.met
-    )
-    assert unit in verdict.witness.off
-
-
-def sentences_of(mistakes) -> set[str]:
-    """Every sentence in a module of mistakes, each of which needs a row in its table."""
-    return {
-        mistake.sentence
-        for group in vars(mistakes).values()
-        if isinstance(group, tuple)
-        for mistake in group
-        if isinstance(mistake, Mistake)  # and no Term
-    }
+def sentences(check_id: str, *names: str) -> tuple[str, ...]:
+    """What the check says of these mistakes: a test names a mistake, and types no sentence."""
+    said = {mistake.name: mistake.sentence for mistake in CHECKS[check_id].mistakes}
+    return tuple(said[name] for name in names)

@@ -34,8 +34,10 @@ PROBLEMS = """
 ## The problems
 
 Each check runs in the student's notebook and, with fresh arms and states, in the grader. It knows
-that many wrong models by name, which are in the `mistakes.py` beside the problem's checks.
+that many wrong models by name, which are in the `mistakes.py` beside the problem's checks. Each of
+them has a wrong answer in the problem's table, and [one test]({}) runs all tables.
 """
+TABLES_TEST = ROOT / "tests" / "autograder" / "problems" / "test_mistakes.py"
 
 
 @dataclass(frozen=True)
@@ -174,7 +176,7 @@ def page(to: Path) -> str:
     ]
     for path, parts in cut.items():
         lines += _lesson(path, parts, to)
-    lines.append(PROBLEMS)
+    lines.append(PROBLEMS.format(_link(TABLES_TEST, to)))
     for path in problems():
         prepared_by = [lesson for lesson, led in leads.items() if path.stem in led]
         lines += _problem(path, prepared_by, to)
@@ -211,7 +213,8 @@ def _problem(path, prepared_by, to):
     module = path.stem.replace("-", "_")
     of_problem = [
         f"tests/autograder/problems/{module}/test_checks.py",
-        f"tests/autograder/problems/{module}/test_mistakes.py",
+        f"tests/autograder/problems/{module}/table.py",
+        f"tests/autograder/problems/{module}/test_wrong_answers.py",
         f"tests/submissions/{module}.py",
     ]
     tests = [test for test in of_problem if (ROOT / test).exists()]

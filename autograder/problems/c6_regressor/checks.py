@@ -7,12 +7,11 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from autograder.problems.material import planar_2r
-from autograder.problems.material import sampling
-from autograder.judging.diagnosis import Term
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
-from autograder.problems.c6_regressor import mistakes
+from autograder.judging.diagnosis import Term
 from autograder.judging.quantities import UnfitError, each, one_number, vector
+from autograder.problems.c6_regressor import mistakes
+from autograder.problems.material import planar_2r, sampling
 from autograder.protocol import Call
 
 NOTHING = np.empty(0)  # a quantity of a criterion that a call says nothing of
@@ -171,6 +170,11 @@ def _ranks(calls, values):
     return found
 
 
+NOT_LEAST_SQUARES = (
+    "With noise, your estimate is not the one of least squares: you can still make the sum of the "
+    "squares of all 2K residuals smaller."
+)
+
 CHECKS = (
     Check(
         id="c6-regressor",
@@ -192,13 +196,13 @@ CHECKS = (
             Term("its part of accelerations", _part(acceleration=1.0)),
         ),
         hints=(
-            "Take M q̈ + C q̇ + g, write every product out, and replace m ℓc² + I by J first. Which "
-            "products of parameters are left, link by link?",
+            "Take M q̈ + C q̇ + g, multiply every product out, and first replace m ℓc² + I by J. "
+            "Which products of parameters are left for each link?",
             "Underline in both lines all that has m2 ℓc2. ℓ1 and g are known: what stands beside "
             "m2 ℓc2 is its column. m2 alone is left with ℓ1² and with ℓ1 g.",
-            "To test a column, set its parameter to 1 and the others to 0, and ask for both torques. "
-            "For m2: all of link 2 sits in the elbow. For J2: link 2 has inertia and no weight. "
-            "For m1: all of link 1 sits in the shoulder, so nothing needs a torque.",
+            "To test a column, set its parameter to 1 and the others to 0, and look at both "
+            "torques. For m2: all of link 2 sits at the elbow. For J2: link 2 has inertia and no "
+            "weight. For m1: all of link 1 sits at the shoulder, so nothing needs a torque.",
         ),
         pose=lambda call: planar_2r.joints(call.args[0], call.args[3]),
     ),
@@ -213,22 +217,28 @@ CHECKS = (
                 "rank of a rich motion, with gravity and in orbit",
                 "",
                 0.35,
-                otherwise="Your rank of a rich motion is wrong. Print the singular values of W, "
-                "divided by the largest: there is a wide gap. On which side do you cut?",
+                otherwise=(
+                    "Your rank of a rich motion is wrong. Print the singular values of W, divided "
+                    "by the largest: there is a wide gap. Which of them do you count?"
+                ),
             ),
             Criterion(
                 "rank of a motion with a joint at rest, or both",
                 "",
                 0.35,
-                otherwise="Your rank is wrong where a joint rests. Print W for such a motion: which "
-                "columns vanish, and which are multiples of each other?",
+                otherwise=(
+                    "Your rank is wrong when a joint rests. Print W for such a motion: which "
+                    "columns vanish, and which are multiples of each other?"
+                ),
             ),
             Criterion(
                 "rank of one sample, of two, and of one that is repeated",
                 "",
                 0.3,
-                otherwise="Your rank is wrong where there are few samples, or the same one again. How "
-                "many different rows has W then?",
+                otherwise=(
+                    "Your rank is wrong when there are few samples, or when one of them is "
+                    "repeated. How many different rows does W have then?"
+                ),
             ),
         ),
         mistakes=mistakes.RANK,
@@ -254,15 +264,13 @@ CHECKS = (
                 "first moments β1 and β3, noisy torques",
                 "kg·m",
                 0.2,
-                otherwise="With noise, your estimate is not the one of least squares: the sum of the "
-                "squares of all 2K residuals can still be made smaller.",
+                otherwise=NOT_LEAST_SQUARES,
             ),
             Criterion(
                 "inertias β2 and β4, noisy torques",
                 "kg·m²",
                 0.2,
-                otherwise="With noise, your estimate is not the one of least squares: the sum of the "
-                "squares of all 2K residuals can still be made smaller.",
+                otherwise=NOT_LEAST_SQUARES,
             ),
         ),
         mistakes=mistakes.IDENTIFY,

@@ -5,7 +5,14 @@ from types import SimpleNamespace
 import numpy as np
 
 from autograder.judging.diagnosis import Mistake
-from autograder.problems.material.planar_2r import BASE_COLUMNS, base_parameters, changed, parameters, regressor
+from autograder.problems.material import sentences
+from autograder.problems.material.planar_2r import (
+    BASE_COLUMNS,
+    base_parameters,
+    changed,
+    parameters,
+    regressor,
+)
 
 # The arm of the notebook's set-up cell.
 EXAMPLE = SimpleNamespace(
@@ -79,24 +86,24 @@ NO_GRAVITY = (
     "the weight of a link enter?"
 )
 ABOUT_COM = (
-    "Your Y uses ℓc. It is one of the things to be found, and Y holds only what is known. About "
-    "which point must the inertia in π be taken, so that ℓc² goes into it?"
+    "Your Y uses ℓc. That is one of the unknowns, and Y may hold only what is known. About which "
+    "point must you take the inertia in π, so that ℓc² goes into it?"
 )
 ORDER = (
-    "The columns are right, but they stand in another order than the parameters in π. Write the "
+    "Your columns are right, but they stand in another order than the parameters in π. Write the "
     "names of the six parameters above your columns."
 )
 HARD_CODED_G = (
-    "Your Y is right on Earth only: 9.81 is written into it. The check also puts the arm on other "
-    "planets; which parameter of arm gives g?"
+    "Your Y is right only on Earth, because you typed 9.81 into it. The check also puts the arm "
+    "on other planets: which parameter of arm gives g?"
 )
 EXAMPLE_ARM = (
-    "This is the Y of the arm in the set-up cell, whatever arm is given. Where does your function "
-    "read ℓ1 and g of its own argument?"
+    "Your Y is always that of the arm in the set-up cell, whatever arm is given. Where does your "
+    "function read ℓ1 and g of its own argument?"
 )
 CENTRIFUGAL = (
-    "A product of velocities has the wrong sign in your column of m2 ℓc2. Compare with C q̇: which "
-    "joint gets h and which gets −h, and which sign has h itself?"
+    "A product of velocities has the wrong sign in your column of m2 ℓc2. Compare with C q̇: "
+    "which joint gets h and which gets −h, and what sign does h itself have?"
 )
 
 # Those about one column stand before those about several, which may look like them in that column.
@@ -110,30 +117,34 @@ REGRESSOR = (
     Mistake(
         "gravity missing in the column of m2",
         _plus(lambda s, arm: {(0, M2): -arm.l1 * arm.g * s.c1}),
-        "In your column of m2 the weight is missing. The elbow carries m2: who holds it up?",
+        "The weight is missing from your column of m2. The elbow carries m2: which joint holds it "
+        "up?",
     ),
     Mistake(
         "gravity missing in the column of m2 lc2",
         _plus(lambda s, arm: {(0, MC2): -arm.g * s.c12, (1, MC2): -arm.g * s.c12}),
-        "In your column of m2 ℓc2 gravity is missing. Where in g(q) does the product m2 ℓc2 stand?",
+        "Gravity is missing from your column of m2 ℓc2. Where in g(q) does the product m2 ℓc2 "
+        "stand?",
     ),
     Mistake(
         "gravity of m2 lc2 missing at joint 1",
         _plus(lambda s, arm: {(0, MC2): -arm.g * s.c12}),
-        "In your column of m2 ℓc2 gravity is missing at joint 1. Does the direction of link 2 change "
-        "when joint 1 turns?",
+        "Gravity is missing at joint 1 in your column of m2 ℓc2. Does the direction of link 2 "
+        "change when joint 1 turns?",
     ),
     Mistake("gravity missing", _with(g=lambda arm: 0.0), NO_GRAVITY),
     Mistake(
         "sine for cosine in gravity",
         _gravity_as(lambda s: np.sin(s.q1), lambda s: np.sin(s.q1 + s.q2)),
-        "Gravity varies with the sine in your Y, as if the angles were measured from the vertical. "
-        "From which axis is q1 measured, and at which q1 does the weight of link 1 pull most?",
+        "In your Y, gravity varies with the sine, as if the angles were measured from the "
+        "vertical. From which axis is q1 measured, and at which q1 does the weight of link 1 pull "
+        "most?",
     ),
     Mistake(
         "absolute second angle in gravity",
         _gravity_as(lambda s: s.c1, lambda s: s.c2),
-        "In the gravity of link 2 you take q2 for its direction in space. From what is q2 measured?",
+        "In the gravity of link 2 you take q2 for its direction in space. From where is q2 "
+        "measured?",
     ),
     Mistake(
         "coupling without the factor 2",
@@ -146,21 +157,21 @@ REGRESSOR = (
         _coupling(
             lambda s: (s.s2 - s.c2) * (2 * s.qdd1 + s.qdd2), lambda s: (s.s2 - s.c2) * s.qdd1
         ),
-        "The accelerations in your column of m2 ℓc2 come with the sine of q2. Which function of q2 "
-        "stands in M, and is it largest with the arm stretched?",
+        "In your column of m2 ℓc2, the accelerations come with the sine of q2. Which function of "
+        "q2 does M hold, and is it largest when the arm is stretched?",
     ),
     Mistake(
         "cos q1 in the coupling",
         _coupling(
             lambda s: (s.c1 - s.c2) * (2 * s.qdd1 + s.qdd2), lambda s: (s.c1 - s.c2) * s.qdd1
         ),
-        "The accelerations in your column of m2 ℓc2 come with the cosine of q1. Would the inertia of "
-        "the arm change if the whole arm turned about the shoulder?",
+        "In your column of m2 ℓc2, the accelerations come with the cosine of q1. Would the "
+        "inertia of the arm change if the whole arm turned about the shoulder?",
     ),
     Mistake(
         "velocity products left out at joint 2",
         _coupling(_nothing, lambda s: -s.s2 * s.qd1**2),
-        "The row of joint 2 has no product of velocities in your Y. What does link 2 feel at the "
+        "In your Y, the row of joint 2 has no product of velocities. What does link 2 feel at the "
         "elbow when only joint 1 turns?",
     ),
     Mistake(
@@ -172,14 +183,14 @@ REGRESSOR = (
     Mistake(
         "Coriolis without the factor 2",
         _coupling(lambda s: s.s2 * s.qd1 * s.qd2, _nothing),
-        "The product q̇1 q̇2 counts half in your column of m2 ℓc2. How many entries of C contribute "
-        "it to C q̇?",
+        "In your column of m2 ℓc2, the product q̇1 q̇2 counts only half. How many entries of C "
+        "bring it into C q̇?",
     ),
     Mistake(
         "centrifugal part missing at joint 1",
         _coupling(lambda s: s.s2 * s.qd2**2, _nothing),
-        "The square of q̇2 is missing at joint 1 in your column of m2 ℓc2. Multiply C by q̇ once more, "
-        "entry by entry.",
+        "In your column of m2 ℓc2, the square of q̇2 is missing at joint 1. Multiply C by q̇ once "
+        "more, entry by entry.",
     ),
     Mistake(
         "sign of the velocity products",
@@ -205,7 +216,7 @@ REGRESSOR = (
             lambda s: s.s2 * (s.qd1 - s.qd1**2),
         ),
         "Your velocities stand alone, not in products: you have added up the rows of C. By which "
-        "vector must C be multiplied?",
+        "vector must you multiply C?",
     ),
     Mistake(
         "absolute acceleration of link 2",
@@ -220,29 +231,30 @@ REGRESSOR = (
     Mistake(
         "J2 left out at joint 1",
         _plus(lambda s, arm: {(0, J2): -s.spin_2}),
-        "In your column of J2 the row of joint 1 is empty. Must joint 1 not turn link 2 as well?",
+        "In your column of J2, the row of joint 1 is empty. Does joint 1 not turn link 2 as well?",
     ),
     Mistake(
         "J1 at joint 2",
         _plus(lambda s, arm: {(1, J1): s.qdd1}),
-        "In your column of J1 joint 2 has a torque. Which joints does link 1 load: those before it "
-        "or those behind it?",
+        "In your column of J1, joint 2 has a torque. Which joints does link 1 load: those before "
+        "it or those after it?",
     ),
     Mistake(
         "l1 not squared",
         _plus(lambda s, arm: {(0, M2): (arm.l1 - arm.l1**2) * s.qdd1}),
-        "In your column of m2, look at the units: what must m2 be multiplied with to be an inertia?",
+        "Look at the units in your column of m2. By what must you multiply m2 to get an inertia?",
     ),
     Mistake(
         "inertia of m2 at the elbow missing",
         _plus(lambda s, arm: {(0, M2): -(arm.l1**2) * s.qdd1}),
-        "In your column of m2 only its weight is left. Joint 1 also accelerates the elbow: what "
-        "inertia has a mass m2 there?",
+        "Your column of m2 holds only the weight. Joint 1 also accelerates the elbow: what "
+        "inertia does a mass m2 have there?",
     ),
     Mistake(
         "no acceleration",
         _at(qdd=0.0),
-        "Your Y does not depend on the accelerations. It is the whole left side M q̈ + C q̇ + g.",
+        "Your Y does not depend on the accelerations. Y π is the whole left side M q̈ + C q̇ + g: "
+        "which columns does q̈ enter?",
     ),
     Mistake(
         "column of m2 missing",
@@ -275,14 +287,14 @@ REGRESSOR = (
     Mistake(
         "weight of link 1 in the column of m1",
         _plus(lambda s, arm: {(0, M1): arm.lc1 * arm.g * s.c1, (0, MC1): -arm.g * s.c1}),
-        "You put the weight of link 1 into the column of m1, with ℓc1 in Y. ℓc1 is one of the things "
-        "to be found: which entry of π has it already?",
+        "You put the weight of link 1 into the column of m1, with ℓc1 in Y. ℓc1 is one of the "
+        "unknowns: which entry of π holds it already?",
     ),
     Mistake(
         "parameters in Y",
         lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm) * parameters(arm),
-        "Your columns add up to the torque: each still carries its own parameter. What is left of a "
-        "column when π is taken out of it?",
+        "Your columns add up to the torque: each of them still holds its own parameter. What is "
+        "left of a column when you take π out of it?",
     ),
     Mistake(
         "all reversed",
@@ -299,13 +311,12 @@ REGRESSOR = (
     Mistake(
         "rows swapped",
         lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm)[..., ::-1, :],
-        "The rows of the two joints have changed places.",
+        "You swapped the rows of the two joints. Which joint feels the weight of link 1?",
     ),
     Mistake(
         "reshaped for transposed",
         lambda q, qd, qdd, arm: np.reshape(regressor(q, qd, qdd, arm).T, (2, 6)),
-        "Reshaping an array is not transposing it: the shape fits, but the entries are in other "
-        "places.",
+        sentences.RESHAPED,
     ),
     Mistake(
         "l2 for l1",
@@ -320,19 +331,19 @@ REGRESSOR = (
     Mistake(
         "g missing",
         _with(g=lambda arm: 1.0),
-        "The gravitational acceleration g is missing from your Y. It is known, so it belongs there.",
+        "The gravitational acceleration g is missing from your Y. Is g one of the unknowns?",
     ),
     Mistake("9.81", _with(g=lambda arm: 9.81), HARD_CODED_G),
     Mistake("example arm", _with(l1=lambda arm: EXAMPLE.l1, g=lambda arm: EXAMPLE.g), EXAMPLE_ARM),
     Mistake(
         "radians taken for degrees",
         _at(q=np.pi / 180),
-        "The angles are turned from degrees to radians once too often: q comes in radians already.",
+        sentences.RADIANS_CONVERTED,
     ),
     Mistake(
         "angles in degrees",
         _at(q=180 / np.pi),
-        "NumPy takes angles in radians, and q is in radians already: nothing is to be converted.",
+        sentences.IN_DEGREES,
     ),
 )
 
@@ -426,7 +437,7 @@ def _reordered(*order):
 
 
 ONE_SAMPLE = (
-    "Your estimate uses one sample only: two equations for four numbers. Stack all samples under "
+    "Your estimate uses only one sample: two equations for four numbers. Stack all samples under "
     "each other, and solve once."
 )
 STACKING = (
@@ -434,15 +445,16 @@ STACKING = (
     "sample by sample, the other joint by joint. Look at the first three of each."
 )
 REGULARISED = (
-    "Your estimate is pulled towards zero, by something added to the diagonal of WᵀW. This motion "
-    "shows all four numbers: does the system need it?"
+    "You add something to the diagonal of WᵀW, which pulls your estimate towards zero. This "
+    "motion shows all four numbers: does the system need that?"
 )
 OFFSET = (
-    "Your fit has an offset as a further unknown. It is zero without noise, but with noise it takes "
-    "a part of the torque. Is there a constant torque in the equation of motion?"
+    "Your fit has an offset as one more unknown. Without noise it comes out as zero, but with "
+    "noise it takes up a part of the torque. Is there a constant torque in the equation of "
+    "motion?"
 )
 ESTIMATE_ORDER = (
-    "These are the right four numbers in another order. In which order does the docstring ask for "
+    "Your four numbers are right, but in another order. In which order does the docstring ask for "
     "them?"
 )
 
@@ -450,25 +462,25 @@ IDENTIFY = (
     Mistake(
         "joint 1 only",
         _fit_of((slice(None), 0)),
-        "Your fit uses the torques of joint 1 only. Without noise they suffice; with noise, what do "
-        "the equations of joint 2 still tell?",
+        "Your fit uses only the torques of joint 1. Without noise they are enough. With noise, "
+        "what do the equations of joint 2 still tell you?",
     ),
     Mistake(
         "joint 2 only",
         _fit_of((slice(None), 1)),
-        "Your fit uses the torques of joint 2 only. Which of the four numbers can that joint feel?",
+        "Your fit uses only the torques of joint 2. Which of the four numbers can that joint feel?",
     ),
     Mistake(
         "joint after joint",
         _joint_after_joint,
-        "You fit link 2 to the torques of joint 2 and then the rest to those of joint 1. Without "
-        "noise that suffices; with noise, what does joint 1 tell about link 2?",
+        "You fit link 2 to the torques of joint 2, and then the rest to those of joint 1. Without "
+        "noise that is enough. With noise, what does joint 1 tell you about link 2?",
     ),
     Mistake(
         "mean of both joints",
         _mean_of_joints,
-        "You fit each joint by itself and take the mean. Can joint 2 tell all four numbers? Put the "
-        "rows of both joints into one system.",
+        "You fit each joint by itself and take the mean. Can joint 2 show all four numbers? Put "
+        "the rows of both joints into one system.",
     ),
     Mistake(
         "first sample",
@@ -479,18 +491,18 @@ IDENTIFY = (
     Mistake(
         "last sample forgotten",
         _fit_of(slice(None, -1)),
-        "The last sample is left out of your fit. Where does your loop end?",
+        "You leave the last sample out of your fit. Where does your loop end?",
     ),
     Mistake(
         "first sample forgotten",
         _fit_of(slice(1, None)),
-        "The first sample is left out of your fit. At which index does an array begin?",
+        "You leave the first sample out of your fit. At which index does an array begin?",
     ),
     Mistake(
         "mean of the samples' own solutions",
         _mean_of_samples,
-        "You solve each sample by itself and take the mean. Each has two equations for four numbers, "
-        "so none of them has one solution. Stack the samples first, then solve.",
+        "You solve each sample by itself and take the mean. A sample gives two equations for four "
+        "numbers, which have many solutions. Stack the samples first, then solve.",
     ),
     Mistake(
         "torques joint by joint",
@@ -508,19 +520,19 @@ IDENTIFY = (
     Mistake(
         "columns scaled and not scaled back",
         _scaled,
-        "You scale the columns of W before the fit. What must then be done with the solution?",
+        "You scale the columns of W before the fit. What must you then do with the solution?",
     ),
     Mistake(
         "total least squares",
         _total,
-        "Your fit also allows errors in W. Here only the torques are noisy: which sum of squares is "
-        "to be as small as possible?",
+        "Your fit also allows errors in W. Here only the torques are noisy: which sum of squares "
+        "must be as small as possible?",
     ),
     Mistake(
         "entries of the shortest π",
         _shortest_pi,
-        "You solve for six parameters and then give four of them. The six are not unique: of all "
-        "that fit, lstsq gives the shortest. What of it do the torques really show?",
+        "You solve for six parameters and return four of them. The six are not unique: of all "
+        "that fit, lstsq gives the shortest. Which part of it do the torques really show?",
     ),
     Mistake("inertias first", _reordered(1, 0, 3, 2), ESTIMATE_ORDER),
     Mistake("by kind", _reordered(0, 2, 1, 3), ESTIMATE_ORDER),
@@ -535,15 +547,15 @@ IDENTIFY = (
     Mistake(
         "example arm",
         lambda q, qd, qdd, u, arm: base_parameters(EXAMPLE),
-        "These are the numbers of the arm in the set-up cell, whatever was measured. What is known of "
-        "this arm stands in q, q̇, q̈ and u.",
+        "You return the numbers of the arm in the set-up cell, whatever was measured. What is "
+        "known of this arm is in q, q̇, q̈ and u.",
     ),
 )
 
 # Fits that are right but for the regressor they stand on.
 STANDS_ON = (
-    "Your fit is least squares, but the regressor that it uses is wrong: make the card of part A "
-    "green, or look at what you changed in it here."
+    "You fit by least squares, but with a wrong regressor. First make the card of part A green, "
+    "or look at what you changed in it here."
 )
 IDENTIFY += tuple(
     Mistake(f"fit: {mistake.name}", _fit_with(mistake.wrong), STANDS_ON)
@@ -612,7 +624,7 @@ ONE_STATE = (
 )
 COUNTED = (
     "You count the parameters, not what a motion shows of them: your number is the same for every "
-    "motion. What does an arm at rest tell?"
+    "motion. What does an arm at rest tell you?"
 )
 
 RANK = (
@@ -622,72 +634,64 @@ RANK = (
     Mistake(
         "smaller of rows and columns",
         _at_most(6),
-        "This is the smaller number of the rows and the columns: the rank that W could have. Do the "
-        "columns depend on each other?",
+        "You return the number of rows or of columns, whichever is smaller. W could have that "
+        "rank, but do its columns depend on each other?",
     ),
     Mistake(
         "rows, but at most four",
         _at_most(4),
-        "You take every motion with enough samples for a rich one. Which columns of W vanish, or are "
-        "multiples of each other, when the arm stands still?",
+        "You take every motion with enough samples for a rich one. Which columns of W vanish when "
+        "the arm stands still, and which are multiples of each other?",
     ),
     Mistake("tolerance zero", _rank_and_rounding, ROUNDING_COUNTS),
     Mistake(
         "columns that are not zero",
         _columns_that_move,
-        "You count the columns that are not zero. Can a column be made of the others?",
+        "You count the columns that are not zero. Can you make one of them from the others?",
     ),
+    # Also that of the sum of the samples, and of all of them side by side: two rows, one rank.
     Mistake("first sample", _rank_of(slice(0, 1)), ONE_STATE),
-    Mistake(
-        "sum of the samples",
-        lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(np.sum(regressor(q, qd, qdd, arm), 0))),
-        ONE_STATE,
-    ),
-    Mistake(
-        "side by side",
-        lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(np.hstack(list(regressor(q, qd, qdd, arm))))),
-        ONE_STATE,
-    ),
     Mistake(
         "joint 1 only",
         _rank_of((slice(None), 0)),
-        "You count what joint 1 shows. Does the torque of joint 2 show something more?",
+        "You count only what joint 1 shows. Does the torque of joint 2 show anything more?",
     ),
     Mistake(
         "joint 2 only",
         _rank_of((slice(None), 1)),
-        "You count what joint 2 shows. What of link 1 can joint 2 feel?",
+        "You count only what joint 2 shows. What can joint 2 feel of link 1?",
     ),
     Mistake(
         "number of samples",
         lambda q, qd, qdd, arm: len(q),
-        "This is the number of samples. Ten times the same sample: is that ten times as much known?",
+        "You return the number of samples. If the same sample comes ten times, do you know ten "
+        "times as much?",
     ),
     Mistake(
         "number of rows",
         lambda q, qd, qdd, arm: 2 * len(q),
         "You count every equation, two for each sample. Does a sample that repeats another tell "
-        "anything new?",
+        "you anything new?",
     ),
     Mistake(
         "gravity ignored",
         _rank_with(_with(g=lambda arm: 0.0)),
-        "You count what would be seen without gravity. Which g does arm have?",
+        "You count what a motion would show without gravity. Which g does arm have?",
     ),
     Mistake(
         "9.81",
         _rank_with(_with(g=lambda arm: 9.81)),
-        "You count what would be seen on Earth. The check also takes the arm into orbit, where g is "
-        "0: which parameter of arm gives g?",
+        "You count what a motion would show on Earth. The check also takes the arm into orbit, "
+        "where g is 0: which parameter of arm gives g?",
     ),
     Mistake(
         "no acceleration",
         _rank_with(_at(qdd=0.0)),
-        "Your regressor does not see the accelerations here. Which arguments reach it?",
+        "Your regressor does not see the accelerations here. Which arguments do you pass to it?",
     ),
     Mistake(
         "what is missing",
         lambda q, qd, qdd, arm: 6 - rank(q, qd, qdd, arm),
-        "This is how many columns are lost: 6 less the rank. How many are shown?",
+        "You return how many columns are lost: 6 minus the rank. How many does the motion show?",
     ),
 )

@@ -4,13 +4,18 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from autograder.problems.material import planar_2r
-from autograder.problems.material import sampling
-from autograder.problems.material.definiteness import MATRICES, ROUNDING, Kind, is_symmetric, least_eigenvalue
-from autograder.judging.diagnosis import Term
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
-from autograder.problems.p1_inertia import mistakes
+from autograder.judging.diagnosis import Term
 from autograder.judging.quantities import UnfitError, array, each, one_number
+from autograder.problems.material import planar_2r, sampling
+from autograder.problems.material.definiteness import (
+    MATRICES,
+    ROUNDING,
+    Kind,
+    is_symmetric,
+    least_eigenvalue,
+)
+from autograder.problems.p1_inertia import mistakes
 from autograder.protocol import Call
 
 NOTHING = np.empty(0)  # a quantity of a criterion that a call says nothing of
@@ -198,8 +203,8 @@ CHECKS = (
             _block_term("the coupling of rotation and translation in I", slice(0, 3), slice(3, 6)),
         ),
         hints=(
-            "Write the kinetic energy of one link with its velocity vₖ = Jₖ q̇ put in. What stands "
-            "between the two q̇?",
+            "Write down the kinetic energy of one link, with its velocity vₖ = Jₖ q̇ put in. What "
+            "stands between the two q̇?",
             "Check the shapes: Jₖ is (6, n) and Iₖ is (6, 6). In which order do they multiply to "
             "(n, n)?",
             "Start with an n × n matrix of zeros, n from jacobians.shape[2]. Loop over the links "
@@ -227,8 +232,8 @@ CHECKS = (
         hints=(
             "Start from the energy, not from the matrix. Each link has two parts: its centre of "
             "mass moves, and it turns. What is the angular velocity of link 2?",
-            "Write the position of the centre of mass of link 2, differentiate it, and square its "
-            "velocity. The two angles leave one cosine: that of the angle between the links.",
+            "Write down the position of the centre of mass of link 2, differentiate it, and "
+            "square the velocity. Only one cosine is left: that of the angle between the links.",
             "Sort K by q̇1², q̇1 q̇2 and q̇2². In q̇ᵀ M q̇ the first has M11, the last M22, and the "
             "mixed one M12 + M21. Remember the ½, and that M12 = M21.",
         ),
@@ -248,8 +253,8 @@ CHECKS = (
         ),
         mistakes=mistakes.IS_SPD,
         hints=(
-            "There are two questions in the name: symmetric, and positive definite. Ask them one "
-            "after the other.",
+            "There are two questions in the name: is the matrix symmetric, and is it positive "
+            "definite? Ask them one after the other.",
             "For symmetry look at the largest entry of |A − Aᵀ|. For the rest, which function of "
             "np.linalg gives the eigenvalues of a symmetric matrix?",
             "Compare both with 1e-9 times the largest number of their kind: the asymmetry with the "
@@ -267,13 +272,13 @@ CHECKS = (
         quantities=_singular_and_allowed,
         criteria=(
             Criterion("is M(q) singular?", share=0.5, is_truth=True),
-            Criterion("is it so with allowed parameters?", share=0.5, is_truth=True),
+            Criterion("is it singular with allowed parameters?", share=0.5, is_truth=True),
         ),
         mistakes=mistakes.SINGULAR_ARM,
         hints=(
             "M is singular where some velocity other than zero costs no energy. Each link's energy "
             "has two parts, and none of them is negative: what must each of them be?",
-            "Link 2 must not cost energy by turning: which parameter of it does that decide? Then ask "
+            "Turning link 2 must cost no energy: which of its parameters decides that? Then ask "
             "which motions leave its centre of mass at rest.",
             "A point mass has no inertia about its centre of mass. Put the point mass of link 2 where "
             "joint 2 cannot move it, and look at your M22.",

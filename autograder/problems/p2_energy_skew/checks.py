@@ -7,12 +7,11 @@ Christoffel form.
 
 import numpy as np
 
-from autograder.problems.material import planar_2r
-from autograder.problems.material import sampling
-from autograder.judging.criterion import TOLERANCE, relative_errors
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
-from autograder.problems.p2_energy_skew import mistakes
+from autograder.judging.criterion import TOLERANCE, relative_errors
 from autograder.judging.quantities import array, each
+from autograder.problems.material import planar_2r, sampling
+from autograder.problems.p2_energy_skew import mistakes
 from autograder.protocol import Call, Expressions, Symbol, real
 
 # Ṁ − 2C is clearly not skew where C + Cᵀ and Ṁ differ by this share of the largest entry of C.
@@ -173,17 +172,21 @@ CHECKS = (
                 "power q̇ᵀC q̇ = ½ q̇ᵀṀ q̇, so that the energy is kept",
                 "W",
                 0.2,
-                otherwise="With your C the energy would change where nobody does work: "
-                "q̇ᵀ(Ṁ − 2C)q̇ is not zero.",
+                otherwise=(
+                    "With your C the energy would change although nobody does work: q̇ᵀ(Ṁ − 2C)q̇ "
+                    "is not zero."
+                ),
                 is_property=True,
             ),
             Criterion(
                 "sum C + Cᵀ = Ṁ, so that Ṁ − 2C is skew-symmetric",
                 "kg·m²/s",
                 0.3,
-                otherwise="With your C the matrix Ṁ − 2C is not skew-symmetric. That is a property of "
-                "the Christoffel choice, beyond a right C q̇: how does it share the product q̇1 q̇2 "
-                "between the entries of a row?",
+                otherwise=(
+                    "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the "
+                    "Christoffel form. A right C q̇ is not enough: how does that form share the "
+                    "product q̇1 q̇2 between the entries of a row?"
+                ),
                 is_property=True,
             ),
         ),
@@ -217,8 +220,10 @@ CHECKS = (
                 "distance of Ṁ − 2 C_other from skew-symmetric (counts with the right C_other q̇)",
                 "kg·m²/s",
                 0.5,
-                otherwise="An answer counts as not skew where C_other q̇ is right and C_other + "
-                "C_otherᵀ differs clearly from Ṁ.",
+                otherwise=(
+                    "Your answer counts as not skew-symmetric only where C_other q̇ is right and "
+                    "C_other + C_otherᵀ clearly differs from Ṁ."
+                ),
                 is_property=True,
             ),
         ),
@@ -245,8 +250,10 @@ CHECKS = (
                 "Christoffel form, entry by entry,",
                 "kg·m²/s",
                 0.6,
-                otherwise="Your matrix is not that of the Christoffel symbols. Write down h_121 and "
-                "h_211 for M = [[a(q2), b(q2)], [b(q2), c]] by hand, and compare.",
+                otherwise=(
+                    "Your matrix does not come from the Christoffel symbols. Write down h_121 and "
+                    "h_211 for M = [[a(q2), b(q2)], [b(q2), c]] by hand, and compare."
+                ),
                 is_property=True,
             ),
         ),

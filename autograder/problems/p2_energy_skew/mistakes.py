@@ -8,8 +8,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from autograder.problems.material import planar_2r as right
 from autograder.judging.diagnosis import Mistake, Term
+from autograder.problems.material import planar_2r as right
+from autograder.problems.material import sentences
 
 # How the coupling m2 ℓ1 ℓc2 cos q2 enters M.
 PATTERN = np.array([[2.0, 1.0], [1.0, 0.0]])
@@ -42,19 +43,18 @@ WRONG_ARMS = (
     (
         "cosine for sine",
         lambda q, arm: derivatives(q, arm, by_q2=-coupling(arm) * np.cos(q[1])),
-        "Your {0} varies with cos q2. M varies with cos q2 itself: how does its derivative vary?",
+        "Your {0} varies with cos q2. M itself varies with cos q2: how does its derivative vary?",
     ),
     (
         "cosine for sine, reversed",
         lambda q, arm: derivatives(q, arm, by_q2=coupling(arm) * np.cos(q[1])),
-        "Your {0} varies with cos q2, as if M held sin q2. How does M depend on q2: is the arm "
-        "hardest to turn stretched out (q2 = 0) or with its elbow at a right angle?",
+        "Your {0} varies with cos q2, as if M held sin q2. When is the arm hardest to turn: "
+        "stretched out (q2 = 0), or with its elbow at a right angle?",
     ),
     (
         "length for centre of mass",
         lambda q, arm: derivatives(q, right.changed(arm, lc2=arm.l2)),
-        "You use the length ℓ2 of link 2 where the distance to its centre of mass belongs. Where is "
-        "its mass, seen from joint 2?",
+        "You use the whole length ℓ2 of link 2. How far from joint 2 is its centre of mass?",
     ),
     (
         "centre of mass for length",
@@ -65,12 +65,12 @@ WRONG_ARMS = (
     (
         "mass of the other link",
         lambda q, arm: derivatives(q, right.changed(arm, m2=arm.m1)),
-        "You use the mass m1. The mass of which link moves nearer to joint 1 when the elbow folds?",
+        "You use the mass m1. Which link's mass comes nearer to joint 1 when the elbow folds?",
     ),
     (
         "absolute second angle",
         lambda q, arm: derivatives(q, arm, *2 * [-coupling(arm) * np.sin(q[0] + q[1])]),
-        "Your {0} varies with q1 + q2. M may change with the angle between the links only: which "
+        "Your {0} varies with q1 + q2. M can change only with the angle between the links: which "
         "coordinate is that?",
     ),
     (
@@ -90,13 +90,13 @@ WRONG_ARMS = (
     (
         "radians taken for degrees",
         lambda q, arm: derivatives(q, arm, by_q2=-coupling(arm) * np.sin(np.radians(q[1]))),
-        "The angle is turned from degrees to radians once too often: q comes in radians already.",
+        sentences.RADIANS_CONVERTED,
     ),
     (
         "factor 2 missing in M11",
         lambda q, arm: derivatives(q, arm, pattern=np.array([[1.0, 1.0], [1.0, 0.0]])),
-        "Your {0} comes from an M11 whose coupling is too small by half. Square the velocity of link "
-        "2's centre of mass again: how often does the mixed product appear?",
+        "Your {0} comes from an M11 whose coupling is half of what it should be. Square the "
+        "velocity of link 2's centre of mass again: how often does the mixed product appear?",
     ),
     (
         "coupling in M22",
@@ -115,42 +115,43 @@ M_DOT = (
     Mistake(
         "velocity of the other joint",
         lambda q, qd, arm: right.h(q, arm) * qd[0] * PATTERN,
-        "You multiply ∂M/∂q2 by q̇1. In the chain rule, with which velocity does the derivative with "
-        "respect to q2 go?",
+        "You multiply ∂M/∂q2 by q̇1. In the chain rule, which velocity goes with the derivative "
+        "with respect to q2?",
     ),
     Mistake(
         "sum of both velocities",
         lambda q, qd, arm: right.h(q, arm) * (qd[0] + qd[1]) * PATTERN,
-        "You multiply ∂M/∂q2 by q̇1 + q̇2. In the chain rule each derivative has its own velocity: "
-        "which is that of q2?",
+        "You multiply ∂M/∂q2 by q̇1 + q̇2. In the chain rule each derivative has its own "
+        "velocity: which one belongs to q2?",
     ),
     Mistake(
         "chain rule forgotten",
         lambda q, qd, arm: right.h(q, arm) * PATTERN,
-        "This is the derivative with respect to q2, in kg·m² for each radian. Ṁ is one with respect "
-        "to time: what does the chain rule add?",
+        "You return the derivative with respect to q2, in kg·m²/rad. Ṁ is the derivative with "
+        "respect to time: what does the chain rule add?",
     ),
     Mistake(
         "derivative with respect to q1 only",
         lambda q, qd, arm: np.zeros((2, 2)),
-        "Your Ṁ is zero. M does not change with q1, that is true. What else in M changes with time?",
+        "Your Ṁ is zero. It is true that M does not change with q1. What else in M changes with "
+        "time?",
     ),
     Mistake(
         "twice C",
         lambda q, qd, arm: 2 * right.C(q, qd, arm),
-        "This is 2C. It equals Ṁ only under the quadratic form with q̇; compare the two matrices "
-        "entry by entry.",
+        "You return 2C. q̇ᵀ(2C)q̇ is the same as q̇ᵀṀq̇, but the two matrices differ: compare "
+        "them entry by entry.",
     ),
     Mistake(
         "M itself",
         lambda q, qd, arm: right.M(q, arm),
-        "This is M, not how fast it changes.",
+        "You return M itself. How fast does M change?",
     ),
     Mistake(
         "constants differentiated",
         lambda q, qd, arm: right.M(q, arm) * qd[1],
-        "You multiply M by a velocity, where its derivative is to be multiplied. What is the "
-        "derivative of the constant parts of M?",
+        "You multiply M by a velocity, where its derivative belongs. What is the derivative of "
+        "the constant parts of M?",
     ),
     *(
         Mistake(name, lambda q, qd, arm, D=D: D(q, arm) @ qd, sentence.format("Ṁ"))
@@ -159,13 +160,13 @@ M_DOT = (
     Mistake(
         "C for the derivative",
         right.C,
-        "This is C. It is made of the same derivatives as Ṁ, but is M symmetric, and can its "
-        "derivative be otherwise?",
+        "You return C. It is made of the same derivatives as Ṁ, but M is symmetric: can its "
+        "derivative be anything else?",
     ),
     Mistake(
         "half of it",
         lambda q, qd, arm: 0.5 * right.M_dot(q, qd, arm),
-        "Your Ṁ is half of the right one. The ½ stands in the kinetic energy; does it stand in M?",
+        "Your Ṁ is half the right one. There is a ½ in the kinetic energy: is it a part of M?",
     ),
 )
 M_DOT_TERMS = (
@@ -180,72 +181,72 @@ def _h_times(pattern):
 
 
 COLUMN = (
-    "This is the vector C q̇, or a matrix made of it. C is the square matrix that gives this vector "
-    "when it is multiplied by q̇."
+    "You return the vector C q̇, or a matrix made of it. Which square matrix gives this vector "
+    "when you multiply it by q̇?"
 )
 ROW_SUMS = (
-    "You have C times a vector of ones: its rows are summed. Which vector must C be multiplied by to "
-    "give the Coriolis and centrifugal torque?"
+    "You have C times a vector of ones, which only sums its rows. By which vector must you "
+    "multiply C to get the Coriolis and centrifugal torque?"
 )
 NOT_SKEW = (
-    "Your C gives the right C q̇, and the energy is kept with it, but Ṁ − 2C is not skew-symmetric: "
-    "C + Cᵀ is not Ṁ. What is missing is a property of the Christoffel choice. How does it share the "
-    "product q̇1 q̇2 between the entries of a row?"
+    "Your C gives the right C q̇ and keeps the energy, but Ṁ − 2C is not skew-symmetric: C + Cᵀ "
+    "is not Ṁ. The Christoffel form has this property. How does it share the product q̇1 q̇2 "
+    "between the entries of a row?"
 )
-NO_HALF = "Your C is twice the right one. What stands in front of the Christoffel symbol?"
+NO_HALF = "Your C is twice the right one. Which factor do the Christoffel symbols begin with?"
 TRANSPOSED = (
-    "This is the transpose of C, which is also Ṁ − C. It passes the tests of energy and "
-    "skew-symmetry, but not C q̇: which index of h_ijk numbers the row?"
+    "You return the transpose of C, which is also Ṁ − C. It keeps the energy and the "
+    "skew-symmetry, but it gives a wrong C q̇: which index of h_ijk numbers the row?"
 )
 HALF_M_DOT = (
-    "This is half of Ṁ. It makes Ṁ − 2C zero, and zero is skew; but it does not give the right C q̇. "
-    "Which terms of the Euler–Lagrange equation does it leave out?"
+    "You return half of Ṁ. It makes Ṁ − 2C zero, which is skew-symmetric, but it does not give "
+    "the right C q̇. Which terms of the Euler–Lagrange equation does it leave out?"
 )
 M_DOT_FOR_C = (
-    "This is Ṁ. It is one part of what Euler–Lagrange gives with q̇: what comes from the derivative of "
-    "the kinetic energy with respect to q?"
+    "You return Ṁ, which is only one part of what the Euler–Lagrange equation gives. What comes "
+    "from the derivative of the kinetic energy with respect to q?"
 )
 LAST_SIGN = (
-    "The last of the three derivatives in your Christoffel symbol has the wrong sign. It comes from "
-    "−∂K/∂q: what does that do to it?"
+    "The last of the three derivatives in your Christoffel symbol has the wrong sign. It comes "
+    "from −∂K/∂q: what sign does that give it?"
 )
 LAST_MISSING = (
-    "Your C leaves out −∂K/∂q: only the terms from d/dt(∂K/∂q̇) are in it. Where does M(q) in the "
-    "kinetic energy enter once more?"
+    "Your C leaves out −∂K/∂q and holds only the terms from d/dt(∂K/∂q̇). Where else in the "
+    "Euler–Lagrange equation is M(q) differentiated?"
 )
 SECOND_MISSING = (
-    "One of the two derivatives with a plus in your Christoffel symbol is missing. d/dt(M q̇) gives "
-    "∂M_ij/∂q_k once; how is it shared between the velocities j and k?"
+    "One of the two derivatives with a plus is missing from your Christoffel symbol. d/dt(M q̇) "
+    "gives ∂M_ij/∂q_k once: how do the velocities j and k share it?"
 )
 FIRST_INDEX = (
     "You sum the Christoffel symbols over the wrong index. Which index of h_ijk is left free for the "
     "row, and which one goes with q̇_k?"
 )
 NO_VELOCITY = (
-    "Your sum over k has no velocity in it: the matrix you return does not change with q̇. By what is "
-    "each h_ijk multiplied?"
+    "Your sum over k has no velocity in it, so your matrix does not change with q̇. What must "
+    "multiply each h_ijk?"
 )
 WRONG_VELOCITY = (
-    "You multiply h_ijk by the velocity of the row or the column instead of that of the index you "
-    "sum over. Which index is summed in C_ij?"
+    "You multiply h_ijk by the velocity of the row or of the column. Over which index does the "
+    "sum in C_ij run?"
 )
 LAST_NOT_HALVED = (
     "The last of the three derivatives in your Christoffel symbol counts twice as much as it should. "
     "The kinetic energy has a ½: what stands in front of its derivative with respect to q?"
 )
 FIRST_MISSING = (
-    "The derivative of M_ij itself, with respect to q_k, is missing or shared wrongly in your "
-    "Christoffel symbol. Where does d/dt act on M?"
+    "Your Christoffel symbol leaves out the derivative of M_ij itself, with respect to q_k, or "
+    "shares it wrongly. Where does d/dt act on M?"
 )
 SIGN = (
-    "All of your C has the wrong sign. Look at the sign of each derivative of M, and at the side of "
-    "the equation on which C q̇ stands."
+    "Your whole C has the wrong sign. Look at the sign of each derivative of M. On which side of "
+    "the equation does C q̇ stand?"
 )
-M_DOT_LESS_2C = "This is Ṁ − 2C, the matrix that is to be tested. C itself is asked for."
-M_FOR_C = "This is M. It multiplies q̈; C multiplies q̇ and is made of the derivatives of M."
+M_DOT_LESS_2C = "You return Ṁ − 2C, the matrix that you test later. Which matrix is asked for here?"
+M_FOR_C = "You return M, which multiplies q̈. C multiplies q̇, and is made of the derivatives of M."
 ZERO = (
-    "Your C is zero. Do the derivatives in it act on M with respect to the coordinates q, and does M "
-    "change with them?"
+    "Your C is zero. Do you differentiate M with respect to the coordinates q, and does M change "
+    "with them?"
 )
 
 CORIOLIS = (
@@ -269,8 +270,8 @@ CORIOLIS = (
     Mistake(
         "sign of the centrifugal term of joint 1",
         _h_times(lambda a, b: [[b, a - b], [-a, 0.0]]),
-        "The term with q̇2² in the first row of your C q̇ has the wrong sign. From which derivative of "
-        "M does it come?",
+        "The term with q̇2² in the first row of your C q̇ has the wrong sign. Which derivative of "
+        "M does it come from?",
     ),
     Mistake(
         "centrifugal term of joint 1 missing",
@@ -280,13 +281,14 @@ CORIOLIS = (
     Mistake(
         "sign of the centrifugal term of joint 2",
         _h_times(lambda a, b: [[b, a + b], [a, 0.0]]),
-        "The second row of your C has the wrong sign: link 2 would be pulled inwards by the rotation "
-        "of link 1. From which term of Euler–Lagrange does this row come, and with which sign?",
+        "The second row of your C has the wrong sign: as link 1 turns, it would pull link 2 "
+        "inwards. Which term of the Euler–Lagrange equation gives this row, and with which sign?",
     ),
     Mistake(
         "centrifugal term of joint 2 missing",
         _h_times(lambda a, b: [[b, a + b], [0.0, 0.0]]),
-        "The second row of your C is zero. Link 1 alone turns: does link 2 feel nothing of it?",
+        "The second row of your C is zero. When link 1 turns alone, does link 2 feel nothing of "
+        "it?",
     ),
     Mistake("C q̇ for C", lambda q, qd, arm: np.diag(right.C(q, qd, arm) @ qd), COLUMN),
     Mistake("C times ones", lambda q, qd, arm: np.diag(right.C(q, qd, arm) @ np.ones(2)), ROW_SUMS),
@@ -312,8 +314,8 @@ CORIOLIS = (
     Mistake(
         "velocities exchanged",
         _h_times(lambda a, b: [[a, a + b], [-b, 0.0]]),
-        "The velocities q̇1 and q̇2 have changed places in your C. With which velocity does a "
-        "derivative with respect to q2 go?",
+        "You swapped the velocities q̇1 and q̇2 in your C. Which velocity goes with a derivative "
+        "with respect to q2?",
     ),
     Mistake("M for C", lambda q, qd, arm: right.M(q, arm), M_FOR_C),
     Mistake("zero", lambda q, qd, arm: np.zeros((2, 2)), ZERO),
@@ -366,8 +368,8 @@ OTHER = (
     Mistake(
         "C itself",
         right.C,
-        "This is the Christoffel C again. Its Ṁ − 2C is skew-symmetric, and here one is asked for "
-        "that is not. What may be added to C without changing C q̇?",
+        "You return the Christoffel C again, for which Ṁ − 2C is skew-symmetric. Here you need a "
+        "C for which it is not. What can you add to C without changing C q̇?",
     ),
     Mistake("transposed", lambda q, qd, arm: right.C(q, qd, arm).T, TRANSPOSED),
     Mistake("half of M_dot", lambda q, qd, arm: 0.5 * right.M_dot(q, qd, arm), HALF_M_DOT),
@@ -377,7 +379,7 @@ OTHER = (
     Mistake(
         "scaled",
         lambda q, qd, arm: 2 * right.C(q, qd, arm),
-        "This is 2C. Multiplying C changes C q̇ as well; what is to be kept is C q̇.",
+        "You return 2C, and so you change C q̇ as well. What can you add to C without changing C q̇?",
     ),
     Mistake("zero", lambda q, qd, arm: np.zeros((2, 2)), ZERO),
     Mistake(
@@ -395,13 +397,13 @@ OTHER = (
     Mistake(
         "first entry dropped",
         _h_times(lambda a, b: [[0.0, a + b], [-a, 0.0]]),
-        "The entry that you took out of the first column is lost: C q̇ has half of its term with "
-        "q̇1 q̇2 now. Where in the row can it go so that C q̇ stays?",
+        "You took an entry out of the first column and lost it: C q̇ now has only half of its "
+        "term with q̇1 q̇2. Where in the row can the entry go so that C q̇ stays the same?",
     ),
     Mistake(
         "columns exchanged",
         lambda q, qd, arm: right.C(q, qd, arm)[:, ::-1],
-        "The columns of C have changed places, but q̇1 and q̇2 have not. Is C q̇ the same?",
+        "You swapped the columns of C, but not q̇1 and q̇2. Is C q̇ still the same?",
     ),
 )
 
@@ -492,8 +494,8 @@ CHRISTOFFEL = tuple(
         (
             "second kind",
             lambda D, qd, M: np.linalg.solve(M, coriolis(D, qd)),
-            "These are Christoffel symbols of the second kind: M⁻¹ has been multiplied in. That is "
-            "right for q̈ = …; in M q̈ + C q̇ + … = u, has M⁻¹ a place?",
+            "Your Christoffel symbols are of the second kind: you multiplied M⁻¹ into them. That "
+            "is right for q̈ = …, but does M⁻¹ have a place in M q̈ + C q̇ + … = u?",
         ),
         ("zero", lambda D, qd, M: np.zeros((len(qd), len(qd))), ZERO),
         ("M for C", lambda D, qd, M: M, M_FOR_C),

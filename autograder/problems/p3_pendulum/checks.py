@@ -8,11 +8,11 @@ from math import cos, sin, sqrt
 
 import numpy as np
 
-from autograder.problems.material import sampling
-from autograder.judging.diagnosis import Term
 from autograder.judging.check import Check, Criterion
-from autograder.problems.p3_pendulum import mistakes
+from autograder.judging.diagnosis import Term
 from autograder.judging.quantities import UnfitError, each
+from autograder.problems.material import sampling
+from autograder.problems.p3_pendulum import mistakes
 from autograder.protocol import Call, Symbol
 
 LAGRANGIAN_ARGUMENTS = ("q", "qd", "m", "lc", "I", "g")
@@ -88,14 +88,14 @@ CHECKS = (
             ),
         ),
         hints=(
-            "Two energies, one each: how fast does the body turn, and how high has its centre of mass "
-            "risen?",
+            "L is made of two energies. For the first: how fast does the body turn? For the "
+            "second: how high has its centre of mass risen?",
             "The body turns about a fixed point. If the inertia is taken about that point, one term "
             "holds the whole kinetic energy. For the height, draw the pendulum at q and mark how far "
             "below the pivot the centre of mass is.",
-            "Half an inertia times the square of a velocity; a weight times a height that is 0 at "
-            "q = 0, ℓc at q = π/2 and twice ℓc at q = π. Which function of q does that? Then L is the "
-            "first less the second.",
+            "One is half an inertia times the square of a velocity. The other is a weight times a "
+            "height that is 0 at q = 0, ℓc at q = π/2 and twice ℓc at q = π: which function of q "
+            "does that? L is the first minus the second.",
         ),
     ),
     Check(
@@ -113,8 +113,8 @@ CHECKS = (
             "The cell below your Lagrangian prints the equation of motion. What stands before qdd?",
             "Compare with the figure's table: about which point is the given inertia taken, and about "
             "which does the body turn?",
-            "The same point: nothing is to be added to the given inertia, and q does not enter. Give "
-            "it the form of a matrix with one row and one column.",
+            "It is the same point, so you add nothing to the given inertia, and q does not enter. "
+            "Write it as a matrix with one row and one column.",
         ),
     ),
     Check(
@@ -151,9 +151,10 @@ CHECKS = (
             "What is left of the printed equation of motion when nothing moves?",
             "It is the derivative of P by q. Where does it vanish, and where is it largest: hanging, "
             "or level?",
-            "A weight on a lever arm, and the arm is the horizontal distance of the centre of mass "
-            "from the pivot, q counted from hanging. To hold the body at a small positive q the motor "
-            "must push in the positive direction: that is the sign of g on the left side.",
+            "A torque is a force on a lever arm. The force is the weight, and the arm is the "
+            "horizontal distance of the centre of mass from the pivot. To hold the body at a "
+            "small positive q, the motor must push in the positive direction: that is the sign of "
+            "g on the left side.",
         ),
     ),
     Check(
@@ -168,11 +169,11 @@ CHECKS = (
             Term("the inertia of a point mass", lambda I_com, m, lc: m * lc**2),
         ),
         hints=(
-            "The parallel-axis theorem moves an inertia between two parallel axes, of which one goes "
-            "through the centre of mass.",
-            "What is added is what a point mass would have that sits where the centre of mass is.",
-            "Of all parallel axes the one through the centre of mass has the smallest inertia, so the "
-            "inertia of that point mass comes on top. Check the unit: kg·m².",
+            "The parallel-axis theorem moves an inertia between two parallel axes, one of which "
+            "goes through the centre of mass.",
+            "You add the inertia that a point mass at the centre of mass would have.",
+            "Of all parallel axes the one through the centre of mass has the smallest inertia, so "
+            "you must add the inertia of that point mass. Check the unit: kg·m².",
         ),
     ),
     Check(
@@ -183,11 +184,11 @@ CHECKS = (
         criteria=(Criterion("angular frequency of small swings", "rad/s"),),
         mistakes=mistakes.SMALL_ANGLE_FREQUENCY,
         hints=(
-            "Write the equation of motion with u = 0, and put q in the place of sin q.",
+            "Write down the equation of motion with u = 0, and replace sin q by q.",
             "Divide by what stands before q̈. An oscillator has q̈ and the angle itself, with one "
             "constant factor: what is that factor called?",
-            "The factor before q is the square of the angular frequency. In it stand the weight, its "
-            "lever arm and the inertia about the pivot. A root gives rad/s; 2π is not needed.",
+            "The factor before q is the square of the angular frequency. It holds the weight, its "
+            "lever arm and the inertia about the pivot. A root gives rad/s; you do not need 2π.",
         ),
     ),
 )

@@ -4,12 +4,11 @@ from math import pi
 
 import numpy as np
 
-from autograder.problems.material import planar_2r
-from autograder.problems.material import sampling
-from autograder.judging.diagnosis import Term
 from autograder.judging.check import Check, Criterion
-from autograder.problems.p4_gravity import mistakes
+from autograder.judging.diagnosis import Term
 from autograder.judging.quantities import UnfitError, each, one_number, vector
+from autograder.problems.material import planar_2r, sampling
+from autograder.problems.p4_gravity import mistakes
 from autograder.protocol import Call
 
 FOUR = np.array([(-pi / 2, 0), (-pi / 2, pi), (pi / 2, 0), (pi / 2, pi)])
@@ -147,8 +146,8 @@ CHECKS = (
         hints=(
             "P of a link is its weight times the height of its centre of mass. Draw the arm at "
             "q1 = 30°, q2 = 40° and mark both heights above the shoulder.",
-            "Link 2 begins at the elbow. Its centre of mass is as high as the elbow, and then some "
-            "more: how high is the elbow, and what angle does link 2 make with the x axis?",
+            "Link 2 begins at the elbow. Its centre of mass is as high as the elbow, and then "
+            "some more. How high is the elbow, and what angle does link 2 make with the x axis?",
             "q2 is measured from link 1, so the angle of link 2 with the x axis is a sum. A length "
             "at an angle from the x axis rises by its sine. Now add weight times height, link by link.",
         ),
@@ -173,12 +172,12 @@ CHECKS = (
             ),
         ),
         hints=(
-            "g has one entry a joint: the partial derivatives of your P, by q1 and by q2, each with "
-            "the other angle held.",
+            "g has one entry for each joint: the partial derivatives of your P, by q1 and by q2, "
+            "each with the other angle held still.",
             "Underline q1 in your P. It stands in more than one term. In which of them does q2 stand?",
-            "The chain rule on an angle q1 + q2 gives the same factor for both joints. So one term is "
-            "found in g1 and again in g2. Check with the arm level: g1 is every weight times its "
-            "distance from the shoulder.",
+            "The chain rule gives the same factor for both joints where the angle is q1 + q2, so "
+            "you find one term in g1 and again in g2. Check with the arm level: g1 is every "
+            "weight times its distance from the shoulder.",
         ),
         pose=_pose,
     ),
@@ -200,8 +199,8 @@ CHECKS = (
             "what does P lose by that?",
             "A small turn dq moves the centre of mass by Jv dq. Put that into the work, and collect "
             "what stands before dq.",
-            "What stands before dq is a row; g is its column, so Jv comes transposed. Then add all "
-            "links, each with its own mass, and look at the sign: P falls along g0.",
+            "What stands before dq is a row and g is its column, so you must transpose Jv. Then "
+            "add up all links, each with its own mass, and look at the sign: P falls along g0.",
         ),
     ),
     Check(
@@ -215,8 +214,10 @@ CHECKS = (
                 "gravity torque at each configuration you give, as a share of the largest",
                 "",
                 0.5,
-                otherwise="At one of your configurations at least, gravity still asks for a torque. "
-                "Put each of them into your g_vec.",
+                otherwise=(
+                    "At least one of your configurations still needs a torque against gravity. "
+                    "Put each of them into your g_vec."
+                ),
             ),
             Criterion(
                 "turn from each of the four equilibria to the nearest of yours",

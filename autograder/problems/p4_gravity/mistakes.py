@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from autograder.judging.diagnosis import Mistake
+from autograder.problems.material import sentences
 from autograder.problems.material.planar_2r import changed, g_vec, potential_energy
 
 # The arm of the notebook's set-up cell.
@@ -38,18 +39,12 @@ def _with(model, **parameters):
 
 
 HARD_CODED_G = (
-    "Your answer is right on Earth only: 9.81 is written into it. The check also puts the arm on "
-    "other planets; which parameter of arm gives g?"
+    "Your answer is right only on Earth, because you typed 9.81 into it. The check also puts the "
+    "arm on other planets: which parameter of arm gives g?"
 )
 EXAMPLE_ARM = (
-    "These are the numbers of the arm in the set-up cell, whatever arm is given. Where does your "
-    "function read the parameters of its own argument?"
-)
-ONCE_TOO_OFTEN = (
-    "The angles are turned from degrees to radians once too often: q comes in radians already."
-)
-IN_DEGREES = (
-    "NumPy takes angles in radians, and q is in radians already: nothing is to be converted."
+    "You always use the numbers of the arm in the set-up cell, whatever arm is given. Where does "
+    "your function read the parameters of its own argument?"
 )
 LINK_1_LENGTH = (
     "You let the weight of link 1 act at its end. Which of l1 and lc1 leads to the centre of mass "
@@ -64,7 +59,7 @@ ELBOW_AT_LC1 = (
     "parameter says so?"
 )
 MASSES_MISSING = "The masses are missing. What is the weight of a link?"
-MASSES_SWAPPED = "m1 and m2 have changed places. Which link carries which mass?"
+MASSES_SWAPPED = "You swapped m1 and m2. Which mass belongs to which link?"
 G_MISSING = "The gravitational acceleration g is missing. What is the weight of a link?"
 
 POTENTIAL = (
@@ -77,44 +72,45 @@ POTENTIAL = (
     Mistake(
         "cosine for sine",
         lambda q, arm: _energy(arm, np.cos(q[0]), np.cos(q[0] + q[1])),
-        "Your P uses cosines: how far out the links reach, or their heights if the angles were "
-        "measured from upright. From which axis is q1 measured, and how high is link 1 at q1 = 0?",
+        "Your P uses cosines. They tell how far out the links reach, or how high, if the angles "
+        "were measured from upright. From which axis is q1 measured, and how high is link 1 at q1 "
+        "= 0?",
     ),
     Mistake(
         "the pendulum's convention",
         lambda q, arm: -_energy(arm, np.cos(q[0]), np.cos(q[0] + q[1])),
-        "Your P measures the angles from hanging down, as the pendulum of problem 3 does. From "
+        "Your P measures the angles from hanging down, as problem 3 does for the pendulum. From "
         "which axis is q1 measured here, and how high is link 1 at q1 = 0?",
     ),
     Mistake(
         "absolute second angle",
         lambda q, arm: _energy(arm, np.sin(q[0]), np.sin(q[1])),
-        "Your P takes q2 for the direction of link 2 in space. From what is q2 measured?",
+        "Your P takes q2 for the direction of link 2 in space. From where is q2 measured?",
     ),
     Mistake(
         "second angle the wrong way round",
         lambda q, arm: _energy(arm, np.sin(q[0]), np.sin(q[0] - q[1])),
         "Your P takes the difference of the angles for the direction of link 2. Turn the elbow a "
-        "little counter-clockwise: does the direction of link 2 grow or shrink?",
+        "little counter-clockwise: does link 2's angle with the x axis grow or shrink?",
     ),
     Mistake(
         "elbow changes nothing",
         lambda q, arm: _energy(arm, np.sin(q[0]), 0.0),
-        "Your P does not change as the elbow turns: the whole mass of link 2 seems to sit at the "
-        "elbow, or is left out. Where is its centre of mass?",
+        "Your P does not change as the elbow turns, as if the whole mass of link 2 sat at the "
+        "elbow or were left out. Where is its centre of mass?",
     ),
     Mistake(
         "elbow's height left out",
         lambda q, arm: (
             arm.g * (arm.m1 * arm.lc1 * np.sin(q[0]) + arm.m2 * arm.lc2 * np.sin(q[0] + q[1]))
         ),
-        "Your P lifts link 2 from the height of the shoulder. At what height is the elbow, where "
-        "link 2 begins?",
+        "In your P, link 2 begins at the height of the shoulder. How high is the elbow, where it "
+        "really begins?",
     ),
     Mistake(
         "link 1 left out",
         _with(potential_energy, m1=0.0),
-        "Link 1 does not add to your P. Which mass does link 1 lift by itself?",
+        "Your P leaves out the weight of link 1. How high is the centre of mass of link 1?",
     ),
     Mistake("l1 for lc1", _on(potential_energy, lc1="l1"), LINK_1_LENGTH),
     Mistake("l2 for lc2", _on(potential_energy, lc2="l2"), LINK_2_LENGTH),
@@ -122,7 +118,7 @@ POTENTIAL = (
     Mistake(
         "half",
         lambda q, arm: potential_energy(q, arm) / 2,
-        "Your P is half the right one. The ½ belongs to a kinetic energy; does it belong here?",
+        "Your P is half the right one. A ½ belongs to a kinetic energy: does it belong here?",
     ),
     Mistake("masses missing", _with(potential_energy, m1=1.0, m2=1.0), MASSES_MISSING),
     Mistake("masses swapped", _on(potential_energy, m1="m2", m2="m1"), MASSES_SWAPPED),
@@ -132,12 +128,12 @@ POTENTIAL = (
     Mistake(
         "radians taken for degrees",
         lambda q, arm: potential_energy([radians(angle) for angle in q], arm),
-        ONCE_TOO_OFTEN,
+        sentences.RADIANS_CONVERTED,
     ),
     Mistake(
         "angles in degrees",
         lambda q, arm: potential_energy([degrees(angle) for angle in q], arm),
-        IN_DEGREES,
+        sentences.IN_DEGREES,
     ),
 )
 
@@ -151,8 +147,8 @@ GRAVITY = (
     Mistake(
         "sine for cosine",
         lambda q, arm: _torque(arm, np.sin(q[0]), np.sin(q[0] + q[1])),
-        "You have the sine where the cosine belongs: with the links level, your arm feels no "
-        "gravity. Has P been differentiated, and from which axis is q1 measured?",
+        "You have the sine where the cosine belongs: your arm feels no gravity when its links are "
+        "level. Have you differentiated P, and from which axis is q1 measured?",
     ),
     Mistake(
         "sine for cosine, reversed",
@@ -163,30 +159,30 @@ GRAVITY = (
     Mistake(
         "absolute second angle",
         lambda q, arm: _torque(arm, np.cos(q[0]), np.cos(q[1])),
-        "You take q2 for the direction of link 2 in space. From what is q2 measured?",
+        "You take q2 for the direction of link 2 in space. From where is q2 measured?",
     ),
     Mistake(
         "second angle the wrong way round",
         lambda q, arm: _torque(arm, np.cos(q[0]), np.cos(q[0] - q[1])),
-        "You take the difference of the angles for the direction of link 2. Turn the elbow a little "
-        "counter-clockwise: does the direction of link 2 grow or shrink?",
+        "You take the difference of the angles for the direction of link 2. Turn the elbow a "
+        "little counter-clockwise: does link 2's angle with the x axis grow or shrink?",
     ),
     Mistake(
         "link 2 left out of g1",
         lambda q, arm: g_vec(q, arm) - [arm.m2 * arm.lc2 * arm.g * np.cos(q[0] + q[1]), 0.0],
-        "In your g1 the term of link 2's direction is missing. Does that direction change when "
-        "joint 1 turns and q2 stays?",
+        "Your g1 lacks the term with the direction of link 2. Does that direction change when "
+        "joint 1 turns and q2 stays the same?",
     ),
     Mistake(
         "elbow left out of g1",
         lambda q, arm: g_vec(q, arm) - [arm.m2 * arm.l1 * arm.g * np.cos(q[0]), 0.0],
-        "In your g1 the mass m2 lifted with the elbow is missing. What does joint 1 carry besides "
-        "its own link?",
+        "Your g1 leaves out the weight of m2 at the elbow. What does joint 1 carry besides its "
+        "own link?",
     ),
     Mistake(
         "link 1 left out",
         _with(g_vec, m1=0.0),
-        "In your g1 the weight of link 1 is missing.",
+        "Your g1 leaves out the weight of link 1. What does joint 1 carry besides link 2?",
     ),
     Mistake(
         "elbow in g2",
@@ -202,17 +198,17 @@ GRAVITY = (
                 arm.m2 * arm.g * (arm.l1 * np.sin(q[0]) + arm.lc2 * np.sin(q[0] + q[1])),
             ]
         ),
-        "These are the potential energies of the links, one by one. What turns P(q) into g(q)?",
+        "You return the potential energies of the two links. What turns P(q) into g(q)?",
     ),
     Mistake(
         "potential energy for torque",
         lambda q, arm: np.full(2, potential_energy(q, arm)),
-        "This is the potential energy P, in joules. What turns P(q) into g(q)?",
+        "You return the potential energy P, in joules. What turns P(q) into g(q)?",
     ),
     Mistake(
         "entries swapped",
         lambda q, arm: g_vec(q, arm)[::-1],
-        "The torques of the two joints have changed places.",
+        "You swapped the torques of the two joints. Which joint carries both links?",
     ),
     Mistake("l1 for lc1", _on(g_vec, lc1="l1"), LINK_1_LENGTH),
     Mistake("l2 for lc2", _on(g_vec, lc2="l2"), LINK_2_LENGTH),
@@ -225,12 +221,12 @@ GRAVITY = (
     Mistake(
         "radians taken for degrees",
         lambda q, arm: g_vec([radians(angle) for angle in q], arm),
-        ONCE_TOO_OFTEN,
+        sentences.RADIANS_CONVERTED,
     ),
     Mistake(
         "angles in degrees",
         lambda q, arm: g_vec([degrees(angle) for angle in q], arm),
-        IN_DEGREES,
+        sentences.IN_DEGREES,
     ),
 )
 
@@ -263,25 +259,28 @@ def _reshaped(jacobians_v, masses, g0):
 
 
 LENGTH_OF_G0 = (
-    "You use the length of g0 and let gravity point straight along one axis. What does the "
-    "direction of the vector g0 say?"
+    "You use only the length of g0 and let gravity point straight along one axis. What does the "
+    "direction of the vector g0 tell you?"
 )
 ONE_COMPONENT = (
-    "You use one component of g0 only. A robot may hang on a wall or on a slope: which components "
+    "You use only one component of g0. A robot may hang on a wall or on a slope: which components "
     "of g0 do work when a centre of mass moves?"
 )
-EARTH = "9.81 is written into your function. How strong gravity is, and where it points, are both in g0."
+EARTH = (
+    "You typed 9.81 into your function. Which argument tells how strong gravity is, and where it "
+    "points?"
+)
 LOADS = (
-    "You add the masses up along the chain. Each Jacobian belongs to one centre of mass: the mass "
-    "of how many links is there?"
+    "You add up the masses along the chain. Each Jacobian belongs to one centre of mass: how many "
+    "links have their mass there?"
 )
 
 FROM_JACOBIANS = (
     Mistake(
         "sign of gravity",
         lambda jacobians_v, masses, g0: -_from_jacobians(jacobians_v, masses, g0),
-        "Your gravity torque is reversed. g0 points down: does P grow or fall when a centre of mass "
-        "moves along g0?",
+        "Your gravity torque has the wrong sign. g0 points down: does P grow or fall when a "
+        "centre of mass moves along g0?",
     ),
     Mistake(
         "length of g0 against y",
@@ -307,12 +306,12 @@ FROM_JACOBIANS = (
         lambda jacobians_v, masses, g0: _from_jacobians(
             jacobians_v, masses, g0 / np.linalg.norm(g0)
         ),
-        "You use the direction of g0 only. How strong is gravity?",
+        "You use only the direction of g0. How strong is gravity?",
     ),
     Mistake(
         "masses ignored",
         _masses(np.ones_like),
-        "The masses are left out. What turns the acceleration g0 into a force on a link?",
+        "You leave out the masses. What turns the acceleration g0 into a force on a link?",
     ),
     Mistake("masses added up from the base", _masses(np.cumsum), LOADS),
     Mistake(
@@ -323,29 +322,28 @@ FROM_JACOBIANS = (
     Mistake(
         "total mass at every link",
         _masses(lambda masses: np.full_like(masses, masses.sum())),
-        "Every centre of mass carries the mass of the whole robot here. Which mass belongs to which "
+        "You put the mass of the whole robot at every centre of mass. Which mass belongs to which "
         "Jacobian?",
     ),
     Mistake(
         "first link left out",
         _masses(lambda masses: masses * (np.arange(len(masses)) > 0)),
-        "The first link is left out of your sum. At which index does a list begin?",
+        sentences.FIRST_LINK_LEFT_OUT,
     ),
     Mistake(
         "last link left out",
         _masses(lambda masses: masses * (np.arange(len(masses)) < len(masses) - 1)),
-        "The last link is left out of your sum. Where does your loop end?",
+        sentences.LAST_LINK_LEFT_OUT,
     ),
     Mistake(
         "last link alone",
         _masses(lambda masses: masses * (np.arange(len(masses)) == len(masses) - 1)),
-        "Only the last link is in your result. Is each link added, or does it replace the one before?",
+        sentences.LAST_LINK_ONLY,
     ),
     Mistake(
         "reshaped for transposed",
         _reshaped,
-        "Reshaping an array is not transposing it: the shape fits, but the entries are in other "
-        "places.",
+        sentences.RESHAPED,
     ),
 )
 
@@ -361,15 +359,16 @@ def _only(*configurations):
 
 LEVEL = (
     "Your configurations hold the links level, where gravity pulls hardest. From which axis is q1 "
-    "measured, and is it P or its gradient that must vanish?"
+    "measured? Which must vanish: P, or its gradient?"
 )
 STRETCHED = (
-    "Yours are equilibria, but only with the arm stretched. Must both links point the same way for "
-    "both torques to vanish?"
+    "Your configurations are equilibria, but in all of them the arm is stretched. Must both links "
+    "point the same way for both torques to vanish?"
 )
+# Folded back, the same torques and distances come out: one model stands for both.
 QUARTER = (
-    "Where you fold the elbow by a quarter turn, link 2 lies level and pulls on both joints. By how "
-    "much must the elbow turn from stretched to folded?"
+    "You fold the elbow by a quarter turn. Link 2 then lies level and pulls on both joints. How "
+    "far must the elbow turn from stretched to folded?"
 )
 
 EQUILIBRIA = (
@@ -377,39 +376,38 @@ EQUILIBRIA = (
     Mistake(
         "stable only",
         _only((-pi / 2, 0)),
-        "Only the arm hanging down is in your answer. An equilibrium need not be stable: where else "
-        "do both torques vanish?",
+        "Your answer holds only the arm hanging down. An equilibrium need not be stable: where "
+        "else do both torques vanish?",
     ),
     Mistake(
         "one value of the inverse cosine",
         _only((pi / 2, 0)),
-        "Only the arm standing upright is in your answer. An inverse cosine gives one angle: how "
+        "Your answer holds only the arm standing upright. An inverse cosine gives one angle: how "
         "many angles on the circle have this cosine?",
     ),
     Mistake(
         "link 1 up only",
         _only((pi / 2, 0), (pi / 2, pi)),
-        "Yours are equilibria, but in all of them link 1 points up. Which other direction of link 1 "
-        "asks for no torque?",
+        "Your configurations are equilibria, but in all of them link 1 points up. In which other "
+        "direction does link 1 need no torque?",
     ),
     Mistake(
         "link 1 down only",
         _only((-pi / 2, 0), (-pi / 2, pi)),
-        "Yours are equilibria, but in all of them link 1 hangs down. Which other direction of link 1 "
-        "asks for no torque?",
+        "Your configurations are equilibria, but in all of them link 1 hangs down. In which other "
+        "direction does link 1 need no torque?",
     ),
     Mistake("from the vertical", _all((0, pi), (0, pi)), LEVEL),
     Mistake("from the vertical, stretched only", _only((0, 0), (pi, 0)), LEVEL),
     Mistake(
         "absolute second angle",
         _all((-pi / 2, pi / 2), (-pi / 2, pi / 2)),
-        "Your second angle is the direction of link 2 in space. From what is q2 measured?",
+        "Your second angle is the direction of link 2 in space. From where is q2 measured?",
     ),
     Mistake("folded by a quarter turn", _all((-pi / 2, pi / 2), (0, pi / 2)), QUARTER),
-    Mistake("folded by a quarter turn back", _all((-pi / 2, pi / 2), (0, -pi / 2)), QUARTER),
     Mistake(
         "in degrees",
         _all((-90, 90), (0, 180)),
-        "These are the right angles in degrees. In which unit are angles asked for?",
+        "Your angles are correct, but in degrees. In which unit must you give them?",
     ),
 )

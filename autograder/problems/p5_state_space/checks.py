@@ -8,12 +8,10 @@ method of order 4 or more passes, and any tight adaptive solver, while one of or
 
 import numpy as np
 
-from autograder.problems.material import planar_2r
-from autograder.problems.material import sampling
-from autograder.judging.criterion import TOLERANCE
 from autograder.judging.check import Check, Criterion
-from autograder.problems.p5_state_space import mistakes
+from autograder.judging.criterion import TOLERANCE
 from autograder.judging.quantities import UnfitError, each, vector
+from autograder.problems.material import planar_2r, sampling
 from autograder.problems.material.systems import (
     METHOD,
     FreeRun,
@@ -28,6 +26,7 @@ from autograder.problems.material.systems import (
     times,
     torque_function,
 )
+from autograder.problems.p5_state_space import mistakes
 from autograder.protocol import Call, Function
 
 # What order 4 looks like where the step is not yet small. A method of order 3 shows 3.3 at most.
@@ -199,7 +198,7 @@ CHECKS = (
         mistakes=mistakes.RATE,
         terms=mistakes.RATE_TERMS,
         hints=(
-            "Cut x into its two halves first. One half of ẋ is then in your hands without any "
+            "Cut x into its two halves first. One half of ẋ is then there already, without any "
             "physics.",
             "Solve the equation of motion for M q̈. How many torques act beside u, and which of them "
             "depend on q, on q̇, or on both?",
@@ -219,15 +218,19 @@ CHECKS = (
                 "step under a constant rate",
                 "",
                 0.25,
-                otherwise="Even where f gives the same slope everywhere, your step does not follow "
-                "it. What do the weights of the slopes add up to, and where do x, u and dt enter?",
+                otherwise=(
+                    "Your step goes wrong even where f gives the same slope everywhere. What do "
+                    "the weights of the slopes add up to, and where do x, u and dt enter?"
+                ),
             ),
             Criterion(
                 "step under a smooth rate, as exact as order 4 allows",
                 "",
                 0.75,
-                otherwise="Your step is not of order 4. Compare it with the four slopes of the text, "
-                "line by line: where each is taken, and its weight.",
+                otherwise=(
+                    "Your step is not of order 4. Compare it line by line with the four slopes in "
+                    "the text: where do you take each of them, and how much does it count?"
+                ),
                 matching=EXACTLY,
             ),
         ),
@@ -252,47 +255,57 @@ CHECKS = (
                 "row for each time, with u a vector",
                 "",
                 0.2,
-                otherwise="Under a rate that does not change, your rows do not follow it. Which state "
-                "is row 0, and how long is step k?",
+                otherwise=(
+                    "Your rows go wrong even under a rate that does not change. Which state is "
+                    "row 0, and how long is step k?"
+                ),
             ),
             Criterion(
                 "row for each time, with u a function, held over each step",
                 "",
                 0.2,
-                otherwise="With u a function, your rows go wrong. At which time, and with which "
-                "state, is u asked in step k?",
+                otherwise=(
+                    "Your rows go wrong when u is a function. At which time, and with which "
+                    "state, do you ask u in step k?"
+                ),
             ),
             Criterion(
                 "agreement with the exact motion",
                 "",
                 0.2,
-                otherwise="Your states are further from the exact motion than RK4 would be. Is your "
-                "step right and, where you use a solver, are its tolerances tight enough?",
+                otherwise=(
+                    "Your states are further from the exact motion than RK4 would be. Is your "
+                    "step right? If you use a solver, are its tolerances tight enough?"
+                ),
                 matching=EXACTLY,
             ),
             Criterion(
                 "observed order (4 is asked for)",
                 "",
                 0.2,
-                otherwise="Half the step should leave a sixteenth of the error; yours leaves more. "
-                "Is your step right and, where you use a solver, are its tolerances tight enough?",
+                otherwise=(
+                    "Half the step should leave a sixteenth of the error, and yours leaves more. "
+                    "Is your step right? If you use a solver, are its tolerances tight enough?"
+                ),
                 is_property=True,
             ),
             Criterion(
                 "energy of a free motion, as a share of its start",
                 "",
                 0.2,
-                otherwise="A free motion without friction keeps its energy; yours does not, by more "
-                "than RK4 would lose.",
+                otherwise=(
+                    "A free motion without friction keeps its energy. Yours changes it by more "
+                    "than RK4 would."
+                ),
                 is_property=True,
             ),
         ),
         mistakes=mistakes.SIMULATE,
         hints=(
-            "Make an array of len(t) rows first, with x0 in the first row. How many steps are then "
-            "left to take?",
-            "Step k leads from t[k] to t[k + 1], and from row k to row k + 1. Ask u once at its "
-            "start, where u is a function; callable(u) tells.",
+            "First make an array of len(t) rows, with x0 in the first row. How many steps are "
+            "then left to take?",
+            "Step k leads from t[k] to t[k + 1], and from row k to row k + 1. Where u is a "
+            "function, ask it once, at the start of the step; callable(u) tells.",
             "In a loop over range(len(t) - 1): the torque, from t[k] and states[k]; then "
             "states[k + 1] = rk4_step(...). Assign to the row; do not change an array in place.",
         ),
@@ -314,8 +327,8 @@ CHECKS = (
             "First write a function for the energy of one state; then use it on every row.",
             "For the potential energy you need the heights of the two centres of mass. The second "
             "one sits on the elbow and points along q1 + q2.",
-            "Energies in an array E of len(x) entries; the drift compares all of them with one. "
-            "Which one is 0 in your result?",
+            "Put the energies into an array E of len(x) entries. The drift compares all of them "
+            "with one of them. Which entry of your result is 0?",
         ),
     ),
 )

@@ -5,7 +5,16 @@ from types import SimpleNamespace
 import numpy as np
 
 from autograder.judging.diagnosis import Mistake, Term
-from autograder.problems.material.planar_2r import C, M, changed, f_vec, g_vec, kinetic_energy, potential_energy
+from autograder.problems.material import sentences
+from autograder.problems.material.planar_2r import (
+    C,
+    M,
+    changed,
+    f_vec,
+    g_vec,
+    kinetic_energy,
+    potential_energy,
+)
 from autograder.problems.material.systems import rk4, run
 
 # The arm of the notebook; a test holds the two together.
@@ -76,7 +85,7 @@ INTERLEAVED = (
     "four entries?"
 )
 SMOOTH_SIGN = (
-    "Your Coulomb friction fades out at low speed, as with a tanh. The model asked for jumps: how "
+    "Your Coulomb friction fades out at low speed, as a tanh does. In this model it jumps: how "
     "large is dry friction at 0.001 rad/s?"
 )
 AT_REST = (
@@ -88,7 +97,7 @@ RATE = (
     Mistake(
         "halves swapped",
         lambda x, u, arm: np.roll(rate(x, u, arm), 2),
-        "The two halves of your ẋ are swapped. Which half of x is q, and which half of ẋ is its rate "
+        "You swapped the two halves of ẋ. Which half of x is q, and which half of ẋ is its rate "
         "of change?",
     ),
     Mistake(
@@ -100,7 +109,7 @@ RATE = (
     Mistake(
         "q and its rate read from the wrong half",
         lambda x, u, arm: rate(np.roll(x, 2), u, arm),
-        "Your accelerations come out as if x were [q̇; q]. Which half do you call q?",
+        "Your accelerations come out as if x were [q̇; q]. Which half of x do you call q?",
     ),
     Mistake(
         "interleaved state",
@@ -127,13 +136,13 @@ RATE = (
     Mistake(
         "C times ones",
         _with(lambda q, qd, u, arm: C(q, qd, arm) @ (qd - 1)),
-        "Your Coriolis torque is the sum of each row of C. What does C multiply?",
+        "Your Coriolis torque is the sum of each row of C. What must C multiply?",
     ),
     Mistake(
         "C transposed",
         _with(lambda q, qd, u, arm: (C(q, qd, arm) - C(q, qd, arm).T) @ qd),
-        "Your Coriolis torque uses C with rows and columns exchanged. Does q̇ stand to the right or "
-        "to the left of C?",
+        "Your Coriolis torque uses C with its rows and columns swapped. Does q̇ stand to the "
+        "right or to the left of C?",
     ),
     Mistake(
         "gravity left out",
@@ -149,7 +158,8 @@ RATE = (
     Mistake(
         "gravity constant hard-coded",
         _with(lambda q, qd, u, arm: g_vec(q, arm) - g_vec(q, changed(arm, g=9.81))),
-        "Your q̈ is right on Earth only: 9.81 is written into it. The check also uses other planets.",
+        "Your q̈ is right only on Earth, because you typed 9.81 into it. The check also uses "
+        "other planets: which parameter of arm gives g?",
     ),
     Mistake(
         "friction left out",
@@ -170,8 +180,8 @@ RATE = (
     Mistake(
         "sign of viscous friction",
         _with(lambda q, qd, u, arm: 2 * arm.viscous * qd),
-        "The viscous part of your friction has the wrong sign: the faster the joint, the more it is "
-        "pushed on.",
+        "The viscous part of your friction has the wrong sign: the faster a joint moves, the "
+        "harder it is pushed on. Must friction speed a joint up or slow it down?",
     ),
     Mistake(
         "viscous friction quadratic",
@@ -188,30 +198,31 @@ RATE = (
     Mistake(
         "sign of Coulomb friction",
         _coulomb(lambda qd: -np.sign(qd)),
-        "The Coulomb part of your friction has the wrong sign: it pushes the joint on.",
+        "The Coulomb part of your friction has the wrong sign: it pushes the joint on. Must "
+        "friction speed a joint up or slow it down?",
     ),
     Mistake(
         "Coulomb friction in one direction",
         _coulomb(lambda qd: np.ones(2)),
-        "Your Coulomb friction always acts in the same direction. What decides in which direction "
-        "friction acts?",
+        "Your Coulomb friction always acts in the same direction. What decides the direction of "
+        "friction?",
     ),
     Mistake(
         "absolute value for sign",
         _coulomb(np.abs),
-        "Your Coulomb friction uses |q̇| where its sign is needed: it grows with the speed and never "
-        "changes direction.",
+        "Your Coulomb friction uses |q̇| where the sign of q̇ belongs: it grows with the speed "
+        "and never changes direction.",
     ),
     Mistake(
         "velocity for its sign",
         _coulomb(lambda qd: qd),
-        "Your Coulomb friction grows with the speed. Which property of q̇, and not its size, does dry "
-        "friction depend on?",
+        "Your Coulomb friction grows with the speed. Dry friction does not depend on how fast a "
+        "joint moves: what does it depend on?",
     ),
     Mistake(
         "sign of the angle",
         _with(lambda q, qd, u, arm: arm.coulomb * (np.sign(qd) - np.sign(q))),
-        "Your Coulomb friction looks at the sign of the angle. Does friction depend on where a joint "
+        "Your Coulomb friction has the sign of the angle. Does friction depend on where a joint "
         "is, or on how it moves?",
     ),
     *(
@@ -226,25 +237,26 @@ RATE = (
         _with(
             lambda q, qd, u, arm: f_vec(qd, arm) - arm.coulomb * qd - arm.viscous * np.sign(qd)
         ),
-        "The two friction coefficients are swapped. Which of them is in N·m, and which in "
+        "You swapped the two friction coefficients. Which of them is in N·m, and which in "
         "N·m·s/rad?",
     ),
     Mistake(
         "friction as an acceleration",
         lambda x, u, arm: _with(lambda q, qd, u, arm: f_vec(qd, arm))(x, u, arm)
         - np.concatenate([np.zeros(2), f_vec(x[2:], arm)]),
-        "Your friction is subtracted from the acceleration. It is a torque: what must happen to a "
-        "torque before it is an acceleration?",
+        "You subtract the friction from the acceleration. Friction is a torque: how does a torque "
+        "become an acceleration?",
     ),
     Mistake(
         "input left out",
         _with(lambda q, qd, u, arm: -u),
-        "The input u is missing from your q̈. What makes the arm move in a direction you choose?",
+        "The input u is missing from your q̈. What makes the arm move where you want it to?",
     ),
     Mistake(
         "sign of the input",
         _with(lambda q, qd, u, arm: -2 * u),
-        "The input u has the wrong sign in your q̈: the motor turns the wrong way.",
+        "The input u has the wrong sign in your q̈: the motor turns the wrong way. On which side "
+        "of the equation of motion does u stand?",
     ),
     Mistake(
         "M not inverted",
@@ -260,13 +272,13 @@ RATE = (
         "divided by the diagonal of M",
         _accelerating(lambda q, qd, rest, arm: rest / np.diag(M(q, arm))),
         "You divide by the diagonal of M, as if the joints did not feel each other. What do the "
-        "entries beside the diagonal do?",
+        "other entries do?",
     ),
     Mistake(
         "each entry of M inverted",
         _accelerating(lambda q, qd, rest, arm: (1 / M(q, arm)) @ rest),
-        "You invert each entry of M by itself. The inverse of a matrix is something else: which "
-        "NumPy function solves a linear system?",
+        "You invert each entry of M by itself, which does not invert the matrix. Which NumPy "
+        "function solves a linear system?",
     ),
     Mistake(
         "divided by M entry by entry, rows summed",
@@ -276,8 +288,8 @@ RATE = (
     Mistake(
         "example arm hard-coded",
         lambda x, u, arm: rate(x, u, EXAMPLE),
-        "Your f always uses the arm of this notebook. The check hands over other arms, as the third "
-        "argument.",
+        "Your f always uses the arm of this notebook. The check passes other arms to f: in which "
+        "argument do they come?",
     ),
 )  # fmt: skip
 
@@ -303,25 +315,25 @@ METHODS = (
     Mistake(
         "Euler",
         explicit(((),), (1,)),
-        "This is Euler's method: only the slope at the start of the step counts, whatever else is "
-        "computed. At which states must the other three slopes be taken?",
+        "This is Euler's method: only the slope at the start of the step counts, whatever else "
+        "you compute. At which states must you take the other three slopes?",
     ),
     Mistake(
         "midpoint",
         explicit(ROWS[:2], (0, 1)),
-        "This is the midpoint method, of order 2: only the second slope counts. How do the four "
-        "slopes share in the step?",
+        "This is the midpoint method, of order 2: only the second slope counts. How much must "
+        "each of the four slopes count?",
     ),
     Mistake(
         "Heun",
         explicit(((), (1,)), (1 / 2, 1 / 2)),
-        "This is Heun's method, of order 2: the mean of the slopes at the two ends. Where else does "
-        "RK4 take slopes?",
+        "This is Heun's method, of order 2: you take the mean of the slopes at the two ends. "
+        "Where else does RK4 take slopes?",
     ),
     Mistake(
         "k3 from k1",
         explicit((*ROWS[:2], (1 / 2, 0), ROWS[3]), WEIGHTS),
-        "Your k3 is the same as k2. From which slope must k3 set out?",
+        "Your k3 is the same as k2. Along which slope must k3 set out?",
     ),
     Mistake(
         "k2 twice in the sum",
@@ -331,23 +343,22 @@ METHODS = (
     Mistake(
         "k4 from k2",
         explicit((*ROWS[:3], (0, 1, 0)), WEIGHTS),
-        "Your k4 sets out along k2. Which is the newest slope by then?",
+        "Your k4 sets out along k2. Which slope is the newest by then?",
     ),
     Mistake(
         "k4 from k1",
         explicit((*ROWS[:3], (1, 0, 0)), WEIGHTS),
-        "Your k4 sets out along k1. Which is the newest slope by then?",
+        "Your k4 sets out along k1. Which slope is the newest by then?",
     ),
     Mistake(
         "half a step in k4",
         explicit((*ROWS[:3], (0, 0, 1 / 2)), WEIGHTS),
-        "Your k4 is taken in the middle of the step. How far ahead does the last slope look?",
+        "You take k4 in the middle of the step. How far ahead does the last slope look?",
     ),
     Mistake(
         "whole steps in k2 and k3",
         explicit(((), (1,), (0, 1), (0, 0, 1)), WEIGHTS),
-        "Your k2 and k3 are taken at the end of the step. How far ahead do the two middle slopes "
-        "look?",
+        "You take k2 and k3 at the end of the step. How far ahead do the two middle slopes look?",
     ),
     Mistake(
         "equal weights",
@@ -375,7 +386,8 @@ STEP = (
     Mistake(
         "weights in the wrong places",
         explicit(ROWS, (1 / 3, 1 / 6, 1 / 6, 1 / 3)),
-        "Your weights are exchanged: the ends count twice, the middle once.",
+        "You swapped the weights: the ends count twice and the middle once. Which slopes tell "
+        "more about the whole step?",
     ),
     Mistake(
         "division by six missing",
@@ -396,7 +408,7 @@ STEP = (
     Mistake(
         "dt twice",
         lambda f, x, u, dt: x + dt * (rk4(f, x, u, dt) - x),
-        "The time step is multiplied in twice. Are your k's slopes, or changes of the state?",
+        "You multiply by the time step twice. Are your k's slopes, or changes of the state?",
     ),
     Mistake(
         "change for state",
@@ -421,7 +433,7 @@ STEP = (
     Mistake(
         "input left out",
         lambda f, x, u, dt: rk4(f, x, 0 * u, dt),
-        "Your step does not feel u. What do you hand to f as its second argument?",
+        "Your step does not depend on u. What do you pass to f as its second argument?",
     ),
 )  # fmt: skip
 
@@ -472,19 +484,19 @@ SIMULATE = (
     Mistake(
         "all rows equal",
         lambda f, x0, u, t: np.tile(run(f, x0, u, t)[-1], (len(t), 1)),
-        "All rows are the last state. Do you store the same array again and again, and change it in "
-        "place (as x += ... does)?",
+        "All your rows are the last state. Do you store the same array again and again, and "
+        "change it in place (as x += ... does)?",
     ),
     Mistake(
         "transposed",
         lambda f, x0, u, t: run(f, x0, u, t).T,
-        "Your states stand in columns. One row for each time is asked for: which way do rows and "
-        "columns go?",
+        "Your states stand in columns. Each time must have a row of its own: how do you exchange "
+        "rows and columns?",
     ),
     Mistake(
         "rows one step ahead",
         _shifted,
-        "Your row k holds the state after the step, and the start is lost. Which state belongs to "
+        "Your row k holds the state after step k, and the start is lost. Which state belongs to "
         "t[0]?",
     ),
     Mistake(
@@ -496,7 +508,7 @@ SIMULATE = (
     Mistake(
         "steps taken to be equal",
         _equal,
-        "You take all time steps to be as long as the first one. The times in t need not be equally "
+        "You make all time steps as long as the first one. The times in t need not be equally "
         "spaced: how long is step k?",
     ),
     Mistake(
@@ -508,8 +520,8 @@ SIMULATE = (
     Mistake(
         "last step's length",
         _late,
-        "Step k of yours is as long as the step before it should be. Between which two times does "
-        "the state of row k move on to row k + 1?",
+        "Your step k is as long as the step before it should be. Between which two times does the "
+        "state move from row k to row k + 1?",
     ),
     Mistake(
         "run from time zero",
@@ -519,7 +531,7 @@ SIMULATE = (
     Mistake(
         "last step missing",
         _last_zero,
-        "Your last row is still zero: the last step is never taken. How many steps lie between "
+        "Your last row is still zero: you never take the last step. How many steps lie between "
         "len(t) times?",
     ),
     Mistake(
@@ -532,7 +544,7 @@ SIMULATE = (
     Mistake(
         "start repeated",
         lambda f, x0, u, t: np.tile(x0, (len(t), 1)),
-        "All rows are x0: nothing moves. Is the result of the step stored anywhere?",
+        "All your rows are x0: nothing moves. Do you store the result of the step anywhere?",
     ),
     Mistake(
         "torque of the start only",
@@ -562,12 +574,12 @@ SIMULATE = (
     Mistake(
         "torque of the first state",
         lambda f, x0, u, t: run(f, x0, u, t, held=lambda u, t, k, x, x0: u(t[k], x0)),
-        "You hand x0 to u in every step. Which state does the controller see at t[k]?",
+        "You pass x0 to u in every step. Which state does the controller see at t[k]?",
     ),
     Mistake(
         "torque of time zero",
         lambda f, x0, u, t: run(f, x0, u, t, held=lambda u, t, k, x, x0: u(0.0, x)),
-        "You ask u for the time zero in every step. What is the time at the start of step k?",
+        "You pass the time zero to u in every step. What is the time at the start of step k?",
     ),
     Mistake(
         "clock from zero",
@@ -577,7 +589,7 @@ SIMULATE = (
     Mistake(
         "input left out",
         lambda f, x0, u, t: run(f, x0, 0 * (u(t[0], x0) if callable(u) else u), t),
-        "Your run does not feel u. What do you hand on to the step?",
+        "Your run does not depend on u. What do you pass on to the step?",
     ),
     *(
         Mistake(m.name, lambda f, x0, u, t, step=m.wrong: run(f, x0, u, t, step), m.sentence)
@@ -622,21 +634,22 @@ DRIFT = (
     Mistake(
         "half missing",
         lambda x, arm: drift(x, arm, kinetic=lambda q, qd, arm: 2 * kinetic_energy(q, qd, arm)),
-        "Your kinetic energy is twice the right one. What stands in front of a kinetic energy?",
+        sentences.HALF_MISSING,
     ),
     Mistake(
         "diagonal of M only",
         lambda x, arm: drift(
             x, arm, kinetic=lambda q, qd, arm: 0.5 * np.sum(np.diag(M(q, arm)) * qd**2)
         ),
-        "Your kinetic energy uses the diagonal of M only. What happens to it when both joints turn?",
+        "Your kinetic energy uses only the diagonal of M. What does the energy gain when both "
+        "joints turn at once?",
     ),
     Mistake(
         "M of the start",
         lambda x, arm: drift(
             x, arm, kinetic=lambda q, qd, arm: kinetic_energy(x[0, :2], qd, arm)
         ),
-        "Your kinetic energy uses M at the first state all along. What does M depend on?",
+        "Your kinetic energy uses the M of the first state in every row. What does M depend on?",
     ),
     Mistake(
         "C in the energy",
@@ -649,7 +662,7 @@ DRIFT = (
     Mistake(
         "C for M",
         lambda x, arm: drift(x, arm, kinetic=lambda q, qd, arm: 0.5 * qd @ C(q, qd, arm) @ qd),
-        "Your kinetic energy is made with C. Which matrix gives the kinetic energy?",
+        "You make the kinetic energy with C. Which matrix gives the kinetic energy?",
     ),
     Mistake(
         "K alone",
@@ -664,14 +677,14 @@ DRIFT = (
     Mistake(
         "sign of P",
         lambda x, arm: drift(x, arm, potential=lambda q, arm: -potential_energy(q, arm)),
-        "Your potential energy falls as the arm rises. Is E the sum of K and P, and is P positive "
-        "upwards?",
+        "Your potential energy falls as the arm rises. Is E the sum of K and P, and does your P "
+        "grow with height?",
     ),
     Mistake(
         "absolute second angle",
         lambda x, arm: drift(x, arm, potential=_height_absolute),
-        "Your P takes q2 from the x axis. From where is q2 measured, and so how high is the second "
-        "centre of mass?",
+        "Your P measures q2 from the x axis. From where is q2 measured, and how high is the "
+        "second centre of mass then?",
     ),
     Mistake(
         "cosine for sine",
@@ -687,60 +700,61 @@ DRIFT = (
             x, arm, potential=lambda q, arm: potential_energy(q, arm)
             - arm.m2 * arm.g * arm.l1 * np.sin(q[0])
         ),
-        "The height of the second centre of mass is taken from the elbow. How high is the elbow?",
+        "You measure the height of the second centre of mass from the elbow. How high is the "
+        "elbow?",
     ),
     Mistake(
         "gravity torque times angle",
         lambda x, arm: drift(x, arm, potential=lambda q, arm: g_vec(q, arm) @ q),
         "Your P is the gravity torque times the angle. A torque that changes on the way must be "
-        "summed along it: what are the heights of the two centres of mass?",
+        "summed along it: how high are the two centres of mass?",
     ),
     Mistake(
         "gravity constant hard-coded",
         lambda x, arm: drift(x, changed(arm, g=9.81)),
-        "Your P is right on Earth only: 9.81 is written into it. The check also uses other planets.",
+        "Your P is right only on Earth, because you typed 9.81 into it. The check also uses other "
+        "planets: which parameter of arm gives g?",
     ),
     Mistake(
         "from the row before",
         lambda x, arm: np.diff(drift(x, arm), prepend=0.0),
-        "You give the change from each row to the next. From which state is the drift counted?",
+        "You return the change from each row to the next. From which state do you count the drift?",
     ),
     Mistake(
         "absolute value",
         lambda x, arm: np.abs(drift(x, arm)),
-        "You give the size of the drift. Its sign is asked for too: does the run gain energy or lose "
-        "it?",
+        "You return the size of the drift without its sign. Does the run gain energy or lose it?",
     ),
     Mistake(
         "start less now",
         lambda x, arm: -drift(x, arm),
-        "Your drift has the wrong sign: what grows counts as positive.",
+        "Your drift has the wrong sign. Is it positive or negative when the energy grows?",
     ),
     Mistake(
         "energy for drift",
         _with_zero(lambda energy: 0.0),
-        "This is the energy itself. By how much has it changed since the first row?",
+        "You return the energy itself. By how much has it changed since the first row?",
     ),
     Mistake(
         "from the mean",
         _with_zero(np.mean),
-        "You subtract the mean of the energy. From which state is the drift counted?",
+        "You subtract the mean of the energy. From which state do you count the drift?",
     ),
     Mistake(
         "from the end",
         _with_zero(lambda energy: energy[-1]),
-        "You subtract the energy of the last row. From which state is the drift counted?",
+        "You subtract the energy of the last row. From which state do you count the drift?",
     ),
     Mistake(
         "share for drift",
         lambda x, arm: drift(x, arm) / _with_zero(lambda energy: 0.0)(x[:1], arm),
-        "You divide by the energy of the start. That share depends on where P is zero; the drift in "
-        "J does not.",
+        "You divide by the energy at the start. That ratio depends on where P is zero, but the "
+        "drift in J does not.",
     ),
     Mistake(
         "example arm hard-coded",
         lambda x, arm: drift(x, EXAMPLE),
-        "Your energy is always that of the arm of this notebook. The check hands over other arms, as "
-        "the second argument.",
+        "Your energy is always that of the arm of this notebook. The check passes other arms to "
+        "your function: in which argument do they come?",
     ),
 )  # fmt: skip

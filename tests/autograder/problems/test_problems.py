@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import nbformat
 import pytest
 
-from autograder.problems import CHECKS
-from autograder.notebook.recognise import grade_id
 from autograder.judging.verdict import State
+from autograder.notebook.recognise import grade_id
+from autograder.problems import CHECKS
 from tests.autograder.course_problems import NAMES, ROOT, problem
 from tests.submissions.answers import cell_of
 

@@ -1,0 +1,348 @@
+"""Wrong answers about Ṁ and C: the mistakes that each shows, and the credit left."""
+
+# What stands above each body, as a student would have it there.
+ARM = """
+a, b = qd
+mll = arm.m2 * arm.l1 * arm.lc2
+h = -mll * np.sin(q[1])
+M_dot = h * b * np.array([[2, 1], [1, 0]])
+D = np.zeros((2, 2, 2))
+D[:, :, 1] = [[2 * h, h], [h, 0]]
+def M(q):
+    c, d = mll * np.cos(q[1]), arm.I2 + arm.m2 * arm.lc2**2
+    M11 = arm.I1 + arm.m1 * arm.lc1**2 + arm.m2 * arm.l1**2 + d + 2 * c
+    return np.array([[M11, d + c], [d + c, d]])
+def matrix(term):
+    r = range(2)
+    return [[sum(term(i, j, k) for k in r) for j in r] for i in r]
+def christoffel(by_q1, by_q2):
+    D = np.stack([by_q1, by_q2], axis=-1)
+    C = D + D.transpose(0, 2, 1) - D.transpose(2, 0, 1)
+    return C / 2 @ qd
+"""
+
+SYMBOLS = """
+n = len(q)
+def right(i, j, k):
+    return (d(i, j, k) + d(i, k, j) - d(j, k, i)) / 2 * qd[k]
+def matrix(term):
+    return sp.Matrix(n, n, lambda i, j: sum(term(i, j, k) for k in range(n)))
+def d(i, j, k):
+    return sp.diff(M[i, j], q[k])
+"""
+
+HEADS = dict.fromkeys(("p2-M_dot", "p2-C", "p2-C_other"), ARM) | {"p2-christoffel": SYMBOLS}
+
+C = "np.array([[h * b, h * (a + b)], [-h * a, 0]])"
+
+BODIES = {
+    "p2-M_dot": [
+        ("sign", "H = -h\nreturn [[2 * H * b, H * b], [H * b, 0]]", 0.1),
+        ("velocity of the other joint", "return [[2 * h * a, h * a], [h * a, 0]]", 0.1),
+        ("sum of both velocities", "return h * (a + b) * np.array([[2, 1], [1, 0]])", 0.1),
+        ("chain rule forgotten", "return [[2 * h, h], [h, 0]]", 0.1),
+        ("derivative with respect to q1 only", "return np.zeros((2, 2))", 0.1),
+        ("half of it", "return [[h * b, h * b / 2], [h * b / 2, 0]]", 0.1),
+        ("twice C", "return 2 * np.array([[h * b, h * (a + b)], [-h * a, 0]])", 0.55),
+        ("C for the derivative", "return [[h * b, h * (a + b)], [-h * a, 0]]", 0.1),
+        ("M itself", "return M(q)", 0),
+        ("constants differentiated", "return M(q) * qd[1]", 0),
+        (
+            "cosine for sine",
+            "H = -mll * np.cos(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
+            0.1,
+        ),
+        (
+            "cosine for sine, reversed",
+            "H = mll * np.cos(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
+            0.1,
+        ),
+        (
+            "length for centre of mass",
+            "H = -arm.m2 * arm.l1 * arm.l2 * np.sin(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
+            0.1,
+        ),
+        (
+            "centre of mass for length",
+            "H = -arm.m2 * arm.lc1 * arm.lc2 * np.sin(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
+            0.1,
+        ),
+        (
+            "mass of the other link",
+            "H = -arm.m1 * arm.l1 * arm.lc2 * np.sin(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
+            0.1,
+        ),
+        (
+            "radians taken for degrees",
+            "H = -mll * np.sin(np.radians(q[1]))\nreturn [[2 * H * b, H * b], [H * b, 0]]",
+            0.1,
+        ),
+        (
+            "absolute second angle",
+            "H = -mll * np.sin(q[0] + q[1])\n"
+            "return [[2 * H * (a + b), H * (a + b)], [H * (a + b), 0]]",
+            0.1,
+        ),
+        (
+            "second angle measured from the x axis",
+            "H = -mll * np.sin(q[1] - q[0]) * (b - a)\nreturn [[2 * H, H], [H, 0]]",
+            0.1,
+        ),
+        ("first angle for second", "H = -mll * np.sin(q[0]) * a\nreturn [[2 * H, H], [H, 0]]", 0.1),
+        ("factor 2 missing in M11", "return [[h * b, h * b], [h * b, 0]]", 0.55),
+        ("coupling in M22", "return [[2 * h * b, h * b], [h * b, h * b]]", 0.9),
+        (
+            ("factor 2 missing in M11", "coupling in M22"),
+            "return [[h * b, h * b], [h * b, h * b]]",
+            0.45,
+        ),
+    ],
+    "p2-C": [
+        ("2 missing in the Coriolis term", "return [[0, h * (a + b)], [-h * a, 0]]", 0),
+        ("Coriolis term missing", "return [[0, h * b], [-h * a, 0]]", 0),
+        ("sign of h", "return [[-h * b, -h * (a + b)], [h * a, 0]]", 0),
+        (
+            "sign of the centrifugal term of joint 1",
+            "return [[h * b, h * (a - b)], [-h * a, 0]]",
+            0,
+        ),
+        ("centrifugal term of joint 1 missing", "return [[h * b, h * a], [-h * a, 0]]", 0),
+        ("sign of the centrifugal term of joint 2", "return [[h * b, h * (a + b)], [h * a, 0]]", 0),
+        ("centrifugal term of joint 2 missing", "return [[h * b, h * (a + b)], [0, 0]]", 0),
+        ("half missing", "return [[2 * h * b, 2 * h * (a + b)], [-2 * h * a, 0]]", 0),
+        ("C q̇ for C", "return [h * (2 * a * b + b**2), -h * a**2]", 0),
+        ("C q̇ for C", "return np.diag([h * (2 * a * b + b**2), -h * a**2])", 0),
+        ("C times ones", "return [[h * (a + 2 * b)], [-h * a]]", 0),
+        ("C times ones", "return np.diag([h * (a + 2 * b), -h * a])", 0),
+        ("transposed", "return [[h * b, -h * a], [h * (a + b), 0]]", 0.5),
+        ("transposed", "return M_dot - np.array([[h * b, h * (a + b)], [-h * a, 0]])", 0.5),
+        (
+            "valid, but not skew: q̇1 q̇2 all in the second column",
+            "return [[0, h * (2 * a + b)], [-h * a, 0]]",
+            0.7,
+        ),
+        (
+            "valid, but not skew: q̇1 q̇2 all in the first column",
+            "return [[2 * h * b, h * b], [-h * a, 0]]",
+            0.7,
+        ),
+        ("M_dot for C", "return M_dot", 0),
+        ("half of M_dot", "return M_dot / 2", 0.5),
+        ("M_dot less 2C", "return M_dot - 2 * np.array([[h * b, h * (a + b)], [-h * a, 0]])", 0),
+        ("velocities exchanged", "return [[h * a, h * (a + b)], [-h * b, 0]]", 0),
+        ("M for C", "return M(q)", 0),
+        ("zero", "return np.zeros((2, 2))", 0),
+        (
+            "last sign",
+            "return matrix(lambda i, j, k: (D[i, j, k] + D[i, k, j] + D[j, k, i]) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "last term missing",
+            "return matrix(lambda i, j, k: (D[i, j, k] + D[i, k, j]) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "second term missing",
+            "return matrix(lambda i, j, k: (D[i, j, k] - D[j, k, i]) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "summed over the first index",
+            "return matrix(lambda i, j, k: (D[k, i, j] + D[k, j, i] - D[i, j, k]) / 2 * qd[k])",
+            0.2,
+        ),
+        (
+            "no velocity",
+            "return matrix(lambda i, j, k: (D[i, j, k] + D[i, k, j] - D[j, k, i]) / 2)",
+            0,
+        ),
+        (
+            "velocity of the column",
+            "return matrix(lambda i, j, k: (D[i, j, k] + D[i, k, j] - D[j, k, i]) / 2 * qd[j])",
+            0,
+        ),
+        (
+            "cosine for sine",
+            "H = -mll * np.cos(q[1])\nreturn [[H * b, H * (a + b)], [-H * a, 0]]",
+            0,
+        ),
+        (
+            "cosine for sine, reversed",
+            "H = mll * np.cos(q[1])\nreturn [[H * b, H * (a + b)], [-H * a, 0]]",
+            0,
+        ),
+        (
+            "length for centre of mass",
+            "H = -arm.m2 * arm.l1 * arm.l2 * np.sin(q[1])\n"
+            "return [[H * b, H * (a + b)], [-H * a, 0]]",
+            0,
+        ),
+        (
+            "centre of mass for length",
+            "H = -arm.m2 * arm.lc1 * arm.lc2 * np.sin(q[1])\n"
+            "return [[H * b, H * (a + b)], [-H * a, 0]]",
+            0,
+        ),
+        (
+            "mass of the other link",
+            "H = -arm.m1 * arm.l1 * arm.lc2 * np.sin(q[1])\n"
+            "return [[H * b, H * (a + b)], [-H * a, 0]]",
+            0,
+        ),
+        (
+            "radians taken for degrees",
+            "H = -mll * np.sin(np.radians(q[1]))\nreturn [[H * b, H * (a + b)], [-H * a, 0]]",
+            0,
+        ),
+        (
+            "absolute second angle",
+            "H = -mll * np.sin(q[0] + q[1])\n"
+            "return christoffel([[2 * H, H], [H, 0]], [[2 * H, H], [H, 0]])",
+            0,
+        ),
+        (
+            "second angle measured from the x axis",
+            "H = -mll * np.sin(q[1] - q[0])\n"
+            "return christoffel([[-2 * H, -H], [-H, 0]], [[2 * H, H], [H, 0]])",
+            0,
+        ),
+        (
+            "first angle for second",
+            "H = -mll * np.sin(q[0])\nreturn christoffel([[2 * H, H], [H, 0]], np.zeros((2, 2)))",
+            0,
+        ),
+        ("factor 2 missing in M11", "return christoffel(np.zeros((2, 2)), [[h, h], [h, 0]])", 0),
+        ("coupling in M22", "return christoffel(np.zeros((2, 2)), [[2 * h, h], [h, h]])", 0),
+        (
+            (
+                "sign of the centrifugal term of joint 1",
+                "sign of the centrifugal term of joint 2",
+            ),
+            "return [[h * b, h * (a - b)], [h * a, 0]]",
+            0,
+        ),
+        (
+            ("2 missing in the Coriolis term", "centrifugal term of joint 2 missing"),
+            "return [[0, h * (a + b)], [0, 0]]",
+            0.2,
+        ),
+    ],
+    "p2-C_other": [
+        ("C itself", "return np.array([[h * b, h * (a + b)], [-h * a, 0]])", 0.5),
+        ("transposed", "return np.array([[h * b, h * (a + b)], [-h * a, 0]]).T", 0),
+        ("half of M_dot", "return M_dot / 2", 0),
+        ("M_dot for C", "return M_dot", 0),
+        ("C q̇ for C", "return np.array([[h * b, h * (a + b)], [-h * a, 0]]) @ qd", 0),
+        ("C times ones", "return np.array([[h * b, h * (a + b)], [-h * a, 0]]) @ np.ones(2)", 0),
+        ("scaled", "return 2 * np.array([[h * b, h * (a + b)], [-h * a, 0]])", 0),
+        ("zero", "return [[0, 0], [0, 0]]", 0),
+        (
+            "constant skew matrix added",
+            "return np.array([[h * b, h * (a + b)], [-h * a, 0]]) + [[0, 1], [-1, 0]]",
+            0,
+        ),
+        (
+            "constant skew matrix taken off",
+            "return np.array([[h * b, h * (a + b)], [-h * a, 0]]) + [[0, -1], [1, 0]]",
+            0,
+        ),
+        (
+            "unit matrix added",
+            "return np.array([[h * b, h * (a + b)], [-h * a, 0]]) + np.eye(2)",
+            0,
+        ),
+        ("ones added", "return np.array([[h * b, h * (a + b)], [-h * a, 0]]) + 1", 0),
+        ("first entry dropped", "return [[0, h * (a + b)], [-h * a, 0]]", 0),
+        ("columns exchanged", "return np.array([[h * b, h * (a + b)], [-h * a, 0]])[:, ::-1]", 0),
+    ],
+    "p2-christoffel": [
+        ("C q̇ for C", "return matrix(right) * sp.Matrix(qd)", 0),
+        ("C times ones", "return matrix(right) * sp.ones(n, 1)", 0),
+        (
+            "half missing",
+            "return matrix(lambda i, j, k: (d(i, j, k) + d(i, k, j) - d(j, k, i)) * qd[k])",
+            0,
+        ),
+        (
+            "sign",
+            "return matrix(lambda i, j, k: (d(j, k, i) - d(i, j, k) - d(i, k, j)) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "transposed",
+            "return matrix(lambda i, j, k: (d(i, j, k) - d(i, k, j) + d(j, k, i)) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "valid, but not skew: the first derivative twice",
+            "return matrix(lambda i, j, k: (d(i, j, k) - d(j, k, i) / 2) * qd[k])",
+            0.4,
+        ),
+        (
+            "valid, but not skew: the second derivative twice",
+            "return matrix(lambda i, j, k: (2 * d(i, k, j) - d(j, k, i)) / 2 * qd[k])",
+            0.4,
+        ),
+        ("M_dot for C", "return matrix(lambda i, j, k: d(i, j, k) * qd[k])", 0),
+        (
+            "half of M_dot",
+            "return matrix(lambda i, j, k: (d(i, j, k) + d(j, k, i) - d(j, k, i)) / 2 * qd[k])",
+            0,
+        ),
+        ("M_dot less 2C", "return matrix(lambda i, j, k: (d(j, k, i) - d(i, k, j)) * qd[k])", 0),
+        (
+            "last sign",
+            "return matrix(lambda i, j, k: (d(i, j, k) + d(i, k, j) + d(j, k, i)) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "last term missing",
+            "return matrix(lambda i, j, k: (d(i, j, k) + d(i, k, j)) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "last term not halved",
+            "return matrix(lambda i, j, k: ((d(i, j, k) + d(i, k, j)) / 2 - d(j, k, i)) * qd[k])",
+            0,
+        ),
+        (
+            "first term missing",
+            "return matrix(lambda i, j, k: (d(i, k, j) - d(j, k, i)) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "second term missing",
+            "return matrix(lambda i, j, k: (d(i, j, k) - d(j, k, i)) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "summed over the first index",
+            "return matrix(lambda i, j, k: (d(k, i, j) + d(k, j, i) - d(i, j, k)) / 2 * qd[k])",
+            0,
+        ),
+        (
+            "no velocity",
+            "return matrix(lambda i, j, k: (d(i, j, k) + d(i, k, j) - d(j, k, i)) / 2)",
+            0,
+        ),
+        (
+            "velocity of the column",
+            "return matrix(lambda i, j, k: (d(i, j, k) + d(i, k, j) - d(j, k, i)) / 2 * qd[j])",
+            0,
+        ),
+        (
+            "velocity of the row",
+            "return matrix(lambda i, j, k: (d(i, j, k) + d(i, k, j) - d(j, k, i)) / 2 * qd[i])",
+            0,
+        ),
+        ("second kind", "return M.adjugate() / M.det() * matrix(right)", 0),
+        ("zero", "return matrix(lambda i, j, k: M[i, j].diff(qd[k]) * qd[k])", 0),
+        ("M for C", "return M", 0),
+    ],
+}
+
+TABLE = {
+    check_id: [(names, HEADS[check_id] + body, credit) for names, body, credit in rows]
+    for check_id, rows in BODIES.items()
+}

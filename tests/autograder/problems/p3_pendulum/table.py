@@ -1,0 +1,67 @@
+"""Wrong answers about the pendulum: the mistakes that each shows, and the credit left."""
+
+MGL = "pend.m * pend.g * pend.lc"
+
+KINETIC, POTENTIAL = "I * qd**2 / 2", "m * g * lc * (1 - sp.cos(q))"
+
+TABLE = {
+    "p3-M": [
+        ("parallel axis applied again", "pend.I + pend.m * pend.lc**2", 0),
+        ("inertia about the centre of mass", "[[pend.I - pend.m * pend.lc**2]]", 0),
+        ("point mass", "pend.m * pend.lc**2", 0),
+        ("inverse for matrix", "np.linalg.inv([[pend.I]])", 0),
+        ("mass for inertia", "pend.m", 0),
+    ],
+    "p3-C": [
+        ("gravity in C", f"[[{MGL} * np.sin(q[0])]]", 0),
+        ("inertia for C", "pend.I", 0),
+        ("point-mass centrifugal term", "pend.m * pend.lc * qd", 0),
+        ("M times velocity", "pend.I * qd", 0),
+    ],
+    "p3-g_vec": [
+        ("sign of gravity", f"-{MGL} * np.sin(q)", 0),
+        ("cosine for sine", f"{MGL} * np.cos(q)", 0),
+        ("cosine for sine, reversed", f"-{MGL} * np.cos(q)", 0),
+        ("radians taken for degrees", f"{MGL} * np.sin(np.radians(q))", 0),
+        ("angle in degrees", f"{MGL} * np.sin(np.degrees(q))", 0),
+        ("lever arm missing", "pend.m * pend.g * np.sin(q)", 0),
+        ("gravity constant missing", "pend.m * pend.lc * np.sin(q)", 0),
+        ("mass missing", "pend.g * pend.lc * np.sin(q)", 0),
+        ("gravity constant hard-coded", "pend.m * 9.81 * pend.lc * np.sin(q)", 0),
+        ("small angle", f"{MGL} * q", 0),
+        ("potential energy for torque", f"{MGL} * (1 - np.cos(q))", 0),
+        ("divided by the inertia", f"{MGL} * np.sin(q) / pend.I", 0),
+    ],
+    "p3-lagrangian": [
+        ("half missing", f"I * qd**2 - {POTENTIAL}", 0.5),
+        ("parallel axis applied again", f"(I + m * lc**2) * qd**2 / 2 - {POTENTIAL}", 0.5),
+        ("inertia about the centre of mass", f"(I - m * lc**2) * qd**2 / 2 - {POTENTIAL}", 0.5),
+        ("point mass", f"m * lc**2 * qd**2 / 2 - {POTENTIAL}", 0.5),
+        ("energy for Lagrangian, or P upside down", f"{KINETIC} + {POTENTIAL}", 0.5),
+        ("sine for cosine", f"{KINETIC} - m * g * lc * sp.sin(q)", 0.5),
+        ("sine for cosine, reversed", f"{KINETIC} + m * g * lc * sp.sin(q)", 0.5),
+        ("lever arm missing", f"{KINETIC} - m * g * (1 - sp.cos(q))", 0.5),
+        ("angle in degrees", f"{KINETIC} - m * g * lc * (1 - sp.cos(q * sp.pi / 180))", 0.5),
+        ("kinetic energy only", KINETIC, 0.5),
+        (
+            ("half missing", "energy for Lagrangian, or P upside down"),
+            f"I * qd**2 + {POTENTIAL}",
+            0,
+        ),
+    ],
+    "p3-inertia_about_pivot": [
+        ("inertia about the centre of mass", "I_com", 0),
+        ("parallel axis subtracted", "I_com - m * lc**2", 0),
+        ("distance not squared", "I_com + m * lc", 0),
+        ("point mass", "m * lc**2", 0),
+        ("half the parallel-axis term", "I_com + m * lc**2 / 2", 0),
+    ],
+    "p3-small_angle_frequency": [
+        ("point mass", "np.sqrt(pend.g / pend.lc)", 0),
+        ("square root missing", f"{MGL} / pend.I", 0),
+        ("period", f"2 * np.pi * np.sqrt(pend.I / ({MGL}))", 0),
+        ("hertz", f"np.sqrt({MGL} / pend.I) / (2 * np.pi)", 0),
+        ("upside down", f"np.sqrt(pend.I / ({MGL}))", 0),
+        ("parallel axis applied again", f"np.sqrt({MGL} / (pend.I + pend.m * pend.lc**2))", 0),
+    ],
+}

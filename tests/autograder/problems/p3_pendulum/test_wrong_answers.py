@@ -1,0 +1,76 @@
+"""Wrong answers about the pendulum that are no known mistake."""
+
+import pytest
+
+from autograder.judging.criterion import TOLERANCE
+from autograder.judging.verdict import State
+from tests.autograder.problems.p3_pendulum.table import KINETIC, MGL, POTENTIAL
+from tests.autograder.verdicts import judged
+
+
+def test_a_c_of_no_known_kind_is_said_not_to_be_zero():
+    verdict = judged("p3-C", "0.3 + q")
+    assert verdict.credit == 0
+    assert verdict.witness.call.startswith("C(")
+    assert verdict.diagnosis == (
+        "Your C is not zero. Every entry of C is made of derivatives of M with respect to q: how "
+        "does this M change with q?",
+    )
+
+
+@pytest.mark.parametrize(
+    ("check_id", "returned", "said"),
+    [
+        (
+            "p3-M",
+            "1.1 * pend.I",
+            "inertia about the pivot varies like the inertia about the pivot (+0.1",
+        ),
+        (
+            "p3-g_vec",
+            f"{MGL} * np.sin(q) * 1.0001",
+            "gravity torque varies like the torque of the weight (+0.0001",
+        ),
+        (
+            "p3-g_vec",
+            f"-{MGL} * np.sin(q) * 1.0001",
+            "gravity torque varies like the torque of the weight (-2",
+        ),
+        (
+            "p3-inertia_about_pivot",
+            "I_com + 0.9 * m * lc**2",
+            "inertia moved to the pivot varies like the inertia of a point mass (-0.1",
+        ),
+        (
+            "p3-lagrangian",
+            f"1.2 * {KINETIC} - {POTENTIAL}",
+            "kinetic part of L varies like the kinetic energy of the body (+0.2",
+        ),
+        (
+            "p3-lagrangian",
+            f"{KINETIC} - 0.7 * {POTENTIAL}",
+            "potential part of L varies like the potential energy of the raised mass (-0.3",
+        ),
+    ],
+)
+def test_unknown_error_is_traced_to_its_term(check_id, returned, said):
+    verdict = judged(check_id, returned)
+    assert verdict.diagnosis == (f"The error in your {said} times it).",)
+    assert verdict.witness is not None
+
+
+@pytest.mark.parametrize(
+    ("check_id", "returned"),
+    [("p3-M", "q[0]"), ("p3-g_vec", "q[0] ** 4"), ("p3-small_angle_frequency", "1.0")],
+)
+def test_unknown_error_is_not_diagnosed(check_id, returned):
+    verdict = judged(check_id, returned)
+    assert verdict.state is State.INCORRECT
+    assert verdict.diagnosis == ()
+    assert verdict.witness is not None
+
+
+def test_mistake_is_named_only_where_it_matches_to_rounding():
+    close = f"{MGL} * np.cos(q) * (1 + {20 * TOLERANCE})"
+    assert judged("p3-g_vec", close).diagnosis == ()
+    assert judged("p3-g_vec", f"np.float32({MGL} * np.cos(q))").diagnosis != ()

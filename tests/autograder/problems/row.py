@@ -1,0 +1,62 @@
+"""A row in a problem's table of wrong answers, and which mistakes a check names for it."""
+
+import copy
+from dataclasses import dataclass, replace
+from functools import cache
+
+from autograder.judging.check import Check
+from autograder.judging.diagnosis import Mistake
+from autograder.judging.verdict import Verdict
+from autograder.problems import CHECKS
+from tests.autograder.verdicts import judged_by
+
+
+@dataclass(frozen=True)
+class Row:
+    """A wrong answer as a student would write it, and the one mistake or the several that it shows.
+
+    check: its id. mistakes: their names in the check, in the order in which the card names them.
+    body: what the function returns, or its whole body. credit: what is left.
+    """
+
+    check: str
+    mistakes: str | tuple[str, ...]
+    body: str
+    credit: float
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return (self.mistakes,) if isinstance(self.mistakes, str) else self.mistakes
+
+    def __str__(self):
+        return f"{self.check}: {' and '.join(self.names)}"
+
+
+class Sentence(str):
+    """A mistake's sentence that knows whose it is, as several mistakes may share one."""
+
+    of: str
+
+    def __new__(cls, mistake: Mistake):
+        self = super().__new__(cls, mistake.sentence)
+        self.of = mistake.name
+        return self
+
+
+@cache
+def naming(check_id: str) -> Check:
+    """The check, with sentences that know whose they are."""
+    check = copy.copy(CHECKS[check_id])
+    check.mistakes = tuple(
+        replace(mistake, sentence=Sentence(mistake)) for mistake in check.mistakes
+    )
+    return check
+
+
+def verdict_on(row: Row) -> Verdict:
+    return judged_by(naming(row.check), row.body)
+
+
+def names_in(verdict: Verdict) -> tuple[str, ...]:
+    """The names of the mistakes in a verdict; "" where a sentence is no mistake's."""
+    return tuple(getattr(sentence, "of", "") for sentence in verdict.diagnosis)

@@ -1,0 +1,53 @@
+"""Every mistake of every check, as a student would type it: it is named, and by its own sentence."""
+
+from collections import Counter
+from importlib import import_module
+
+import pytest
+
+from autograder.judging.verdict import State
+from autograder.problems import CHECKS, MODULES
+from tests.autograder.problems.row import Row, names_in, verdict_on
+from tests.autograder.verdicts import sentences
+
+FOLDERS = [module.__package__.rpartition(".")[2] for module in MODULES]
+TABLES = {name: import_module(f"tests.autograder.problems.{name}.table").TABLE for name in FOLDERS}
+ROWS = [
+    Row(check_id, *row)
+    for table in TABLES.values()
+    for check_id, rows in table.items()
+    for row in rows
+]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=str)
+def test_a_wrong_answer_shows_its_mistake(row: Row):
+    """Exactly these mistakes, their sentences, the credit left, and a worst case with its unit."""
+    verdict = verdict_on(row)
+    assert names_in(verdict) == row.names, verdict.diagnosis
+    assert verdict.diagnosis == sentences(row.check, *row.names)
+    assert abs(verdict.credit - row.credit) < 1e-12
+    assert verdict.state is (State.PARTLY_CORRECT if row.credit else State.INCORRECT)
+    check = CHECKS[row.check]
+    assert verdict.witness.call.startswith(f"{check.name}(")
+    met = [row_of.met for row_of in verdict.rows]
+    criterion = check.criteria[met.index(False)]
+    if criterion.is_truth:
+        truths = ("True, where False is right", "False, where True is right")
+        assert verdict.witness.returned.startswith(truths)
+    else:
+        assert criterion.unit in verdict.witness.off
+
+
+@pytest.mark.parametrize("check_id", CHECKS)
+def test_every_mistake_has_a_row(check_id):
+    alone = {row.names for row in ROWS if row.check == check_id}
+    missing = [m.name for m in CHECKS[check_id].mistakes if (m.name,) not in alone]
+    assert not missing, f"no row of a table.py shows these mistakes of {check_id}: {missing}"
+
+
+@pytest.mark.parametrize("check_id", CHECKS)
+def test_the_mistakes_of_a_check_have_different_names(check_id):
+    """A row finds its mistake by the name, and so does a reader of the class report."""
+    counts = Counter(mistake.name for mistake in CHECKS[check_id].mistakes)
+    assert max(counts.values(), default=1) == 1, counts.most_common(3)
