@@ -1,6 +1,5 @@
 """A row in a problem's table of wrong answers, and which mistakes a check names for it."""
 
-import copy
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -46,11 +45,9 @@ class Sentence(str):
 @cache
 def naming(check_id: str) -> Check:
     """The check, with sentences that know whose they are."""
-    check = copy.copy(CHECKS[check_id])
-    check.mistakes = tuple(
-        replace(mistake, sentence=Sentence(mistake)) for mistake in check.mistakes
-    )
-    return check
+    check = CHECKS[check_id]
+    named = (replace(mistake, sentence=Sentence(mistake)) for mistake in check.mistakes)
+    return replace(check, mistakes=tuple(named))
 
 
 def verdict_on(row: Row) -> Verdict:

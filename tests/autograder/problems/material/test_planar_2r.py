@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from armdyn.models.planar_2r import Planar2R
-from autograder.problems.material import planar_2r
-from autograder.problems.material import sampling
+from autograder.problems.material import planar_2r, sampling
 
 
 @pytest.mark.parametrize("seed", range(20))

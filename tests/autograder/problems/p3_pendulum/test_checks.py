@@ -6,9 +6,9 @@ import sympy as sp
 
 from armdyn import Pendulum
 from autograder.judging.check import VISIBLE_CASES
+from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from autograder.problems.p3_pendulum.checks import CHECKS as P3
-from autograder.judging.verdict import State
 from tests.autograder.verdicts import assert_right, judged, judged_in, namespace_of
 
 MGL = "pend.m * pend.g * pend.lc"
