@@ -34,7 +34,7 @@ test-all:
 
 # Slower than `make test`, and without the notebooks: it says what the tests see.
 coverage: .venv/dev.done
-	@rm -f .coverage .coverage.*
+	@.venv/bin/python -m coverage erase
 	@failed=; \
 	.venv/bin/python -m coverage run -m pytest --numprocesses=auto --dist=loadfile --no-loadscope-reorder \
 	  tests $(ARGS) || failed=pytest; \
