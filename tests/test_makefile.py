@@ -168,6 +168,18 @@ def test_lint_runs_both_to_the_end_and_says_which_failed(machine, ruff, mypy, fa
     assert ("failed:" in result.stderr) == bool(failed)
 
 
+def test_coverage_is_reported_though_a_test_failed(machine):
+    machine.python()
+    assert machine.make(".venv/dev.done").returncode == 0
+    assert machine.made()[-1].endswith("install -c constraints.txt -e .[dev]")
+    with (machine.checkout / ".venv" / "bin" / "python").open("a") as python:
+        python.write('echo "$*" >>made; case "$*" in *pytest*) exit 1 ;; esac\n')
+    result = machine.make("coverage")
+    assert result.returncode != 0
+    assert machine.made()[-1] == "-m coverage report"
+    assert result.stderr.startswith("make coverage: failed: pytest\n")
+
+
 def test_no_target_removes_anything():
     recipes = (ROOT / "Makefile").read_text()
     assert "clean:" not in recipes

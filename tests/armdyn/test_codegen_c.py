@@ -278,7 +278,7 @@ def test_cache_folder_has_an_override(monkeypatch, tmp_path):
 
 def test_what_c_cannot_say_is_named():
     q, qd = sp.symbols("q qd", real=True)
-    with pytest.raises(ValueError, match="holds besselj"):
+    with pytest.raises(ValueError, match="contains besselj"):
         c_model(from_energies(qd**2, sp.besselj(0, q), [q], [qd]), {})
 
 

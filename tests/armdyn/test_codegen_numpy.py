@@ -219,7 +219,7 @@ def test_other_bad_models():
         reciprocal.M([0.0])
     unknown = sp.Function("h")(q)
     one = sp.ImmutableMatrix([[unknown]])
-    with pytest.raises(ValueError, match=r"holds h\(q\)"):
+    with pytest.raises(ValueError, match=r"contains h\(q\)"):
         numpy_model(Derivation((q,), (qd,), (), one, one, one, sp.S.Zero), {})
 
 

@@ -243,7 +243,7 @@ class _Printer(ShortFloats, NumPyPrinter):
             return self.doprint(e)
         except PrintMethodNotImplementedError as error:
             name = unknown_function(error)
-            raise ValueError(f"derivation: holds {name}, which NumPy does not have") from None
+            raise ValueError(f"derivation: contains {name}, which NumPy does not have") from None
 
     def _print_Pow(self, expr, rational=False, **kwargs):
         base, power = expr.as_base_exp()
@@ -312,7 +312,7 @@ def _compiled(names, numbers, given, lines, results):
     )
     code = compile(source, "<armdyn.codegen>", "exec")
     if unknown := sorted(_read(code) - names.keys() - vars(builtins).keys()):
-        raise ValueError(f"derivation: holds {', '.join(unknown)}, which NumPy does not have")
+        raise ValueError(f"derivation: contains {', '.join(unknown)}, which NumPy does not have")
     space = dict(names)
     exec(code, space)
     return space["with_constants"](*numbers)
