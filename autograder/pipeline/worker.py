@@ -14,6 +14,10 @@ from autograder.pipeline.cache import code_version
 from autograder.sandbox.room import Room
 
 
+class NoNotebookError(ValueError):
+    """What was handed in under a notebook's name is something else."""
+
+
 def judge(
     content: bytes, source: str, seed: str, beside: Beside = NOTHING, said: tuple[str, ...] = ()
 ) -> dict:
@@ -28,6 +32,8 @@ def judge(
             return _judged(content, source, seed, beside, said) | {"code": code_version()}
     except (UnicodeDecodeError, nbformat.reader.NotJSONError):
         refused = "is not valid JSON: ask the student for it again"
+    except NoNotebookError:
+        refused = "is not a notebook: ask the student for it again"
     except OSError:
         raise  # ours
     except Exception as error:
@@ -57,13 +63,17 @@ def _judged(content: bytes, source: str, seed: str, beside: Beside, said: tuple)
 
 
 def _read(text: str) -> tuple[NotebookNode, list[str]]:
-    notebook = nbformat.reads(text, as_version=nbformat.NO_CONVERT)
+    try:
+        notebook = nbformat.reads(text, as_version=nbformat.NO_CONVERT)
+        has_metadata = isinstance(notebook.get("metadata"), dict)
+    except (AttributeError, KeyError, TypeError) as error:  # JSON, but of something else
+        raise NoNotebookError from error
+    if not has_metadata:
+        raise NoNotebookError
     notes = []
     if notebook.nbformat != 4:
         notes.append(f"the notebook was in format {notebook.nbformat}; it was converted")
         notebook = nbformat.convert(notebook, 4)
-    if not isinstance(notebook.get("metadata"), dict):
-        raise ValueError("it has no metadata")
     return notebook, notes
 
 
