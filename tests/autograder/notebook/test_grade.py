@@ -19,8 +19,10 @@ from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict, Witness
 from autograder.notebook import grade as grading
 from autograder.notebook import outputs
-from autograder.notebook.grade import Sitting, grade, is_judged, of_content, stream
+from autograder.notebook import sitting as sitting_module
+from autograder.notebook.grade import grade, is_judged, of_content, stream
 from autograder.notebook.scores import outputs_for
+from autograder.notebook.sitting import Sitting
 from autograder.problems import CHECKS
 from autograder.protocol import Call, Fault, FaultKind, Reply
 from autograder.sandbox.inside.left_out import INPUT
@@ -408,7 +410,7 @@ class Clock:
 
     def __init__(self, monkeypatch):
         self.now = 0.0
-        monkeypatch.setattr(grading, "time", SimpleNamespace(monotonic=lambda: self.now))
+        monkeypatch.setattr(sitting_module, "time", SimpleNamespace(monotonic=lambda: self.now))
 
 
 @pytest.mark.parametrize(

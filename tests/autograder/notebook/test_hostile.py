@@ -10,7 +10,7 @@ import nbformat
 import pytest
 
 from autograder.judging.verdict import State
-from autograder.notebook import grade as grading
+from autograder.notebook import sitting
 from autograder.notebook.grade import grade
 from autograder.notebook.repair import grade_id, is_locked
 from autograder.notebook.scores import outputs_for
@@ -209,10 +209,10 @@ def test_the_guide_names_what_the_fallback_does_not_stop():
 
 
 def test_many_loops_cost_one_limit_of_the_whole_notebook(release, short_limits, monkeypatch):
-    monkeypatch.setattr(grading, "NOTEBOOK_SECONDS", 2.5)
+    monkeypatch.setattr(sitting, "NOTEBOOK_SECONDS", 2.5)
     monkeypatch.setattr(Room.run, "__defaults__", (0.5,))
     # On a busy machine a loop may meet the clock first: the notebook's own must not.
-    monkeypatch.setattr(grading, "PATIENCE", 1000.0)
+    monkeypatch.setattr(sitting, "PATIENCE", 1000.0)
     notebook = p3_pendulum.right(release)
     loops = [nbformat.v4.new_code_cell("while True: sum(())") for _ in range(30)]
     after = notebook.cells.index(cell_of(notebook, "p3-M"))

@@ -8,7 +8,8 @@ import sympy as sp
 from armdyn import Planar2R
 from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
 from autograder.judging.verdict import State
-from autograder.notebook.grade import Sitting, is_judged, stream
+from autograder.notebook.grade import is_judged, stream
+from autograder.notebook.sitting import Sitting
 from autograder.problems import CHECKS
 from autograder.problems.p2_energy_skew.checks import CHECKS as P2
 from autograder.protocol import real
