@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+import socket
 import subprocess
 import sys
 import time
@@ -21,6 +22,7 @@ from jupyter_server.serverapp import ServerApp
 from autograder import cli, lab_server
 from autograder.lab_server import NOT_FOR_STUDENTS, CourseContents
 from tests.autograder.courses import P3, ROOT, new_course
+from tests.autograder.eventually import eventually
 
 DIRECTLY = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 LESSON = "lessons/00-start-here.ipynb"
@@ -59,6 +61,8 @@ def plain_jupyter_lab(root):
                 assert server.poll() is None, log.read_text()
                 time.sleep(0.1)
             address = found.group(1)
+            # The address may be in the log before anything listens there.
+            assert eventually(lambda: _listens(int(address.rpartition(":")[2])))
 
             def ask(path: str, **data: str):
                 request = urllib.request.Request(
@@ -72,6 +76,11 @@ def plain_jupyter_lab(root):
             yield ask
         finally:
             server.terminate()
+
+
+def _listens(port: int) -> bool:
+    with socket.socket() as trial:
+        return trial.connect_ex(("127.0.0.1", port)) == 0
 
 
 @pytest.mark.skipif(os.name == "nt", reason="nbgrader has no exchange on Windows")
