@@ -65,6 +65,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: bool) -> int:
     """Grade an assignment's submissions; the exit status is 1 if one could not be graded."""
+    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.pipeline import run as pipeline
 
     if not (root / "solutions" / assignment / f"{assignment}.ipynb").exists():
