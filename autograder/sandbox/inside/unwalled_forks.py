@@ -15,9 +15,8 @@ import sys
 import tempfile
 from contextlib import suppress
 
-DESCRIPTORS = (
-    3  # requests, replies, and a socket: a handle on the watch goes out, the judge talks in
-)
+# Requests, replies, and a socket: a handle on the watch goes out, and the judge talks to the watch.
+DESCRIPTORS = 3
 MOST_BYTES = 1 << 13  # the longest path there is, and a word
 END_SECONDS = 10.0
 
