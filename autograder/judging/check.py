@@ -5,6 +5,7 @@ function runs (`ask`) and in how many cases are drawn.
 """
 
 import math
+import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,17 +13,27 @@ from types import FunctionType
 
 import numpy as np
 
-from autograder.judging import changes
+from autograder.judging import changes, dependence
 from autograder.judging.criterion import Criterion, relative_errors
-from autograder.judging.diagnosis import Mistake, Term, explains_all, sentences
+from autograder.judging.diagnosis import Mistake, explains_all, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
-from autograder.judging.quantities import Numbers, Quantities, UnfitError, finite, one_number
+from autograder.judging.quantities import (
+    Numbers,
+    Quantities,
+    UnfitError,
+    each,
+    finite,
+    one_number,
+)
+from autograder.judging.terms import Term
 from autograder.judging.verdict import Row, State, Verdict, Witness
 from autograder.judging.witness import witness
 from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol, read, real, shortened
 
 VISIBLE_CASES = 6
 HIDDEN_CASES = 24
+# An answer that took longer, s, is not called again to find out more about it.
+SLOW = 2.0
 
 Ask = Callable[[list[Call]], list[Reply]]
 
@@ -43,7 +54,7 @@ class Check:
     with the same arguments. calls(rng, count): the calls to try. quantities(calls, values): what is
     judged in the values, for each call one array a criterion; by default the one number that came
     back. mistakes: tried in order on each criterion that is not met. terms: the parts of the right
-    answer, on which an error that no mistake explains is projected. hints: from a nudge to nearly
+    answer, of which an error may be made that no mistake explains. hints: from a nudge to nearly
     the way. pose(call): the joints of the arm in a call, to be drawn beside the worst case.
 
     ValueError where the shares of the criteria do not add up to 1, or where two criteria have one
@@ -96,17 +107,21 @@ class Check:
         except Exception as error:
             return self._failed(error)
         try:
+            started = time.monotonic()
             replies = ask(calls)
+            ask_again = ask if time.monotonic() - started < SLOW else None
         except CannotRunError as error:
             return self._failed(error)
         try:
             # Near the largest float, their numbers less ours overflow: wrong, but not our failure.
             with np.errstate(over="ignore", invalid="ignore"):
-                return self._judge_replies(calls, expected, replies)
+                return self._judge_replies(calls, expected, replies, ask_again)
         except Exception as error:
             return self._failed(error)
 
-    def _judge_replies(self, calls: list[Call], expected: Numbers, replies: list[Reply]) -> Verdict:
+    def _judge_replies(
+        self, calls: list[Call], expected: Numbers, replies: list[Reply], ask: Ask | None
+    ) -> Verdict:
         fault = next((reply.fault for reply in replies if reply.fault), None)
         if fault and fault.kind is FaultKind.NOT_IMPLEMENTED:
             return self._not_attempted()
@@ -116,7 +131,7 @@ class Check:
         except _NoNumbersError as error:
             return self._error(str(error))
         if not any(reply.again for reply in replies):
-            return self.judge(calls, expected, given, changed=changed)
+            return self.judge(calls, expected, given, changed=changed, ask=ask)
         second = [reply.again or reply for reply in replies]
         try:
             again = self._given(calls, second, describe_second_fault)
@@ -124,7 +139,7 @@ class Check:
             return self._error(
                 f"{changes.remark(self.name, changed, True)} On the second call, {error}"
             )
-        return self.judge(calls, expected, given, again, changed)
+        return self.judge(calls, expected, given, again, changed, ask)
 
     def _given(
         self,
@@ -143,12 +158,13 @@ class Check:
 
     def judge(
         self, calls: list[Call], expected: Numbers, given: Numbers, again: Numbers | None = None,
-        changed: tuple[str, ...] = (),
+        changed: tuple[str, ...] = (), ask: Ask | None = None,
     ) -> Verdict:  # fmt: skip
         """The verdict on quantities given, case by case, against those expected.
 
         again: the quantities of second calls, where a first one changed its arguments; a criterion is
-        met where both are right. changed: the names of these arguments.
+        met where both are right. changed: the names of these arguments. ask: by which more may be found
+        out of an answer that no mistake explains.
         """
         right = met = self._met(self._errors(expected, given))
         if again is not None:
@@ -164,7 +180,7 @@ class Check:
             worst = self._witness(calls, expected, again, met, changes.SECOND)
         else:
             worst = self._witness(calls, expected, given, right)
-            said = self._diagnosis(calls, expected, given, right)
+            said = self._diagnosis(calls, expected, given, right, ask)
         return Verdict(
             self.id,
             State.PARTLY_CORRECT if credit > 0 else State.INCORRECT,
@@ -192,7 +208,7 @@ class Check:
         return self.quantities(calls, [_evaluated(model, call) for call in calls])
 
     def _diagnosis(
-        self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool]
+        self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool], ask: Ask | None
     ) -> tuple[str, ...]:
         """What to say of the criteria that are not met."""
         wrong = [(mistake, self._quantities_of(mistake.wrong, calls)) for mistake in self.mistakes]
@@ -200,7 +216,34 @@ class Check:
             if explains_all(self.criteria, numbers, given, met):
                 return (mistake.sentence,)
         parts = [(term, self._quantities_of(term.model, calls)) for term in self.terms]
-        return sentences(self.criteria, expected, given, met, wrong, parts)
+        found: list = []  # of calls that are made once, and only where something is left to explain
+
+        def elsewhere(k: int) -> str:
+            if not found:
+                found.append(self._tried(ask, calls[-1]) if ask else None)
+            criterion = self.criteria[k]
+            if found[0] is None or not criterion.unit or criterion.is_property:
+                return ""
+            return dependence.sentence(criterion.text, k, *found[0])
+
+        return sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
+
+    def _tried(
+        self, ask: Ask, base: Call
+    ) -> tuple[list[dependence.Probe], Numbers, Numbers] | None:
+        """The call with one number changed at a time: the right quantities and theirs, if all came."""
+        probes = dependence.probes(self.signature, base)
+        if not probes or not isinstance(self.quantities, each):
+            return None
+        calls = [base, *(probe.call for probe in probes)]
+        replies = ask(calls)
+        if len(replies) < len(calls) or any(reply.fault for reply in replies):
+            return None
+        try:
+            theirs = self._given(calls, replies, describe_fault)
+        except _NoNumbersError:
+            return None
+        return probes, self._quantities_of(self.reference, calls), theirs
 
     def _witness(
         self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool], when: str = ""

@@ -1,22 +1,18 @@
-"""Finds the known mistake that wrong numbers show, or the term in which they are wrong.
+"""Finds the known mistake that wrong numbers show, or else what can be said of them.
 
 A mistake is named only if the student's numbers equal its numbers to rounding in every random case,
-or those of two mistakes at once. If none matches, the error is projected on the known terms.
+or those of two mistakes at once. If none matches, `findings` says what is true of the numbers.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Generic, TypeVar
 
 import numpy as np
 
+from autograder.judging import findings
 from autograder.judging.criterion import TOLERANCE, Criterion, relative_errors
 from autograder.judging.quantities import Numbers
-
-# An error with more than this share along the known terms is said to be in them.
-MOSTLY = 0.95
-# A term with less than this share of the error is not named.
-NOTABLE = 0.05
+from autograder.judging.terms import Term
 
 
 @dataclass(frozen=True)
@@ -33,24 +29,10 @@ class Mistake:
 
 
 @dataclass(frozen=True)
-class Term:
-    """A part of the right answer, in words: "the coupling of the two links".
+class Known:
+    """A mistake's numbers: one array a case, for one criterion."""
 
-    model: takes the arguments of the student's function and gives this part of what it returns.
-    """
-
-    name: str
-    model: Callable
-
-
-Named = TypeVar("Named", Mistake, Term)
-
-
-@dataclass(frozen=True)
-class Known(Generic[Named]):
-    """A mistake's or a term's numbers: one array a case, for one criterion."""
-
-    of: Named
+    of: Mistake
     values: list[np.ndarray]
 
 
@@ -71,8 +53,12 @@ def sentences(
     met: list[bool],
     mistakes: list[tuple[Mistake, Numbers]],
     terms: list[tuple[Term, Numbers]],
+    elsewhere: Callable[[int], str],
 ) -> tuple[str, ...]:
-    """What to say of each criterion that is not met, where no mistake explains the whole answer."""
+    """What to say of each criterion that is not met, where no mistake explains the whole answer.
+
+    elsewhere: what more can be found out of criterion k, "" for nothing; it may cost calls.
+    """
     said: list[str] = []
     for k, criterion in enumerate(criteria):
         if met[k]:
@@ -83,15 +69,14 @@ def sentences(
         shown = mistakes_shown(right, theirs, wrong, criterion.allows(met=False))
         said += [mistake.sentence for mistake in shown]
         if not shown:
-            parts = [Known(term, _part(k, numbers)) for term, numbers in terms
-                     if not criterion.is_property]  # fmt: skip
-            off = terms_off(right, theirs, parts)
-            said += [_where(criterion, off)] if off else [criterion.otherwise]
+            parts = [(term, _part(k, numbers)) for term, numbers in terms]
+            found = findings.of_numbers(criterion, right, theirs, parts) or criterion.otherwise
+            said.append(found or ("" if any(said) else elsewhere(k)))
     return tuple(dict.fromkeys(filter(None, said)))
 
 
 def mistakes_shown(
-    expected: list, given: list, mistakes: list[Known[Mistake]], tolerance: float = TOLERANCE
+    expected: list, given: list, mistakes: list[Known], tolerance: float = TOLERANCE
 ) -> tuple[Mistake, ...]:
     """The first mistake whose numbers these are; or the first two whose errors add up to theirs."""
 
@@ -117,36 +102,6 @@ def mistakes_shown(
         if apart and same(sums, given):
             return (first.of, second.of)
     return ()
-
-
-def terms_off(
-    expected: list, given: list, terms: list[Known[Term]]
-) -> list[tuple[Term, float, float]]:
-    """The terms in which an error sits: each with its share of the error, and the error's size as a
-    multiple of the term (−1: the term is missing). Empty where the terms do not explain it.
-    """
-    error = _flat(given) - _flat(expected)
-    present = [known for known in terms if np.any(_flat(known.values))]
-    if not present or not np.any(error):
-        return []
-    columns = np.array([_flat(known.values) for known in present]).T
-    sizes = np.linalg.norm(columns, axis=0)
-    factors, *_ = np.linalg.lstsq(columns / sizes, error, rcond=1e-9)
-    if np.linalg.norm(error - columns / sizes @ factors) > (1 - MOSTLY) * np.linalg.norm(error):
-        return []
-    shares = factors**2 / np.sum(factors**2)
-    found = [
-        (known.of, float(share), float(factor / size))
-        for known, share, factor, size in zip(present, shares, factors, sizes, strict=True)
-        if share > NOTABLE
-    ]
-    return sorted(found, key=lambda one: -one[1])
-
-
-def _where(criterion: Criterion, off: list[tuple[Term, float, float]]) -> str:
-    """No known mistake, but the error is made of known terms: their names, and by how much."""
-    said = " and ".join(f"{term.name} ({factor:+.2g} times it)" for term, _, factor in off)
-    return f"The error in your {criterion.text} varies like {said}."
 
 
 def _part(k: int, numbers: Numbers) -> list[np.ndarray]:

@@ -5,6 +5,7 @@ energy counts by its differences.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,9 +19,14 @@ class UnfitError(Exception):
     """Numbers came back, but not as many, or not in the shape, that the question asks for."""
 
 
-def each(parts: Callable[[Call, np.ndarray], tuple[np.ndarray, ...]]) -> Quantities:
+@dataclass(frozen=True)
+class each:  # noqa: N801  (a decorator)
     """Quantities that are formed from each call's value by itself."""
-    return lambda calls, values: [parts(c, v) for c, v in zip(calls, values, strict=True)]
+
+    parts: Callable[[Call, np.ndarray], tuple[np.ndarray, ...]]
+
+    def __call__(self, calls: list[Call], values: list) -> Numbers:
+        return [self.parts(c, v) for c, v in zip(calls, values, strict=True)]
 
 
 @each

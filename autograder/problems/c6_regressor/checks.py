@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
-from autograder.judging.diagnosis import Term
 from autograder.judging.quantities import UnfitError, each, one_number, vector
+from autograder.judging.terms import Term
 from autograder.problems.c6_regressor import mistakes
 from autograder.problems.material import planar_2r, sampling
 from autograder.protocol import Call

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
-from autograder.judging.diagnosis import Term
 from autograder.judging.quantities import UnfitError, array, each, one_number
+from autograder.judging.terms import Term
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.material.definiteness import (
     MATRICES,
@@ -219,12 +219,7 @@ CHECKS = (
         quantities=_entries,
         criteria=(
             Criterion("M11", "kg·m²", 0.5),
-            Criterion(
-                "M12 and M21",
-                "kg·m²",
-                0.25,
-                otherwise="M12 and M21 are judged together: are they the same in your matrix?",
-            ),
+            Criterion("M12 and M21", "kg·m²", 0.25),
             Criterion("M22", "kg·m²", 0.25),
         ),
         mistakes=mistakes.INERTIA,

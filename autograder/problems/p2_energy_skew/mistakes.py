@@ -8,7 +8,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from autograder.judging.diagnosis import Mistake, Term
+from autograder.judging.diagnosis import Mistake
+from autograder.judging.terms import Term
 from autograder.problems.material import planar_2r as right
 from autograder.problems.material import sentences
 
@@ -355,9 +356,9 @@ CORIOLIS = (
     ),
 )
 CORIOLIS_TERMS = (
-    Term("the Coriolis term of row 1, with q̇1 q̇2", _h_times(lambda a, b: [[b, a], [0.0, 0.0]])),
-    Term("the centrifugal term of row 1, with q̇2²", _h_times(lambda a, b: [[0.0, b], [0.0, 0.0]])),
-    Term("the centrifugal term of row 2, with q̇1²", _h_times(lambda a, b: [[0.0, 0.0], [-a, 0.0]])),
+    Term("the Coriolis term of row 1 (q̇1 q̇2)", _h_times(lambda a, b: [[b, a], [0.0, 0.0]])),
+    Term("the centrifugal term of row 1 (q̇2²)", _h_times(lambda a, b: [[0.0, b], [0.0, 0.0]])),
+    Term("the centrifugal term of row 2 (q̇1²)", _h_times(lambda a, b: [[0.0, 0.0], [-a, 0.0]])),
 )
 
 PLUS_CONSTANT = (
@@ -503,11 +504,11 @@ CHRISTOFFEL = tuple(
 )
 CHRISTOFFEL_TERMS = (
     Term(
-        "the two derivatives with a plus, from d/dt(M q̇)",
+        "the part from d/dt(M q̇)",
         at_points(lambda D, qd, M: coriolis(D, qd, third=0.0)),
     ),
     Term(
-        "the last derivative, from −∂K/∂q",
+        "the part from −∂K/∂q",
         at_points(lambda D, qd, M: coriolis(D, qd, first=0.0, second=0.0)),
     ),
 )

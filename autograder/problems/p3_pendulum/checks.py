@@ -9,8 +9,8 @@ from math import cos, sin, sqrt
 import numpy as np
 
 from autograder.judging.check import Check, Criterion
-from autograder.judging.diagnosis import Term
 from autograder.judging.quantities import UnfitError, each
+from autograder.judging.terms import Term
 from autograder.problems.material import sampling
 from autograder.problems.p3_pendulum import mistakes
 from autograder.protocol import Call, Symbol

@@ -5,8 +5,8 @@ from math import pi
 import numpy as np
 
 from autograder.judging.check import Check, Criterion
-from autograder.judging.diagnosis import Term
 from autograder.judging.quantities import UnfitError, each, one_number, vector
+from autograder.judging.terms import Term
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.p4_gravity import mistakes
 from autograder.protocol import Call

@@ -4,7 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from autograder.judging.diagnosis import Mistake, Term
+from autograder.judging.diagnosis import Mistake
+from autograder.judging.terms import Term
 from autograder.problems.material import sentences
 from autograder.problems.material.planar_2r import (
     C,

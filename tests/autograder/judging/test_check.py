@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from autograder.judging.check import CannotRunError, Check, Criterion
-from autograder.judging.diagnosis import Mistake, Term
+from autograder.judging.diagnosis import Mistake
 from autograder.judging.quantities import UnfitError
+from autograder.judging.terms import Term
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from autograder.protocol import Call, Reply

@@ -33,28 +33,28 @@ def test_bodies_are_right_before_they_are_spoilt(check_id, body):
         (
             "p5-f",
             rate("u - C @ qd - 1.1 * g - d * qd - k * np.sign(qd)"),
-            "accelerations in ẋ varies like M⁻¹ g (+0.1 times it)",
+            "accelerations in ẋ, M⁻¹ g comes out 10 % too large.",
         ),
         (
             "p5-f",
             rate("0.5 * u - C @ qd - g - d * qd - k * np.sign(qd)"),
-            "varies like M⁻¹ u (-0.5 times it)",
+            "M⁻¹ u is half of what it should be.",
         ),
         (
             "p5-f",
             rate("u - C @ qd - g - 3 * d * qd - k * np.sign(qd)"),
-            "varies like viscous friction (+2 times it)",
+            "viscous friction is 3 times as large as it should be.",
         ),
         (
             "p5-energy_drift",
             drift(K="0.6 * qd @ M(q) @ qd"),
-            "change of the kinetic energy varies like the change of K (+0.2 times it)",
+            "change of the kinetic energy, every value is 20 % too large.",
         ),
     ],
 )
 def test_unknown_error_is_sought_in_the_terms(check_id, body, said):
     (first, *_) = judged(check_id, body).diagnosis
-    assert said.replace("+", "") in first.replace("+", "")
+    assert said in first
 
 
 RALSTON = step(

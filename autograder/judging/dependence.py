@@ -1,0 +1,110 @@
+"""Finds out on which of its arguments an answer depends and should not, or should and does not.
+
+The function is called again with one number changed at a time. What may be said follows from its
+numbers alone: nothing where a call fails, or where an argument is no number, array of numbers or
+namespace of them.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
+
+import numpy as np
+
+from autograder.judging.criterion import TOLERANCE
+from autograder.judging.quantities import Numbers
+from autograder.protocol import Call
+
+# With more numbers than these, as of a motion's samples, one alone says nothing.
+MOST = 30
+# Of a state: its size and its sign, as Coulomb friction knows the sign alone.
+EITHER_SIGN: tuple[Callable, ...] = (lambda x: 1.25 * x + 0.1, lambda x: -x)
+# Of a length or a mass.
+POSITIVE: tuple[Callable, ...] = (lambda x: 1.25 * x + 0.1,)
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A call with one number changed. of: that number as a student writes it, "arm.I2" or "q[1]"."""
+
+    of: str
+    call: Call
+
+
+def probes(signature: str, call: Call) -> list[Probe]:
+    """One or two for each number in the arguments; none where they are too many, or not all numbers."""
+    names = signature.partition("(")[2].removesuffix(")").split(", ")
+    found: list[Probe] = []
+    if call.at or call.parts:
+        return []
+    for place, (name, value) in enumerate(zip(names, call.args, strict=False)):
+        if not _is_plain(value):
+            return []
+        for of, other in _changed(name, value, EITHER_SIGN):
+            args = (*call.args[:place], other, *call.args[place + 1 :])
+            found.append(Probe(of, replace(call, args=args)))
+    return found if len({probe.of for probe in found}) <= MOST else []
+
+
+def sentence(text: str, k: int, tried: list[Probe], right: Numbers, theirs: Numbers) -> str:
+    """What an answer's quantity k, called `text`, depends on unlike the right one; "" for nothing.
+
+    right, theirs: the quantities of the unchanged call, then of the probes.
+    """
+    needed, used = (_moving(k, tried, numbers) for numbers in (right, theirs))
+    extra = [of for of in used if of not in needed]
+    missing = [of for of in needed if of not in used]
+    fields = {of for of in needed if "." in of}
+    if fields and not any("." in of for of in used):
+        (owner, *_) = {of.partition(".")[0] for of in fields}
+        return (
+            f"In your {text}, the values do not depend on {owner} at all. Did you write the numbers of "
+            "one example into the function?"
+        )
+    said = []
+    if extra:
+        said.append(f"the values depend on {_listed(extra)}; the right ones do not")
+    if missing:
+        own = "they" if said else "the values"
+        said.append(f"{own} do not depend on {_listed(missing)}; the right ones do")
+    return f"In your {text}, {', and '.join(said)}." if said else ""
+
+
+def _moving(k: int, tried: list[Probe], numbers: Numbers) -> list[str]:
+    """The arguments whose change moves quantity k, each once, in their order."""
+    before = np.asarray(numbers[0][k])
+    found: dict[str, None] = {}
+    for probe, after in zip(tried, numbers[1:], strict=True):
+        now = np.asarray(after[k])
+        size = max(np.max(np.abs(before), initial=0.0), np.max(np.abs(now), initial=0.0))
+        if now.shape != before.shape or np.any(np.abs(now - before) > TOLERANCE * size):
+            found[probe.of] = None
+    return list(found)
+
+
+def _is_plain(value) -> bool:
+    if isinstance(value, SimpleNamespace):
+        return all(_is_plain(entry) for entry in vars(value).values())
+    return isinstance(value, float) or (isinstance(value, np.ndarray) and value.ndim == 1)
+
+
+def _changed(name: str, value, changes: tuple[Callable, ...]) -> Iterator[tuple[str, object]]:
+    """The value with each of its numbers changed in turn."""
+    if isinstance(value, SimpleNamespace):
+        for field, entry in vars(value).items():
+            for of, other in _changed(f"{name}.{field}", entry, POSITIVE):
+                yield of, SimpleNamespace(**vars(value) | {field: other})
+    elif isinstance(value, np.ndarray):
+        for i in range(len(value)):
+            for change in changes:
+                other = value.copy()
+                other[i] = change(other[i])
+                yield f"{name}[{i}]", other
+    else:
+        for change in changes:
+            yield name, change(value)
+
+
+def _listed(names: list[str]) -> str:
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last

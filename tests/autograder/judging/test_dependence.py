@@ -1,0 +1,135 @@
+"""On what an answer depends unlike the right one: found by calling it again, and true of it."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from autograder.judging.check import Check, Criterion
+from autograder.judging.dependence import probes
+from autograder.judging.quantities import each
+from autograder.protocol import Call, Fault, FaultKind, Function, Reply, Symbol, real
+
+NAMES = ("q[0]", "q[1]", "arm.m", "arm.l", "arm.d[0]", "arm.d[1]")
+
+
+def parts(q, arm) -> list[float]:
+    return [q[0], q[1], arm.m, arm.l, *arm.d]
+
+
+def product(used):
+    """A function of some of the arguments' numbers."""
+    return lambda q, arm: np.array(
+        1.0 + np.prod([np.sin(x) + 2 for x, name in zip(parts(q, arm), NAMES, strict=True)
+                       if name in used])
+    )  # fmt: skip
+
+
+def calls(rng, count):
+    return [
+        Call("torque", (rng.uniform(-2, 2, 2), SimpleNamespace(
+            m=rng.uniform(1, 2), l=rng.uniform(1, 2), d=rng.uniform(1, 2, 2)
+        )))
+        for _ in range(count)
+    ]  # fmt: skip
+
+
+def check(used, **changes) -> Check:
+    fields = {
+        "id": "x-torque",
+        "signature": "torque(q, arm)",
+        "reference": product(used),
+        "calls": calls,
+        "criteria": (Criterion("torque", "N·m"),),
+    }
+    return Check(**fields | changes)
+
+
+def said(judging: Check, theirs) -> tuple[str, ...]:
+    def ask(calls):
+        return [Reply(value=np.asarray(theirs(*map(real, call.args)), float)) for call in calls]
+
+    return judging.run(ask, np.random.default_rng(3)).diagnosis
+
+
+subsets = st.sets(st.sampled_from(NAMES), min_size=1)
+
+
+@given(subsets, subsets)
+def test_what_is_said_is_so(needed, used):
+    """An answer of some other numbers than the right one: these and no others are named."""
+    (found,) = said(check(needed), lambda q, arm: 0.3 + product(used)(q, arm) ** 2) or ("",)
+    of_arm = {name for name in needed if "." in name}
+    if of_arm and not any("." in name for name in used):
+        assert "do not depend on arm at all" in found
+        return
+    more, less = used - needed, needed - used
+    named = {name for name in NAMES if name in found}
+    assert named == more | less
+    assert bool(found) == bool(more | less)
+    for name in more:
+        assert name in found.partition(" do not depend")[0]
+
+
+def test_a_sign_alone_is_noticed():
+    """As in Coulomb friction: a change of size would not show it."""
+    judging = check({"q[0]"}, reference=lambda q, arm: np.sign(q[0]) + 2.0)
+    (found,) = said(judging, lambda q, arm: arm.m * 0 + 2.5)
+    assert found == "In your torque, the values do not depend on q[0]; the right ones do."
+
+
+def test_a_call_that_fails_leaves_nothing_to_say():
+    asked = []
+
+    def ask(calls):
+        asked.append(len(calls))
+        if len(asked) == 1:
+            return [Reply(value=np.array(7.0)) for _ in calls]
+        return [Reply(fault=Fault(FaultKind.RAISED, "ValueError"))]
+
+    verdict = check({"q[0]"}).run(ask, np.random.default_rng(3))
+    assert len(asked) == 2
+    assert (verdict.credit, verdict.diagnosis) == (0, ())
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"criteria": (Criterion("count"),)},
+        {"criteria": (Criterion("torque", "N·m", is_property=True),)},
+        {"criteria": (Criterion("torque", "N·m", otherwise="Look at it."),)},
+        {"quantities": lambda calls, values: [(np.reshape(v, ()),) for v in values]},
+    ],
+    ids=["a count", "a property", "a sentence of its own", "calls that are compared"],
+)
+def test_where_nothing_is_tried(changes):
+    found = said(check({"q[0]"}, **changes), lambda q, arm: q[1] ** 2)
+    assert not any("depend" in sentence for sentence in found)
+
+
+@pytest.mark.parametrize(
+    "args",
+    [
+        (np.eye(2),),
+        (Symbol("q"),),
+        (Function("x", "[x]"),),
+        (np.zeros(31),),
+        (SimpleNamespace(l=(1.0, 2.0)),),
+    ],
+)
+def test_arguments_that_are_not_tried(args):
+    assert probes("torque(q)", Call("torque", args)) == []
+
+
+def test_the_argument_itself_is_left_as_it_is():
+    (call,) = calls(np.random.default_rng(0), 1)
+    before = real(call.args[1])
+    tried = probes("torque(q, arm)", call)
+    assert {probe.of for probe in tried} == set(NAMES)
+    np.testing.assert_equal(vars(call.args[1]), vars(before))
+
+
+def test_quantities_of_one_call_each_say_so():
+    assert isinstance(each(lambda call, value: (value,)), each)
