@@ -1,6 +1,7 @@
 """A rigid link and the joint that carries it: the parts of a serial chain."""
 
 import reprlib
+import warnings
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
@@ -29,6 +30,9 @@ class Link:
     orthogonal or is a reflection; a negative mass; an inertia that is not symmetric, has a negative
     principal moment, or has one that is greater than the sum of the other two, as no distribution
     of mass can. These are judged to 1e-9, for numbers from a file.
+
+    Published inertias break these two rules now and then: with triangle="warn" such a link is made,
+    with a warning that names it. M(q) can then have negative eigenvalues.
     """
 
     joint: Joint = field(metadata={"doc": "how the link moves"})
@@ -55,6 +59,12 @@ class Link:
         default=ZERO, metadata={"unit": "m", "doc": "(3,), the joint's origin in the frame before"}
     )
     name: str = field(default="", metadata={"doc": "for messages"})
+    triangle: Literal["error", "warn"] = field(
+        default="error",
+        compare=False,
+        repr=False,
+        metadata={"doc": "for an inertia that no body can have: an error, or a warning alone"},
+    )
 
     def __post_init__(self):
         try:
@@ -69,10 +79,12 @@ class Link:
             raise ValueError(f"name = {self.name!r}: needs text")
         if self.joint not in get_args(Joint):
             raise ValueError(f"joint = {self.joint!r}: needs 'revolute' or 'prismatic'")
+        if self.triangle not in ("error", "warn"):
+            raise ValueError(f"triangle = {self.triangle!r}: needs 'error' or 'warn'")
         exact = {
             "mass": nonnegative("mass", self.mass, "kg"),
             "com": _numbers("com", self.com, (3,), "m"),
-            "inertia": _inertia(self.inertia),
+            "inertia": self._inertia(),
             "axis": _axis(self.axis),
             "rotation": _rotation(self.rotation),
             "translation": _numbers("translation", self.translation, (3,), "m"),
@@ -80,6 +92,27 @@ class Link:
         for name, value in exact.items():
             # Tuples whatever came, so that links compare and hash by their numbers.
             object.__setattr__(self, name, _tuples(value))
+
+    def _inertia(self) -> np.ndarray:
+        inertia = _symmetric(self.inertia)
+        size = np.max(np.abs(inertia))
+        a, b, c = np.linalg.eigvalsh(inertia)
+        # A negative moment breaks the triangle inequality, too.
+        if c > a + b + TOLERANCE * size:
+            why = (
+                f"{_shown(inertia)}: has the negative principal moment {a:.6g}"
+                if a < -TOLERANCE * size
+                else f"{_shown(inertia)}: the principal moments {a:.6g}, {b:.6g}, {c:.6g} break "
+                "the triangle inequality: no distribution of mass has one greater than the sum of "
+                "the others"
+            )
+            if self.triangle == "error":
+                raise ValueError(
+                    f'{why} (as published, it can be had with triangle="warn", from read_urdf with '
+                    'inertia="warn")'
+                )
+            warnings.warn(f"link {self.name!r}: {why}", stacklevel=5)
+        return inertia
 
 
 def _numbers(name, value, shape, unit) -> np.ndarray:
@@ -113,22 +146,15 @@ def _rotation(value) -> np.ndarray:
     return left @ right
 
 
-def _inertia(value) -> np.ndarray:
+def _symmetric(value) -> np.ndarray:
     inertia = _numbers("inertia", value, (3, 3), "kg·m²")
-    size = np.max(np.abs(inertia))
-    shown = f"inertia = {inertia.tolist()} kg·m²"
-    if np.max(np.abs(inertia - inertia.T)) > TOLERANCE * size:
-        raise ValueError(f"{shown}: needs a symmetric matrix")
-    inertia = (inertia + inertia.T) / 2
-    a, b, c = np.linalg.eigvalsh(inertia)
-    if a < -TOLERANCE * size:
-        raise ValueError(f"{shown}: has the negative principal moment {a:.6g}")
-    if c > a + b + TOLERANCE * size:
-        raise ValueError(
-            f"{shown}: the principal moments {a:.6g}, {b:.6g}, {c:.6g} break the triangle "
-            "inequality: no distribution of mass has one greater than the sum of the others"
-        )
-    return inertia
+    if np.max(np.abs(inertia - inertia.T)) > TOLERANCE * np.max(np.abs(inertia)):
+        raise ValueError(f"{_shown(inertia)}: needs a symmetric matrix")
+    return (inertia + inertia.T) / 2
+
+
+def _shown(inertia) -> str:
+    return f"inertia = {inertia.tolist()} kg·m²"
 
 
 def _tuples(value):
