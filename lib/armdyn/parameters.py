@@ -76,6 +76,17 @@ def all_finite(name: str, array: np.ndarray) -> np.ndarray:
     return array
 
 
+def numbers(name: str, value, shape: tuple[int, ...], unit: str) -> np.ndarray:
+    """`value` as a float array of this shape; ValueError unless all are finite, at most 1e50 in size."""
+    needs = f"real numbers of shape {shape}, in {unit}"
+    array = all_finite(name, real_array(name, value, needs))
+    if array.shape != shape:
+        raise ValueError(f"{name}: got shape {array.shape}, needs {needs}")
+    if np.max(np.abs(array), initial=0) > LARGEST:
+        raise ValueError(f"{name} = {reprlib.repr(value)}: needs at most {LARGEST:.0e} {unit}")
+    return array
+
+
 def state_vector(name: str, value, size: int) -> np.ndarray:
     """`value` as a float array of shape (..., size); otherwise ValueError with both shapes."""
     needs = f"real numbers of shape (..., {size})"

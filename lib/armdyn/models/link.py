@@ -1,13 +1,12 @@
 """A rigid link and the joint that carries it: the parts of a serial chain."""
 
-import reprlib
 import warnings
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 import numpy as np
 
-from armdyn.parameters import LARGEST, all_finite, nonnegative, real_array
+from armdyn.parameters import nonnegative, numbers
 
 Joint = Literal["revolute", "prismatic"]
 IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -83,11 +82,11 @@ class Link:
             raise ValueError(f"triangle = {self.triangle!r}: needs 'error' or 'warn'")
         exact = {
             "mass": nonnegative("mass", self.mass, "kg"),
-            "com": _numbers("com", self.com, (3,), "m"),
+            "com": numbers("com", self.com, (3,), "m"),
             "inertia": self._inertia(),
             "axis": _axis(self.axis),
             "rotation": _rotation(self.rotation),
-            "translation": _numbers("translation", self.translation, (3,), "m"),
+            "translation": numbers("translation", self.translation, (3,), "m"),
         }
         for name, value in exact.items():
             # Tuples whatever came, so that links compare and hash by their numbers.
@@ -115,18 +114,8 @@ class Link:
         return inertia
 
 
-def _numbers(name, value, shape, unit) -> np.ndarray:
-    needs = f"real numbers of shape {shape}, in {unit}"
-    array = all_finite(name, real_array(name, value, needs))
-    if array.shape != shape:
-        raise ValueError(f"{name}: got shape {array.shape}, needs {needs}")
-    if np.max(np.abs(array)) > LARGEST:
-        raise ValueError(f"{name} = {reprlib.repr(value)}: needs at most {LARGEST:.0e} {unit}")
-    return array
-
-
 def _axis(value) -> np.ndarray:
-    axis = _numbers("axis", value, (3,), "1")
+    axis = numbers("axis", value, (3,), "1")
     length = np.linalg.norm(axis)
     if abs(length - 1) > TOLERANCE:
         raise ValueError(f"axis = {axis.tolist()}: needs length 1, has {length:.6g}")
@@ -134,7 +123,7 @@ def _axis(value) -> np.ndarray:
 
 
 def _rotation(value) -> np.ndarray:
-    R = _numbers("rotation", value, (3, 3), "1")
+    R = numbers("rotation", value, (3, 3), "1")
     error = np.max(np.abs(R.T @ R - np.eye(3))) if np.max(np.abs(R)) < 2 else np.inf
     if error > TOLERANCE:
         raise ValueError(f"rotation = {R.tolist()}: needs orthogonal columns of length 1")
@@ -147,7 +136,7 @@ def _rotation(value) -> np.ndarray:
 
 
 def _symmetric(value) -> np.ndarray:
-    inertia = _numbers("inertia", value, (3, 3), "kg·m²")
+    inertia = numbers("inertia", value, (3, 3), "kg·m²")
     if np.max(np.abs(inertia - inertia.T)) > TOLERANCE * np.max(np.abs(inertia)):
         raise ValueError(f"{_shown(inertia)}: needs a symmetric matrix")
     return (inertia + inertia.T) / 2

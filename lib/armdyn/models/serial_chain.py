@@ -3,12 +3,15 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
 from armdyn.friction import joint_friction
 from armdyn.manipulator import ROUNDING, Manipulator
+from armdyn.models.dh import Convention, dh_links
 from armdyn.models.link import Link
+from armdyn.models.screws import screw_links
 from armdyn.parameters import finite, per_joint, state_vector, state_vectors
 from armdyn.spatial import (
     force_cross,
@@ -33,6 +36,9 @@ class SerialChain(Manipulator):
 
     `armature` adds to M's diagonal, and so to all that follows from M, but not to C and g. The motors'
     masses belong to the links that carry them.
+
+    `from_dh` and `from_screws` make a chain from Denavit–Hartenberg parameters and from screw axes,
+    `urdf.read_urdf` from a file.
 
     Raises ValueError, naming the argument, for one that is not as described. Masses and inertias may
     be zero, and M(q) may then be singular: see `Manipulator.dynamics`.
@@ -80,6 +86,69 @@ class SerialChain(Manipulator):
         # Floats and tuples whatever came, so that arms compare and hash by their numbers.
         for name, value in kept.items():
             object.__setattr__(self, name, value)
+
+    @classmethod
+    def from_dh(
+        cls,
+        a,
+        alpha,
+        d,
+        theta,
+        mass,
+        com=None,
+        inertia=None,
+        *,
+        joints=None,
+        convention: Convention = "standard",
+        triangle: Literal["error", "warn"] = "error",
+        **more,
+    ) -> "SerialChain":
+        """A chain by its Denavit–Hartenberg parameters, one of each per joint.
+
+        a: (n,), m. alpha: (n,), rad. d: (n,), m. theta: (n,), rad. joints: n of "revolute" (as all
+        are if it is not given) and "prismatic"; q adds to theta of a revolute joint and to d of a
+        prismatic one.
+        mass: (n,), kg. com: (n, 3), m, in the links' Denavit–Hartenberg frames. inertia: (n, 3, 3),
+        kg·m², about the centre of mass, along the axes of these frames. Where they are not given,
+        they are 0.
+        convention: "standard", frame k at the far end of link k: Rz(θ) Tz(d) Tx(a) Rx(α) leads from
+        frame k − 1 to frame k. "modified", frame k on the axis of joint k: Rx(α) Tx(a) Rz(θ) Tz(d).
+        triangle: as for `Link`. more: gravity, viscous, coulomb, armature, as for `SerialChain`.
+
+        The Links have the modified frames, or in the standard convention frames on the axes of their
+        joints: there, `link_placements`, `link_jacobians` and the parameters π refer to those.
+
+        Raises ValueError, naming the argument, for one that is not as described.
+
+        Source: J. Denavit, R. S. Hartenberg (1955), A Kinematic Notation for Lower-Pair Mechanisms
+        Based on Matrices, Journal of Applied Mechanics 22; J. J. Craig (1986), Introduction to
+        Robotics, chapter 3, for the modified convention.
+        """
+        links = dh_links(a, alpha, d, theta, mass, com, inertia, joints, convention, triangle)
+        return cls(links, **more)
+
+    @classmethod
+    def from_screws(
+        cls, screws, homes, inertias, *, triangle: Literal["error", "warn"] = "error", **more
+    ) -> "SerialChain":
+        """A chain by its joints' screw axes, the product of exponentials.
+
+        screws: (n, 6), a row [ω; v] per joint, in the base's frame at q = 0: ω of length 1, rad/rad,
+        and v = −ω × r, m, with r on the axis; or ω = 0 and v of length 1 for a prismatic joint.
+        homes: (n, 4, 4), of the links' frames in the base's at q = 0. inertias: (n, 6, 6), spatial
+        inertia of each link about its frame, [ω; v] to momentum, as `spatial.rigid_inertia` gives it.
+        triangle: as for `Link`. more: gravity, viscous, coulomb, armature, as for `SerialChain`.
+
+        In Modern Robotics' notation these are Slist transposed, the M_i (the products of Mlist) and
+        Glist. The Links have frames along those of `homes`, with their origins moved onto the axes of
+        revolute joints.
+
+        Raises ValueError, naming the argument, for one that is not as described; a screw with a
+        pitch is no joint of a SerialChain.
+
+        Source: K. M. Lynch, F. C. Park (2017), Modern Robotics, sections 4.1 and 8.3.
+        """
+        return cls(screw_links(screws, homes, inertias, triangle), **more)
 
     @property
     def n(self) -> int:  # type: ignore[override]  # read only here, and nobody writes it
