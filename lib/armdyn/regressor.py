@@ -3,7 +3,7 @@
 Y holds only geometry (lengths, joint axes, gravity), π only inertia: per link the mass, the first
 moment m c and the inertia about the joint frame. In these, and not in ℓc and an inertia about the
 centre of mass, the equation of motion is linear. Friction is no inertial parameter: it has columns
-of its own, `friction_columns`; so has the inertia of motors, `armature_columns`.
+of its own, `friction_columns`.
 
 π per link, in this order:
 
@@ -163,19 +163,6 @@ def reach(model) -> float:
     return _geometry(model).length or 1.0
 
 
-def friction_columns(qd) -> np.ndarray:
-    """F with f(q̇) = F [d; k]: viscous coefficients d, then Coulomb torques k; (..., n, 2n).
-
-    qd: (..., n), rad/s. Raises ValueError for a qd that is not finite numbers.
-    """
-    size = np.shape(qd)[-1:] or (1,)
-    qd = state_vector("qd", qd, *size)
-    each = np.eye(*size)
-    return np.concatenate(
-        [each * qd[..., np.newaxis], each * np.sign(qd)[..., np.newaxis]], axis=-1
-    )
-
-
 def armature_columns(qdd) -> np.ndarray:
     """A with A a = the motors' part of M q̈, a the armature of each joint; (..., n, n).
 
@@ -187,6 +174,19 @@ def armature_columns(qdd) -> np.ndarray:
     """
     size = np.shape(qdd)[-1:] or (1,)
     return np.eye(*size) * state_vector("qdd", qdd, *size)[..., np.newaxis]
+
+
+def friction_columns(qd) -> np.ndarray:
+    """F with f(q̇) = F [d; k]: viscous coefficients d, then Coulomb torques k; (..., n, 2n).
+
+    qd: (..., n), rad/s. Raises ValueError for a qd that is not finite numbers.
+    """
+    size = np.shape(qd)[-1:] or (1,)
+    qd = state_vector("qd", qd, *size)
+    each = np.eye(*size)
+    return np.concatenate(
+        [each * qd[..., np.newaxis], each * np.sign(qd)[..., np.newaxis]], axis=-1
+    )
 
 
 def _planar_parameters(m, lc, ly, I) -> np.ndarray:

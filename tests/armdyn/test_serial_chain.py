@@ -317,6 +317,14 @@ def test_a_published_inertia_that_no_body_can_have(principal):
         Link("revolute", 0, inertia=inertia, name="trunk")
 
 
+def test_rounding_of_a_point_mass_s_inertia_is_no_negative_moment():
+    """iCub's links are point masses whose inertia a program has subtracted."""
+    rounded = np.diag([-5.4e-20, -5.4e-20, 0])
+    assert Link("revolute", 0.526, com=(0, 0, 0.03), inertia=rounded).mass == 0.526
+    with pytest.raises(ValueError, match="negative principal moment"):
+        Link("revolute", 0.526, com=(0, 0, 0.03), inertia=1e8 * rounded)
+
+
 def test_a_name_is_text():
     with pytest.raises(ValueError, match=r"^name = 3: needs text"):
         Link("revolute", 1.0, name=3)

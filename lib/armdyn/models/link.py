@@ -80,10 +80,12 @@ class Link:
             raise ValueError(f"joint = {self.joint!r}: needs 'revolute' or 'prismatic'")
         if self.triangle not in ("error", "warn"):
             raise ValueError(f"triangle = {self.triangle!r}: needs 'error' or 'warn'")
+        mass = nonnegative("mass", self.mass, "kg")
+        com = numbers("com", self.com, (3,), "m")
         exact = {
-            "mass": nonnegative("mass", self.mass, "kg"),
-            "com": numbers("com", self.com, (3,), "m"),
-            "inertia": self._inertia(),
+            "mass": mass,
+            "com": com,
+            "inertia": self._inertia(mass * (com @ com)),
             "axis": _axis(self.axis),
             "rotation": _rotation(self.rotation),
             "translation": numbers("translation", self.translation, (3,), "m"),
@@ -92,9 +94,10 @@ class Link:
             # Tuples whatever came, so that links compare and hash by their numbers.
             object.__setattr__(self, name, _tuples(value))
 
-    def _inertia(self) -> np.ndarray:
+    def _inertia(self, steiner) -> np.ndarray:
         inertia = _symmetric(self.inertia)
-        size = np.max(np.abs(inertia))
+        # A file's rounding is small against the inertia about the link's origin.
+        size = max(np.max(np.abs(inertia)), steiner)
         a, b, c = np.linalg.eigvalsh(inertia)
         # A negative moment breaks the triangle inequality, too.
         if c > a + b + TOLERANCE * size:

@@ -27,6 +27,9 @@ from armdyn.spatial import (
 class SerialChain(Manipulator):
     """n links, each carried by the one before, the first by the base.
 
+    `from_dh` makes a chain from Denavit–Hartenberg parameters, `from_screws` from screw axes, and
+    `urdf.read_urdf` from a file.
+
     q holds the joints' angles (rad) and displacements (m); M, C, g and u have the units that go
     with them, N·m for a revolute and N for a prismatic joint.
 
@@ -36,9 +39,6 @@ class SerialChain(Manipulator):
 
     `armature` adds to M's diagonal, and so to all that follows from M, but not to C and g. The motors'
     masses belong to the links that carry them.
-
-    `from_dh` and `from_screws` make a chain from Denavit–Hartenberg parameters and from screw axes,
-    `urdf.read_urdf` from a file.
 
     Raises ValueError, naming the argument, for one that is not as described. Masses and inertias may
     be zero, and M(q) may then be singular: see `Manipulator.dynamics`.

@@ -50,7 +50,8 @@ def read_urdf(
     collision elements, are not looked at.
 
     inertia: "warn" reads a link whose inertia no body can have (it breaks the triangle inequality,
-    or has a negative principal moment), as in many published files, with a warning that names it.
+    or has a negative principal moment), as in many published files, with a warning that
+    names it. A link is judged together with all that is held on it.
 
     Raises ValueError, naming the argument, the joint or the link: for a text that is not URDF; for
     links and joints that are not one tree; for names that the file does not have; where the chain
