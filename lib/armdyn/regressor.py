@@ -167,8 +167,10 @@ def armature_columns(qdd) -> np.ndarray:
     """A with A a = the motors' part of M q̈, a the armature of each joint; (..., n, n).
 
     qdd: (..., n), rad/s² (m/s² for a prismatic joint). Raises ValueError for a qdd that is not
-    finite numbers. The first joint's column is also that of its link's inertia about the joint's
-    axis: torque shows only the sum of the two. On some arms this holds of joints further out, too.
+    finite numbers.
+
+    The column of a first revolute joint is also that of its link's inertia about the joint's axis:
+    torque shows only the sum of the two. On some arms this holds of joints further out, too.
 
     Source: W. Khalil, E. Dombre (2002), Modeling, Identification and Control of Robots, chapter 9.
     """
