@@ -1,3 +1,4 @@
+import io
 from dataclasses import replace
 
 import numpy as np
@@ -176,6 +177,9 @@ def test_a_missing_file_is_named(tmp_path):
 def test_a_text_and_an_open_file_are_taken_as_a_path_is(read, tmp_path):
     arm = read(chain_file([A, B]))
     assert read_urdf("\n" + chain_file([A, B])) == arm
+    assert read_urdf("\ufeff" + chain_file([A, B])) == arm
+    assert read_urdf(chain_file([A, B]).encode("utf-8-sig")) == arm
+    assert read_urdf(io.StringIO(chain_file([A, B]))) == arm
     assert read_urdf(chain_file([A, B]).encode()) == arm
     assert read_urdf(str(tmp_path / "arm.urdf")) == arm
     for mode in ("r", "rb"):

@@ -83,7 +83,7 @@ def robot_of(source) -> Robot:
 def _text(source) -> tuple[bytes | str, str]:
     if hasattr(source, "read"):
         return source.read(), f"{getattr(source, 'name', 'the file')}"
-    if isinstance(source, bytes) or (isinstance(source, str) and source.lstrip().startswith("<")):
+    if isinstance(source, bytes) or (isinstance(source, str) and _bare(source).startswith("<")):
         return source, "the text"
     if not isinstance(source, str | os.PathLike):
         raise ValueError(f"source = {source!r}: needs a path, a URDF text or an open file")
@@ -94,13 +94,18 @@ def _text(source) -> tuple[bytes | str, str]:
         return file.read(), str(path)
 
 
+def _bare(text) -> str:
+    """Without what may stand before the first element: white space, and a byte order mark."""
+    return text.lstrip("\ufeff \t\r\n")
+
+
 def _root_element(text, where) -> Element:
     builder = TreeBuilder()
     # A text has been decoded, whatever encoding its first line names.
     parser = expat.ParserCreate("utf-8" if isinstance(text, str) else None)
     parser.StartElementHandler = builder.start
     parser.EndElementHandler = builder.end
-    encoded = text.lstrip().encode() if isinstance(text, str) else text
+    encoded = _bare(text).encode() if isinstance(text, str) else text
     try:
         parser.Parse(encoded, True)
     except expat.ExpatError as error:
