@@ -40,6 +40,17 @@ def nonnegative(name: str, value: float, unit: str) -> float:
     return number
 
 
+def numbers(name: str, value, shape: tuple[int, ...], unit: str) -> np.ndarray:
+    """`value` as a float array of this shape; ValueError unless all are finite, at most 1e50 in size."""
+    needs = f"real numbers of shape {shape}, in {unit}"
+    array = all_finite(name, real_array(name, value, needs))
+    if array.shape != shape:
+        raise ValueError(f"{name}: got shape {array.shape}, needs {needs}")
+    if np.max(np.abs(array), initial=0) > LARGEST:
+        raise ValueError(f"{name} = {reprlib.repr(value)}: needs at most {LARGEST:.0e} {unit}")
+    return array
+
+
 def per_joint(name: str, value, n: int, unit: str) -> tuple[float, ...]:
     """`value`, a sequence or an array, as a tuple of `n` floats ≥ 0, one per joint."""
     # Strings are sequences too; sets and mappings have no order that joints could follow.

@@ -163,6 +163,21 @@ def reach(model) -> float:
     return _geometry(model).length or 1.0
 
 
+def armature_columns(qdd) -> np.ndarray:
+    """A with A a = the motors' part of M q̈, a the armature of each joint; (..., n, n).
+
+    qdd: (..., n), rad/s² (m/s² for a prismatic joint). Raises ValueError for a qdd that is not
+    finite numbers.
+
+    The column of a first revolute joint is also that of its link's inertia about the joint's axis:
+    torque shows only the sum of the two. On some arms this holds of joints further out, too.
+
+    Source: W. Khalil, E. Dombre (2002), Modeling, Identification and Control of Robots, chapter 9.
+    """
+    size = np.shape(qdd)[-1:] or (1,)
+    return np.eye(*size) * state_vector("qdd", qdd, *size)[..., np.newaxis]
+
+
 def friction_columns(qd) -> np.ndarray:
     """F with f(q̇) = F [d; k]: viscous coefficients d, then Coulomb torques k; (..., n, 2n).
 

@@ -293,6 +293,7 @@ def test_numbers_from_a_file_are_made_exact(link, error):
         ({"inertia": np.diag([1, 1, -0.1])}, r"inertia = .*negative principal moment -0\.1"),
         ({"inertia": np.diag([1, 1, 2.1])}, r"inertia = .*1, 1, 2\.1 break the triangle"),
         ({"inertia": [[1, 1, 1]] * 2}, r"inertia: got shape \(2, 3\)"),
+        ({"triangle": True}, "triangle = True: needs 'error' or 'warn'"),
         ({"inertia": [[1, 1], [1]]}, "inertia = .*different lengths"),
     ],
 )
@@ -302,6 +303,26 @@ def test_a_bad_link_is_named(change, says):
         Link(**(good | change))
     with pytest.raises(ValueError, match=f"^link 'forearm': {says}"):
         Link(**(good | change), name="forearm")
+
+
+@pytest.mark.parametrize("principal", [(0, 0.35, 0), (1, 1, -0.1)])
+def test_a_published_inertia_that_no_body_can_have(principal):
+    """The first is that of link 1 of the PUMA 560 in Corke and Armstrong-Hélouvry (1994)."""
+    inertia = np.diag(principal)
+    with pytest.warns(UserWarning, match=r"^link 'trunk': inertia = .*(triangle|negative)"):
+        link = Link("revolute", 0, inertia=inertia, name="trunk", triangle="warn")
+    np.testing.assert_array_equal(link.inertia, inertia)
+    assert_close(SerialChain((link,)).M([0.3]), [[principal[2]]])
+    with pytest.raises(ValueError, match=r"triangle=\"warn\""):
+        Link("revolute", 0, inertia=inertia, name="trunk")
+
+
+def test_rounding_of_a_point_mass_s_inertia_is_no_negative_moment():
+    """iCub's links are point masses whose inertia a program has subtracted."""
+    rounded = np.diag([-5.4e-20, -5.4e-20, 0])
+    assert Link("revolute", 0.526, com=(0, 0, 0.03), inertia=rounded).mass == 0.526
+    with pytest.raises(ValueError, match="negative principal moment"):
+        Link("revolute", 0.526, com=(0, 0, 0.03), inertia=1e8 * rounded)
 
 
 def test_a_name_is_text():

@@ -1,12 +1,12 @@
 """A rigid link and the joint that carries it: the parts of a serial chain."""
 
-import reprlib
+import warnings
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 import numpy as np
 
-from armdyn.parameters import LARGEST, all_finite, nonnegative, real_array
+from armdyn.parameters import nonnegative, numbers
 
 Joint = Literal["revolute", "prismatic"]
 IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -29,6 +29,9 @@ class Link:
     orthogonal or is a reflection; a negative mass; an inertia that is not symmetric, has a negative
     principal moment, or has one that is greater than the sum of the other two, as no distribution
     of mass can. These are judged to 1e-9, for numbers from a file.
+
+    Published inertias break these two rules now and then: with triangle="warn" such a link is made,
+    with a warning that names it. M(q) can then have negative eigenvalues.
     """
 
     joint: Joint = field(metadata={"doc": "how the link moves"})
@@ -55,6 +58,12 @@ class Link:
         default=ZERO, metadata={"unit": "m", "doc": "(3,), the joint's origin in the frame before"}
     )
     name: str = field(default="", metadata={"doc": "for messages"})
+    triangle: Literal["error", "warn"] = field(
+        default="error",
+        compare=False,
+        repr=False,
+        metadata={"doc": "for an inertia that no body can have: an error, or a warning alone"},
+    )
 
     def __post_init__(self):
         try:
@@ -69,31 +78,47 @@ class Link:
             raise ValueError(f"name = {self.name!r}: needs text")
         if self.joint not in get_args(Joint):
             raise ValueError(f"joint = {self.joint!r}: needs 'revolute' or 'prismatic'")
+        if self.triangle not in ("error", "warn"):
+            raise ValueError(f"triangle = {self.triangle!r}: needs 'error' or 'warn'")
+        mass = nonnegative("mass", self.mass, "kg")
+        com = numbers("com", self.com, (3,), "m")
         exact = {
-            "mass": nonnegative("mass", self.mass, "kg"),
-            "com": _numbers("com", self.com, (3,), "m"),
-            "inertia": _inertia(self.inertia),
+            "mass": mass,
+            "com": com,
+            "inertia": self._inertia(mass * (com @ com)),
             "axis": _axis(self.axis),
             "rotation": _rotation(self.rotation),
-            "translation": _numbers("translation", self.translation, (3,), "m"),
+            "translation": numbers("translation", self.translation, (3,), "m"),
         }
         for name, value in exact.items():
             # Tuples whatever came, so that links compare and hash by their numbers.
             object.__setattr__(self, name, _tuples(value))
 
-
-def _numbers(name, value, shape, unit) -> np.ndarray:
-    needs = f"real numbers of shape {shape}, in {unit}"
-    array = all_finite(name, real_array(name, value, needs))
-    if array.shape != shape:
-        raise ValueError(f"{name}: got shape {array.shape}, needs {needs}")
-    if np.max(np.abs(array)) > LARGEST:
-        raise ValueError(f"{name} = {reprlib.repr(value)}: needs at most {LARGEST:.0e} {unit}")
-    return array
+    def _inertia(self, steiner) -> np.ndarray:
+        inertia = _symmetric(self.inertia)
+        # A file's rounding is small against the inertia about the link's origin.
+        size = max(np.max(np.abs(inertia)), steiner)
+        a, b, c = np.linalg.eigvalsh(inertia)
+        # A negative moment breaks the triangle inequality, too.
+        if c > a + b + TOLERANCE * size:
+            why = (
+                f"{_shown(inertia)}: has the negative principal moment {a:.6g}"
+                if a < -TOLERANCE * size
+                else f"{_shown(inertia)}: the principal moments {a:.6g}, {b:.6g}, {c:.6g} break "
+                "the triangle inequality: no distribution of mass has one greater than the sum of "
+                "the others"
+            )
+            if self.triangle == "error":
+                raise ValueError(
+                    f'{why} (as published, it can be had with triangle="warn", from read_urdf with '
+                    'inertia="warn")'
+                )
+            warnings.warn(f"link {self.name!r}: {why}", stacklevel=5)
+        return inertia
 
 
 def _axis(value) -> np.ndarray:
-    axis = _numbers("axis", value, (3,), "1")
+    axis = numbers("axis", value, (3,), "1")
     length = np.linalg.norm(axis)
     if abs(length - 1) > TOLERANCE:
         raise ValueError(f"axis = {axis.tolist()}: needs length 1, has {length:.6g}")
@@ -101,7 +126,7 @@ def _axis(value) -> np.ndarray:
 
 
 def _rotation(value) -> np.ndarray:
-    R = _numbers("rotation", value, (3, 3), "1")
+    R = numbers("rotation", value, (3, 3), "1")
     error = np.max(np.abs(R.T @ R - np.eye(3))) if np.max(np.abs(R)) < 2 else np.inf
     if error > TOLERANCE:
         raise ValueError(f"rotation = {R.tolist()}: needs orthogonal columns of length 1")
@@ -113,22 +138,15 @@ def _rotation(value) -> np.ndarray:
     return left @ right
 
 
-def _inertia(value) -> np.ndarray:
-    inertia = _numbers("inertia", value, (3, 3), "kg·m²")
-    size = np.max(np.abs(inertia))
-    shown = f"inertia = {inertia.tolist()} kg·m²"
-    if np.max(np.abs(inertia - inertia.T)) > TOLERANCE * size:
-        raise ValueError(f"{shown}: needs a symmetric matrix")
-    inertia = (inertia + inertia.T) / 2
-    a, b, c = np.linalg.eigvalsh(inertia)
-    if a < -TOLERANCE * size:
-        raise ValueError(f"{shown}: has the negative principal moment {a:.6g}")
-    if c > a + b + TOLERANCE * size:
-        raise ValueError(
-            f"{shown}: the principal moments {a:.6g}, {b:.6g}, {c:.6g} break the triangle "
-            "inequality: no distribution of mass has one greater than the sum of the others"
-        )
-    return inertia
+def _symmetric(value) -> np.ndarray:
+    inertia = numbers("inertia", value, (3, 3), "kg·m²")
+    if np.max(np.abs(inertia - inertia.T)) > TOLERANCE * np.max(np.abs(inertia)):
+        raise ValueError(f"{_shown(inertia)}: needs a symmetric matrix")
+    return (inertia + inertia.T) / 2
+
+
+def _shown(inertia) -> str:
+    return f"inertia = {inertia.tolist()} kg·m²"
 
 
 def _tuples(value):

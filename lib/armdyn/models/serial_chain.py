@@ -3,12 +3,15 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
 from armdyn.friction import joint_friction
 from armdyn.manipulator import ROUNDING, Manipulator
+from armdyn.models.dh import Convention, dh_links
 from armdyn.models.link import Link
+from armdyn.models.screws import screw_links
 from armdyn.parameters import finite, per_joint, state_vector, state_vectors
 from armdyn.spatial import (
     force_cross,
@@ -24,12 +27,18 @@ from armdyn.spatial import (
 class SerialChain(Manipulator):
     """n links, each carried by the one before, the first by the base.
 
+    `from_dh` makes a chain from Denavit–Hartenberg parameters, `from_screws` from screw axes, and
+    `urdf.read_urdf` from a file.
+
     q holds the joints' angles (rad) and displacements (m); M, C, g and u have the units that go
     with them, N·m for a revolute and N for a prismatic joint.
 
     Velocities and forces are 6-vectors, angular part first, in the coordinates of the link they
     belong to: see `armdyn.spatial`. M, C and g come from the links' Jacobians, as they are defined;
     `rnea`, `crba` and `aba` are the recursive algorithms, which need no Jacobians.
+
+    `armature` adds to M's diagonal, and so to all that follows from M, but not to C and g. The motors'
+    masses belong to the links that carry them.
 
     Raises ValueError, naming the argument, for one that is not as described. Masses and inertias may
     be zero, and M(q) may then be singular: see `Manipulator.dynamics`.
@@ -47,6 +56,13 @@ class SerialChain(Manipulator):
     coulomb: tuple[float, ...] | None = field(
         default=None, metadata={"unit": "N·m or N", "doc": "Coulomb friction of each joint"}
     )
+    armature: tuple[float, ...] | None = field(
+        default=None,
+        metadata={
+            "unit": "kg·m² or kg",
+            "doc": "inertia of each joint's motor as the joint feels it: see `reflected_inertia`",
+        },
+    )
 
     def __post_init__(self):
         links = tuple(self.links) if isinstance(self.links, Sequence) else ()
@@ -62,7 +78,7 @@ class SerialChain(Manipulator):
             "links": links,
             "gravity": tuple(finite(f"gravity[{i}]", g, "m/s²") for i, g in enumerate(gravity)),
         }
-        for name in ("viscous", "coulomb"):
+        for name in ("viscous", "coulomb", "armature"):
             value = getattr(self, name)
             zero = (0.0,) * len(links)
             unit = self.__dataclass_fields__[name].metadata["unit"]
@@ -71,17 +87,80 @@ class SerialChain(Manipulator):
         for name, value in kept.items():
             object.__setattr__(self, name, value)
 
+    @classmethod
+    def from_dh(
+        cls,
+        a,
+        alpha,
+        d,
+        theta,
+        mass,
+        com=None,
+        inertia=None,
+        *,
+        joints=None,
+        convention: Convention = "standard",
+        triangle: Literal["error", "warn"] = "error",
+        **more,
+    ) -> "SerialChain":
+        """A chain by its Denavit–Hartenberg parameters, one of each per joint.
+
+        a: (n,), m. alpha: (n,), rad. d: (n,), m. theta: (n,), rad. joints: n of "revolute" (as all
+        are if it is not given) and "prismatic"; q adds to theta of a revolute joint and to d of a
+        prismatic one.
+        mass: (n,), kg. com: (n, 3), m, in the links' Denavit–Hartenberg frames. inertia: (n, 3, 3),
+        kg·m², about the centre of mass, along the axes of these frames. Where they are not given,
+        they are 0.
+        convention: "standard", frame k at the far end of link k: Rz(θ) Tz(d) Tx(a) Rx(α) leads from
+        frame k − 1 to frame k. "modified", frame k on the axis of joint k: Rx(α) Tx(a) Rz(θ) Tz(d).
+        triangle: as for `Link`. more: gravity, viscous, coulomb, armature, as for `SerialChain`.
+
+        The Links have the modified frames, or in the standard convention frames on the axes of their
+        joints: there, `link_placements`, `link_jacobians` and the parameters π refer to those.
+
+        Raises ValueError, naming the argument, for one that is not as described.
+
+        Source: J. Denavit, R. S. Hartenberg (1955), A Kinematic Notation for Lower-Pair Mechanisms
+        Based on Matrices, Journal of Applied Mechanics 22; J. J. Craig (1986), Introduction to
+        Robotics, chapter 3, for the modified convention.
+        """
+        links = dh_links(a, alpha, d, theta, mass, com, inertia, joints, convention, triangle)
+        return cls(links, **more)
+
+    @classmethod
+    def from_screws(
+        cls, screws, homes, inertias, *, triangle: Literal["error", "warn"] = "error", **more
+    ) -> "SerialChain":
+        """A chain by its joints' screw axes, the product of exponentials.
+
+        screws: (n, 6), a row [ω; v] per joint, in the base's frame at q = 0: ω of length 1, rad/rad,
+        and v = −ω × r, m, with r on the axis; or ω = 0 and v of length 1 for a prismatic joint.
+        homes: (n, 4, 4), of the links' frames in the base's at q = 0. inertias: (n, 6, 6), spatial
+        inertia of each link about its frame, [ω; v] to momentum, as `spatial.rigid_inertia` gives it.
+        triangle: as for `Link`. more: gravity, viscous, coulomb, armature, as for `SerialChain`.
+
+        In Modern Robotics' notation these are Slist transposed, the M_i (the products of Mlist) and
+        Glist. The Links have frames along those of `homes`, with their origins moved onto the axes of
+        revolute joints.
+
+        Raises ValueError, naming the argument, for one that is not as described; a screw with a
+        pitch is no joint of a SerialChain.
+
+        Source: K. M. Lynch, F. C. Park (2017), Modern Robotics, sections 4.1 and 8.3.
+        """
+        return cls(screw_links(screws, homes, inertias, triangle), **more)
+
     @property
     def n(self) -> int:  # type: ignore[override]  # read only here, and nobody writes it
         return len(self.links)
 
     def M(self, q) -> np.ndarray:
-        """Σ_k J_kᵀ I_k J_k over the links, (n, n)."""
+        """Σ_k J_kᵀ I_k J_k over the links, and the armature on the diagonal, (n, n)."""
         q = state_vector("q", q, self.n)
         M = np.zeros((*q.shape, self.n))
         for I, J in zip(self._inertias, self._jacobians(self._transforms(q)), strict=True):
             M += np.swapaxes(J, -1, -2) @ I @ J
-        return (M + np.swapaxes(M, -1, -2)) / 2
+        return (M + np.swapaxes(M, -1, -2)) / 2 + np.diag(np.array(self.armature))
 
     def C(self, q, qd) -> np.ndarray:
         """Christoffel form, (n, n): Σ_k J_kᵀ (I_k J̇_k + B_k J_k) over the links.
@@ -148,7 +227,10 @@ class SerialChain(Manipulator):
         return np.stack(list(self._jacobians(self._transforms(q))), axis=-3)
 
     def link_inertias(self) -> np.ndarray:
-        """Spatial inertia of each link about its frame, (n, 6, 6): M = Σ_k J_kᵀ I_k J_k."""
+        """Spatial inertia of each link about its frame, (n, 6, 6): of M = Σ_k J_kᵀ I_k J_k.
+
+        Without the armature, which belongs to no link.
+        """
         return self._inertias.copy()
 
     def rnea(self, q, qd, qdd) -> np.ndarray:
@@ -169,7 +251,8 @@ class SerialChain(Manipulator):
             a = np.matvec(X, a) + self._screws[k] * qdd[..., k : k + 1]
             a = a + np.matvec(motion_cross(v), moved)
             forces.append(np.matvec(I, a) + np.matvec(force_cross(v), np.matvec(I, v)))
-        u = self.f_vec(qd) + np.zeros(np.broadcast_shapes(q.shape, qd.shape, qdd.shape))
+        u = self.f_vec(qd) + np.array(self.armature) * qdd
+        u = u + np.zeros(np.broadcast_shapes(q.shape, qd.shape, qdd.shape))
         force = np.zeros(6)
         for k in reversed(range(self.n)):
             force = force + forces[k]
@@ -185,12 +268,12 @@ class SerialChain(Manipulator):
         """
         q = state_vector("q", q, self.n)
         transforms = self._transforms(q)
-        M = np.empty((*q.shape, self.n))
+        M, armature = np.empty((*q.shape, self.n)), np.array(self.armature)
         composite = np.zeros((6, 6))
         for k in reversed(range(self.n)):
             composite = composite + self._inertias[k]
             force = composite @ self._screws[k]
-            M[..., k, k] = force @ self._screws[k]
+            M[..., k, k] = force @ self._screws[k] + armature[k]
             for j in reversed(range(k)):
                 force = np.vecmat(force, transforms[j + 1])
                 M[..., j, k] = M[..., k, j] = force @ self._screws[j]
@@ -201,10 +284,12 @@ class SerialChain(Manipulator):
         """q̈ = M⁻¹ (u − C q̇ − g − f), (n,), in a number of operations proportional to n.
 
         The articulated-body algorithm. Raises numpy.linalg.LinAlgError, naming the joint, where
-        the links from that joint outwards put up no resistance to its motion, to rounding.
+        the links from that joint outwards and its motor put up no resistance to its motion, to
+        rounding.
 
         Source: R. Featherstone (1983), The Calculation of Robot Dynamics Using Articulated-Body
-        Inertias, International Journal of Robotics Research 2(1).
+        Inertias, International Journal of Robotics Research 2(1); for motors, R. Featherstone
+        (2008), Rigid Body Dynamics Algorithms, chapter 9.
         """
         q, qd, u = state_vectors(self.n, q=q, qd=qd, u=u)
         transforms = self._transforms(q)
@@ -216,11 +301,11 @@ class SerialChain(Manipulator):
             biases.append(np.matvec(force_cross(v), np.matvec(I, v)))
         effort = u - self.f_vec(qd)
         outwards: list = []
-        inertia, bias = np.zeros((6, 6)), np.zeros(6)
+        inertia, bias, armature = np.zeros((6, 6)), np.zeros(6), np.array(self.armature)
         for k in reversed(range(self.n)):
             inertia, bias = inertia + self._inertias[k], bias + biases[k]
             held = inertia @ self._screws[k]
-            resistance = (held @ self._screws[k])[..., np.newaxis]
+            resistance = (held @ self._screws[k] + armature[k])[..., np.newaxis]
             self._refuse_idle(k, resistance[..., 0], inertia)
             free = (effort[..., k : k + 1] - (bias @ self._screws[k])[..., np.newaxis]) / resistance
             drag = held / resistance
