@@ -145,8 +145,8 @@ def terms_off(
 
 def _where(criterion: Criterion, off: list[tuple[Term, float, float]]) -> str:
     """No known mistake, but the error is made of known terms: their names, and by how much."""
-    said = " and ".join(f"{term.name} ({factor:+.2g} times it)" for term, _, factor in off)
-    return f"The error in your {criterion.text} varies like {said}."
+    said = ", plus ".join(f"{factor:.2g} times {term.name}" for term, _, factor in off)
+    return f"The error in your {criterion.text} is about {said}."
 
 
 def _part(k: int, numbers: Numbers) -> list[np.ndarray]:

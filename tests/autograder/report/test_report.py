@@ -15,7 +15,7 @@ from tests.autograder.courses import P3
 from tests.submissions import p3_pendulum
 
 M = CHECKS["p3-M"].mistakes
-UNKNOWN = "The error varies like <b>."
+UNKNOWN = "The error is about 0.5 times <b>."
 
 
 def verdict(state: State, *sentences: str) -> dict:

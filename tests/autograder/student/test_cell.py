@@ -164,7 +164,7 @@ def test_a_missing_function_is_blamed_on_the_cell_that_failed(kernel):
     assert error.evalue == f"{START}: error in your code"
     said = (
         "The notebook does not define kinetic_energy: the cell that should define it stopped with "
-        "SyntaxError: invalid syntax, line 2."
+        "SyntaxError: invalid syntax, line 2. Fix that line, "
     )
     assert said in " ".join(card.data["text/plain"].split())
 

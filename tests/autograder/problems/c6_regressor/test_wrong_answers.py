@@ -26,17 +26,17 @@ from tests.autograder.verdicts import assert_told_apart, judged, sentences
     [
         (
             ("mc2[1] = l1 * c2 * a1", "mc2[1] = 1.2 * l1 * c2 * a1"),
-            "The error in your column of m2 ℓc2, joint 2 varies like its part of accelerations "
-            "(+0.2 times it).",
+            "The error in your column of m2 ℓc2, joint 2 is about 0.2 times its part of "
+            "accelerations.",
         ),
         (
             ("mc1[0] = g * c1", "mc1[0] = 0.7 * g * c1", "l1 * mc1[0]", "l1 * g * c1"),
-            "The error in your column of m1 ℓc1 varies like its part of gravity (-0.3 times it).",
+            "The error in your column of m1 ℓc1 is about -0.3 times its part of gravity.",
         ),
         (
             (ALL_V, f"- 2.5{ALL_V[1:].replace('l1', '* l1', 1)}"),
-            "The error in your column of m2 ℓc2, joint 1 varies like its part of velocities "
-            "(+1.5 times it).",
+            "The error in your column of m2 ℓc2, joint 1 is about 1.5 times its part of "
+            "velocities.",
         ),
     ],
 )

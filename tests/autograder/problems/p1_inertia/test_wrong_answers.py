@@ -25,9 +25,9 @@ def test_worst_case_of_a_truth_value():
     verdict = judged("p1-is_spd", "True")
     asked = "(positive definite told from indefinite)"
     shown = " ".join(str(verdict).split())
-    assert f"gave True, where False is right {asked}. Change" in shown
+    assert f"gave True; the right answer is False {asked}. Change" in shown
     shown = " ".join(str(verdict.without_inputs()).split())
-    assert f"Worst case: your function gave True, where False is right {asked}." in shown
+    assert f"Worst case: your function gave True; the right answer is False {asked}." in shown
 
 
 def test_the_example_arm_is_that_of_the_notebook():
@@ -45,25 +45,24 @@ def test_the_example_arm_is_that_of_the_notebook():
         (
             "p1-M",
             arm("M11 -= 0.1 * m1 * lc1**2"),
-            "The error in your M11 varies like the centre of mass of link 1 (-0.1 times it).",
+            "The error in your M11 is about -0.1 times the centre of mass of link 1.",
         ),
         (
             "p1-M",
             arm("M12 += 0.5 * c", "M21 += 0.5 * c"),
-            "The error in your M12 and M21 varies like the coupling of the two links "
-            "(+0.5 times it).",
+            "The error in your M12 and M21 is about 0.5 times the coupling of the two links.",
         ),
         (
             "p1-M",
             arm("M22 += I2"),
-            "The error in your M22 varies like the rotation of link 2 (+1 times it).",
+            "The error in your M22 is about 1 times the rotation of link 2.",
         ),
         (
             "p1-inertia_from_links",
             "sum(J.T @ I @ J + 0.5 * J[3:].T @ I[3:, 3:] @ J[3:] for J, I in zip(jacobians, inertias))"
             " if len(jacobians) > 1 else jacobians[0].T @ inertias[0] @ jacobians[0]",
-            "The error in your matrix of several links varies like the translation of the links "
-            "(+0.5 times it).",
+            "The error in your matrix of several links is about 0.5 times the translation of the "
+            "links.",
         ),
     ],
 )

@@ -15,31 +15,30 @@ from tests.autograder.verdicts import judged, sentences
         (
             "p2-C",
             "return [[h * b, h * (a + 1.3 * b)], [-h * a, 0]]",
-            "The error in your vector C q̇ varies like the centrifugal term of row 1, with q̇2² "
-            "(+0.3 times it).",
+            "The error in your vector C q̇ is about 0.3 times the centrifugal term of row 1, with "
+            "q̇2².",
         ),
         (
             "p2-C",
             "return [[h * b, h * (a + b)], [-0.6 * h * a, 0]]",
-            "The error in your vector C q̇ varies like the centrifugal term of row 2, with q̇1² "
-            "(-0.4 times it).",
+            "The error in your vector C q̇ is about -0.4 times the centrifugal term of row 2, "
+            "with q̇1².",
         ),
         (
             "p2-M_dot",
             "return 1.1 * M_dot",
-            "The error in your entry Ṁ11 varies like the right Ṁ itself (+0.1 times it).",
+            "The error in your entry Ṁ11 is about 0.1 times the right Ṁ itself.",
         ),
         (
             "p2-C_other",
             "return [[0, h * (a + 1.3 * b)], [-h * a, 0]]",
-            "The error in your vector C_other q̇ varies like the Coriolis term of row 1, with "
-            "q̇1 q̇2 (-0.5 times it) and the centrifugal term of row 1, with q̇2² (+0.3 times it).",
+            "The error in your vector C_other q̇ is about -0.5 times the Coriolis term of row 1, "
+            "with q̇1 q̇2, plus 0.3 times the centrifugal term of row 1, with q̇2².",
         ),
         (
             "p2-christoffel",
             "return matrix(lambda i, j, k: (d(i, j, k) + d(i, k, j) - 1.4 * d(j, k, i)) / 2 * qd[k])",
-            "The error in your vector C q̇ varies like the last derivative, from −∂K/∂q "
-            "(+0.4 times it).",
+            "The error in your vector C q̇ is about 0.4 times the last derivative, from −∂K/∂q.",
         ),
     ],
 )

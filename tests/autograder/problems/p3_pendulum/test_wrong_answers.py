@@ -24,38 +24,38 @@ def test_a_c_of_no_known_kind_is_said_not_to_be_zero():
         (
             "p3-M",
             "1.1 * pend.I",
-            "inertia about the pivot varies like the inertia about the pivot (+0.1",
+            "inertia about the pivot is about 0.1 times the inertia about the pivot",
         ),
         (
             "p3-g_vec",
             f"{MGL} * np.sin(q) * 1.0001",
-            "gravity torque varies like the torque of the weight (+0.0001",
+            "gravity torque is about 0.0001 times the torque of the weight",
         ),
         (
             "p3-g_vec",
             f"-{MGL} * np.sin(q) * 1.0001",
-            "gravity torque varies like the torque of the weight (-2",
+            "gravity torque is about -2 times the torque of the weight",
         ),
         (
             "p3-inertia_about_pivot",
             "I_com + 0.9 * m * lc**2",
-            "inertia moved to the pivot varies like the inertia of a point mass (-0.1",
+            "inertia moved to the pivot is about -0.1 times the inertia of a point mass",
         ),
         (
             "p3-lagrangian",
             f"1.2 * {KINETIC} - {POTENTIAL}",
-            "kinetic part of L varies like the kinetic energy of the body (+0.2",
+            "kinetic part of L is about 0.2 times the kinetic energy of the body",
         ),
         (
             "p3-lagrangian",
             f"{KINETIC} - 0.7 * {POTENTIAL}",
-            "potential part of L varies like the potential energy of the raised mass (-0.3",
+            "potential part of L is about -0.3 times the potential energy of the raised mass",
         ),
     ],
 )
 def test_unknown_error_is_traced_to_its_term(check_id, returned, said):
     verdict = judged(check_id, returned)
-    assert verdict.diagnosis == (f"The error in your {said} times it).",)
+    assert verdict.diagnosis == (f"The error in your {said}.",)
     assert verdict.witness is not None
 
 

@@ -17,25 +17,25 @@ from tests.autograder.verdicts import judged, sentences
         (
             "p4-potential_energy",
             with_lines(of_links(), "lc2 = 1.1 * lc2"),
-            "The error in your change of P as the elbow turns from 0 to q2 varies like the weight "
-            "of link 2 beyond the elbow (+0.1 times it).",
+            "The error in your change of P as the elbow turns from 0 to q2 is about 0.1 times the "
+            "weight of link 2 beyond the elbow.",
         ),
         (
             "p4-potential_energy",
             with_lines(of_links(), "lc1 = 0.8 * lc1"),
-            "varies like the weight of link 1 (-0.2 times it).",
+            "is about -0.2 times the weight of link 1.",
         ),
         (
             "p4-g_vec",
             with_lines(torque(), "l1 = 1.3 * l1"),
-            "The error in your gravity torque g1 of joint 1 varies like the weight of link 2 at the "
-            "elbow (+0.3 times it).",
+            "The error in your gravity torque g1 of joint 1 is about 0.3 times the weight of link "
+            "2 at the elbow.",
         ),
         (
             "p4-gravity_from_jacobians",
             SUM.format("-m * Jv.T @ (g0 * [1, 1, 0.75])"),
-            "The error in your gravity torque from the Jacobians varies like the pull along z "
-            "(-0.25 times it).",
+            "The error in your gravity torque from the Jacobians is about -0.25 times the pull "
+            "along z.",
         ),
     ],
 )

@@ -33,22 +33,22 @@ def test_bodies_are_right_before_they_are_spoilt(check_id, body):
         (
             "p5-f",
             rate("u - C @ qd - 1.1 * g - d * qd - k * np.sign(qd)"),
-            "accelerations in ẋ varies like M⁻¹ g (+0.1 times it)",
+            "accelerations in ẋ is about 0.1 times M⁻¹ g",
         ),
         (
             "p5-f",
             rate("0.5 * u - C @ qd - g - d * qd - k * np.sign(qd)"),
-            "varies like M⁻¹ u (-0.5 times it)",
+            "is about -0.5 times M⁻¹ u",
         ),
         (
             "p5-f",
             rate("u - C @ qd - g - 3 * d * qd - k * np.sign(qd)"),
-            "varies like viscous friction (+2 times it)",
+            "is about 2 times viscous friction",
         ),
         (
             "p5-energy_drift",
             drift(K="0.6 * qd @ M(q) @ qd"),
-            "change of the kinetic energy varies like the change of K (+0.2 times it)",
+            "change of the kinetic energy is about 0.2 times the change of K",
         ),
     ],
 )
