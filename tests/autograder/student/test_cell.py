@@ -6,7 +6,7 @@ import nbclient
 import nbformat
 import pytest
 
-from autograder import check, hint
+from autograder import check, hint, look_at
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS, UnknownCheckError, nearest
 from autograder.student.cell import NotCorrectError
@@ -138,6 +138,13 @@ def p3_M(q):
 )
 def test_the_nearest_ids(asked, meant):
     assert nearest(asked) == meant
+
+
+@pytest.mark.parametrize("function", [check, hint, look_at])
+def test_an_answer_that_a_person_reads_is_said_to_be_one(function):
+    said = "no check judges 'p3-derivation': a person reads it and gives its points"
+    with pytest.raises(UnknownCheckError, match=said):
+        function("p3-derivation")
 
 
 @pytest.mark.parametrize("wrong", [None, 3, p3_M, ["p3-M"], check])
