@@ -54,9 +54,7 @@ class Displays(DisplayPublisher):
         self.shown: list[tuple[dict, str | None]] = []
         self._clear_first = False
 
-    def publish(
-        self, data, metadata=None, source=None, *, transient=None, update=False, **kwargs
-    ):
+    def publish(self, data, metadata=None, source=None, *, transient=None, update=False, **kwargs):
         if self._clear_first:
             self.clear_output()
         name = (transient or {}).get("display_id")
