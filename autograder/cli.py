@@ -118,8 +118,6 @@ def report(root: Path, assignment: str) -> int:
     from autograder.report import page, summary
 
     assignment = _name_of(assignment)
-    if why := _unknown(root, assignment):
-        return _complain(why)
     try:
         most, students = read_class(root, assignment)
         if not students:
@@ -128,7 +126,7 @@ def report(root: Path, assignment: str) -> int:
         to.parent.mkdir(exist_ok=True)
         put_in_place(to, page(assignment, most, students))
     except (OSError, ValueError) as error:
-        return _complain(str(error))
+        return _complain(_unknown(root, assignment) or str(error))
     say(summary(most, students))
     say(f"The whole page: {to.relative_to(root)}")
     return 0

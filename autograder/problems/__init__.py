@@ -41,12 +41,12 @@ def known_check(id: object) -> str:
         name = getattr(id, "__name__", "")
         said = "nothing" if id is None else f"a {type(id).__name__}"
         raise UnknownCheckError(
-            f"give the id of a check, in quotes; this is {said}{_meant(nearest(str(name)))}"
+            f"give the id of a check, in quotes; you gave {said}{_meant(nearest(str(name)))}"
         )
     if id in READ:
         raise UnknownCheckError(f"no check judges {id!r}: a person reads it and gives its points")
     if id not in CHECKS:
-        meant = _meant(nearest(id)) or f"; known are {', '.join(CHECKS)}"
+        meant = _meant(nearest(id)) or f"; the checks are {', '.join(CHECKS)}"
         raise UnknownCheckError(f"there is no check {id!r}{meant}")
     return id
 

@@ -118,7 +118,7 @@ BAD_ANSWERS = {
     ),
     "wrong_shape": (
         function("g_vec", "np.zeros(3)"),
-        "g_vec(q, pend) returned 3 numbers of shape (3,); one number is asked for.",
+        "g_vec(q, pend) returned 3 numbers of shape (3,); it must return one number.",
     ),
     "returns_nan": (
         function("g_vec", "q * np.nan"),

@@ -90,13 +90,16 @@ def _link_2(size):
 
 
 M_TERMS = (
-    Term("the rotation of link 1", _link_1(lambda arm: arm.I1)),
-    Term("the centre of mass of link 1", _link_1(lambda arm: arm.m1 * arm.lc1**2)),
-    Term("the mass of link 2, carried at the elbow", _link_1(lambda arm: arm.m2 * arm.l1**2)),
-    Term("the rotation of link 2", _link_2(lambda arm: arm.I2)),
-    Term("the centre of mass of link 2 about the elbow", _link_2(lambda arm: arm.m2 * arm.lc2**2)),
+    Term("what the rotation of link 1 adds", _link_1(lambda arm: arm.I1)),
+    Term("what the centre of mass of link 1 adds", _link_1(lambda arm: arm.m1 * arm.lc1**2)),
+    Term("what the mass of link 2 at the elbow adds", _link_1(lambda arm: arm.m2 * arm.l1**2)),
+    Term("what the rotation of link 2 adds", _link_2(lambda arm: arm.I2)),
     Term(
-        "the coupling of the two links",
+        "what the centre of mass of link 2 adds about the elbow",
+        _link_2(lambda arm: arm.m2 * arm.lc2**2),
+    ),
+    Term(
+        "what the coupling of the two links adds",
         lambda q, arm: (
             arm.m2 * arm.l1 * arm.lc2 * np.cos(q[1]) * np.array([[2.0, 1.0], [1.0, 0.0]])
         ),
@@ -130,7 +133,7 @@ def _verdicts(calls, values):
     found = []
     for place, (answer,) in enumerate(one_number(calls, values)):
         if answer not in (0, 1):
-            raise UnfitError(f"{answer:.4g}; True or False is asked for")
+            raise UnfitError(f"{answer:.4g}; it must return True or False")
         kind, _ = MATRICES[place % len(MATRICES)]
         found.append(tuple(answer if k in SPEAKS_OF[kind] else NOTHING for k in range(4)))
     return found
@@ -155,7 +158,7 @@ def _singular_and_allowed(call, value):
 def _arm_and_q(value):
     """The arm as a namespace of its eight numbers, and q; UnfitError for what is neither."""
     if not isinstance(value, list) or len(value) != 2 or not isinstance(value[0], dict):
-        raise UnfitError("no pair of an arm and a q; (arm, q) is asked for, arm a dict")
+        raise UnfitError("something other than a pair; it must return (arm, q), with arm a dict")
     arm, q = value
     missing = [name for name in PARAMETERS if name not in arm]
     if missing:
@@ -199,9 +202,11 @@ CHECKS = (
         ),
         mistakes=mistakes.INERTIA_FROM_LINKS,
         terms=(
-            _block_term("the rotation of the links", slice(0, 3), slice(0, 3)),
-            _block_term("the translation of the links", slice(3, 6), slice(3, 6)),
-            _block_term("the coupling of rotation and translation in I", slice(0, 3), slice(3, 6)),
+            _block_term("what the rotation of the links adds", slice(0, 3), slice(0, 3)),
+            _block_term("what the translation of the links adds", slice(3, 6), slice(3, 6)),
+            _block_term(
+                "what the coupling of rotation and translation in I adds", slice(0, 3), slice(3, 6)
+            ),
         ),
         hints=(
             "Write down the kinetic energy of one link, with its velocity vₖ = Jₖ q̇ put in. What "

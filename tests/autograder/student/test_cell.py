@@ -102,9 +102,9 @@ def test_the_error_is_one_line_for_a_student_and_the_whole_verdict_for_validate(
     ("asked", "said"),
     [
         ("near", "there is no check 'start-kinetic-energi'; did you mean 'start-kinetic-energy'?"),
-        ("far", f"there is no check 'nothing like it'; known are {', '.join(CHECKS)}"),
+        ("far", f"there is no check 'nothing like it'; the checks are {', '.join(CHECKS)}"),
         ("hint", "there is no check 'p3-freq'; did you mean 'p3-small_angle_frequency'?"),
-        ("empty", "give the id of a check, in quotes; this is nothing"),
+        ("empty", "give the id of a check, in quotes; you gave nothing"),
     ],
 )
 def test_an_unknown_id_is_answered_in_one_line(kernel, asked, said):

@@ -26,17 +26,15 @@ from tests.autograder.verdicts import assert_told_apart, judged, sentences
     [
         (
             ("mc2[1] = l1 * c2 * a1", "mc2[1] = 1.2 * l1 * c2 * a1"),
-            "The error in your column of m2 ℓc2, joint 2 is about 0.2 times its part of "
-            "accelerations.",
+            "The error in your column of m2 ℓc2, joint 2 is about 0.2 times its acceleration part.",
         ),
         (
             ("mc1[0] = g * c1", "mc1[0] = 0.7 * g * c1", "l1 * mc1[0]", "l1 * g * c1"),
-            "The error in your column of m1 ℓc1 is about -0.3 times its part of gravity.",
+            "The error in your column of m1 ℓc1 is about -0.3 times its gravity part.",
         ),
         (
             (ALL_V, f"- 2.5{ALL_V[1:].replace('l1', '* l1', 1)}"),
-            "The error in your column of m2 ℓc2, joint 1 is about 1.5 times its part of "
-            "velocities.",
+            "The error in your column of m2 ℓc2, joint 1 is about 1.5 times its velocity part.",
         ),
     ],
 )
@@ -106,20 +104,24 @@ def test_a_doubled_error_is_not_two_mistakes():
         (
             "c6-regressor",
             Y(LIST, "[m1, mc1, J1, m2, mc2, J2])"),
-            "shape (6, 2); one row for each joint is asked for, (2, 6).",
+            "shape (6, 2); it must return one row for each joint, (2, 6).",
         ),
         (
             "c6-regressor",
             Y(LIST, "[mc1, J1, mc2, J2]).T"),
-            "shape (2, 4); one row for each joint and one column for each of the six parameters is",
+            "shape (2, 4); it must return one row for each joint and one column for each of the six ",
         ),
         (
             "c6-identify",
             fit("[1, 2, 4, 5]", "[0, 1, 2, 3, 4, 5]", "(-1, 4)", "(-1, 6)"),
-            "6 numbers; the four base parameters are asked for, since no motion shows all six of π.",
+            "6 numbers; it must return the four base parameters, since no motion shows all six of π.",
         ),
         ("c6-identify", "return arm.m1, 0, 0, 0", "has no attribute 'm1'"),
-        ("c6-rank_of_excitation", count("matrix_rank(W)", "svd(W)[1]"), "one number is asked for."),
+        (
+            "c6-rank_of_excitation",
+            count("matrix_rank(W)", "svd(W)[1]"),
+            "it must return one number.",
+        ),
     ],
 )
 def test_what_is_no_answer_is_an_error(check_id, body, said):

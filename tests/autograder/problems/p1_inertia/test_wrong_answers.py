@@ -45,24 +45,25 @@ def test_the_example_arm_is_that_of_the_notebook():
         (
             "p1-M",
             arm("M11 -= 0.1 * m1 * lc1**2"),
-            "The error in your M11 is about -0.1 times the centre of mass of link 1.",
+            "The error in your M11 is about -0.1 times what the centre of mass of link 1 adds.",
         ),
         (
             "p1-M",
             arm("M12 += 0.5 * c", "M21 += 0.5 * c"),
-            "The error in your M12 and M21 is about 0.5 times the coupling of the two links.",
+            "The error in your M12 and M21 is about 0.5 times what the coupling of the two "
+            "links adds.",
         ),
         (
             "p1-M",
             arm("M22 += I2"),
-            "The error in your M22 is about 1 times the rotation of link 2.",
+            "The error in your M22 is about 1 times what the rotation of link 2 adds.",
         ),
         (
             "p1-inertia_from_links",
             "sum(J.T @ I @ J + 0.5 * J[3:].T @ I[3:, 3:] @ J[3:] for J, I in zip(jacobians, inertias))"
             " if len(jacobians) > 1 else jacobians[0].T @ inertias[0] @ jacobians[0]",
-            "The error in your matrix of several links is about 0.5 times the translation of the "
-            "links.",
+            "The error in your matrix of several links is about 0.5 times what the "
+            "translation of the links adds.",
         ),
     ],
 )
@@ -111,11 +112,11 @@ def test_shapes_that_do_not_multiply_say_where():
 @pytest.mark.parametrize(
     ("check_id", "returned", "problem"),
     [
-        ("p1-inertia_from_links", "np.zeros((6, 6))", "shape (3, 3) is asked for"),
-        ("p1-M", "arm.I1", "shape (2, 2) is asked for"),
-        ("p1-is_spd", "np.linalg.eigvalsh(A)[0] * 0 + 0.7", "0.7; True or False is asked for"),
-        ("p1-is_spd", "np.linalg.eigvalsh(A) > 0", "one number is asked for"),
-        ("p1-singular_arm", "np.zeros(9)", "(arm, q) is asked for, arm a dict"),
+        ("p1-inertia_from_links", "np.zeros((6, 6))", "it must return shape (3, 3)"),
+        ("p1-M", "arm.I1", "it must return shape (2, 2)"),
+        ("p1-is_spd", "np.linalg.eigvalsh(A)[0] * 0 + 0.7", "0.7; it must return True or False"),
+        ("p1-is_spd", "np.linalg.eigvalsh(A) > 0", "it must return one number"),
+        ("p1-singular_arm", "np.zeros(9)", "it must return (arm, q), with arm a dict"),
         ("p1-singular_arm", "{'l1': 1.0}, [0, 0]", "an arm without l2, lc1, lc2, m1, m2, I1, I2"),
         ("p1-singular_arm", f"{BASE}, 0", "a q that is not two angles"),
         (
