@@ -114,7 +114,7 @@ BAD_ANSWERS = {
     ),
     "returns_string": (
         function("g_vec", "'m g lc sin q'"),
-        "g_vec(q, pend) returned str 'm g lc sin q'; it must return numbers.",
+        "g_vec(q, pend) returned the text 'm g lc sin q'; it must return numbers.",
     ),
     "wrong_shape": (
         function("g_vec", "np.zeros(3)"),
