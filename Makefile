@@ -49,10 +49,14 @@ hooks: .venv/dev.done
 lint: .venv/$(TESTED).done
 	@$(lint); $(verdict)
 
-# mypy checks the types of armdyn and autograder; pyproject.toml says how.
+# mypy checks the types of armdyn and autograder; pyproject.toml says how. It checks the room's programs by
+# themselves, as they import each other, and the protocol, by the names that these have in the room.
+INSIDE := autograder/sandbox/inside
 lint = failed=; \
 	{ .venv/bin/ruff check && .venv/bin/ruff format --check; } || failed=ruff; \
-	.venv/bin/python -m mypy || failed="$$failed mypy"
+	{ .venv/bin/python -m mypy; outside=$$?; \
+	  MYPYPATH=$(INSIDE):autograder:lib .venv/bin/python -m mypy $(INSIDE)/[a-z]*.py && test $$outside = 0; \
+	} || failed="$$failed mypy"
 verdict = if [ -n "$$failed" ]; then echo "make $@: failed:" $$failed >&2; exit 1; fi
 
 installed: .venv/$(TESTED).done

@@ -1,6 +1,7 @@
 """The `autograder` command: student notebooks, JupyterLab, grading and reports."""
 
 import argparse
+import difflib
 import os
 import sys
 from contextlib import AbstractContextManager
@@ -68,8 +69,9 @@ def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: 
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.pipeline import run as pipeline
 
-    if not (root / "solutions" / assignment / f"{assignment}.ipynb").exists():
-        return _complain(f"there is no solutions/{assignment}/{assignment}.ipynb")
+    assignment = _name_of(assignment)
+    if why := _unknown(root, assignment):
+        return _complain(why)
     try:
         lines = pipeline.grade_all(root, assignment, open_recorder, jobs, scheduler, force)
     except (OSError, ValueError) as error:
@@ -80,6 +82,25 @@ def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: 
         return _complain(f"nobody has handed in {assignment}")
     say(pipeline.table(lines))
     return 0 if all(line.graded for line in lines) else 1
+
+
+def _name_of(assignment: str) -> str:
+    """The assignment's name, also where a shell has completed it to the path of its folder."""
+    return Path(assignment).name
+
+
+def _unknown(root: Path, assignment: str) -> str:
+    """Why there is no such assignment, with the names that may be meant; empty if there is one."""
+    known = sorted(path.stem for path in (root / "solutions").glob("*/*.ipynb")
+                   if path.stem == path.parent.name)  # fmt: skip
+    if assignment in known:
+        return ""
+    near = [name for name in known if assignment and assignment.casefold() in name.casefold()]
+    meant = near or difflib.get_close_matches(assignment, known)
+    named = f"Did you mean {' or '.join(meant)}?" if meant else f"There are {', '.join(known)}."
+    return (
+        f"there is no solutions/{assignment}/{assignment}.ipynb. {named if known else ''}".rstrip()
+    )
 
 
 def open_recorder(root: Path, assignment: str) -> "AbstractContextManager[Recorder]":
@@ -96,6 +117,7 @@ def report(root: Path, assignment: str) -> int:
     from autograder.nbgrader_glue.class_list import read_class
     from autograder.report import page, summary
 
+    assignment = _name_of(assignment)
     try:
         most, students = read_class(root, assignment)
         if not students:
@@ -104,7 +126,7 @@ def report(root: Path, assignment: str) -> int:
         to.parent.mkdir(exist_ok=True)
         put_in_place(to, page(assignment, most, students))
     except (OSError, ValueError) as error:
-        return _complain(str(error))
+        return _complain(_unknown(root, assignment) or str(error))
     say(summary(most, students))
     say(f"The whole page: {to.relative_to(root)}")
     return 0

@@ -16,7 +16,7 @@ import numpy as np
 from autograder.judging import changes, dependence
 from autograder.judging.criterion import Criterion, relative_errors
 from autograder.judging.diagnosis import Mistake, explains_all, sentences
-from autograder.judging.faults import describe_fault, describe_second_fault
+from autograder.judging.faults import NUMBERS, describe_fault, describe_second_fault
 from autograder.judging.quantities import (
     Numbers,
     Quantities,
@@ -145,12 +145,13 @@ class Check:
         self,
         calls: list[Call],
         replies: list[Reply],
-        describe: Callable[[Fault, str, str], str],
+        describe: Callable[[Fault, str, str, str], str],
     ) -> Numbers:
         """What is judged in the replies; _NoNumbersError where it cannot be formed."""
         for reply in replies:
             if reply.fault:
-                raise _NoNumbersError(describe(reply.fault, self.name, self.signature))
+                needed = _needed(calls[0])
+                raise _NoNumbersError(describe(reply.fault, self.name, self.signature, needed))
         try:
             return self.quantities(calls, [finite(reply.value) for reply in replies])
         except UnfitError as error:
@@ -277,6 +278,16 @@ class Check:
             problem=f"{type(error).__name__} in the check {self.id}: {shortened(str(error))}.",
             next_step="This is not your fault. Please tell your instructor.",
         )
+
+
+def _needed(call: Call) -> str:
+    """What a call's function should return, in words."""
+    if call.truth:
+        return "True or False"
+    if not call.at:
+        return NUMBERS
+    symbols = all(isinstance(value, Symbol) for value in call.args)
+    return f"{'a SymPy expression' if symbols else 'SymPy expressions'} of its arguments"
 
 
 def _evaluated(model: Callable, call: Call):

@@ -1,24 +1,42 @@
 """Tells a student why a call gave no numbers."""
 
+import re
+
 from autograder.protocol import Fault, FaultKind
 
+NUMBERS = "numbers"
+# Why a cell stopped, in place of the error that stops most.
+PYTHON_ENDED = "Python itself ended"
+# How NumPy and `math` refuse a SymPy expression.
+TAKES_ONLY_NUMBERS = re.compile(
+    r"^TypeError: (loop of ufunc does not support argument \d+ of type|"
+    r"Cannot convert expression to float|must be real number, not )"
+)
 
-def describe_fault(fault: Fault, name: str, signature: str) -> str:
-    """The sentence for a student whose function `name` should be callable as `signature`."""
+
+def describe_fault(fault: Fault, name: str, signature: str, needed: str = NUMBERS) -> str:
+    """The sentence for a student whose function `name` should be callable as `signature`.
+
+    needed: what the function should return, in words.
+    """
     where = f" ({fault.line})" if fault.line else ""
     left_out = f" Before that, {fault.line}." if fault.line else ""
+    if fault.message.startswith(PYTHON_ENDED):
+        stopped, fix = f"stopped because {fault.message}", "Fix that cell"
+    else:
+        stopped, fix = f"stopped with {fault.message}{where}", "Fix that line"
     renamed = f" Did you mean {fault.message}?" if fault.message else ""
     return {
         FaultKind.MISSING: f"The notebook does not define {name}.{renamed} The check "
         f"calls {signature}, by exactly this name. Did you run its cell?{left_out}",
         FaultKind.CELL_FAILED: f"The notebook does not define {name}: the cell that should "
-        f"define it stopped with {fault.message}{where}. Fix that line, so that the lines below it "
-        "run as well.",
+        f"define it {stopped}. {fix}, so that the lines below it run as well.",
         FaultKind.STALE: f"The check judged an earlier {name}: the cell that defines it again "
-        f"stopped with {fault.message}{where}. Fix that line.",
+        f"{stopped}. {fix}.",
         FaultKind.NOT_CALLABLE: f"{name} is of type {fault.message}, not a function that can "
         f"be called as {signature}. Did you use the name again further down?",
-        FaultKind.RAISED: f"{signature} raised {fault.message}{where}.",
+        FaultKind.RAISED: f"{signature} raised {fault.message}{where}."
+        f"{_of_symbols(fault.message, needed)}",
         FaultKind.TIMED_OUT: f"{signature} did not return within {fault.message}. "
         "Is there a loop that never ends?",
         FaultKind.STARVED: f"{signature} did not return within {fault.message}, and slept most of "
@@ -28,13 +46,23 @@ def describe_fault(fault: Fault, name: str, signature: str) -> str:
         FaultKind.DIED: f"Python itself stopped while {signature} was running. "
         "Does it call exit, or use up all memory?",
         FaultKind.NOTHING: f"{signature} returned None. Is the return statement missing?",
-        FaultKind.NOT_NUMBERS: f"{signature} returned {fault.message}; it must return numbers.",
+        FaultKind.NOT_NUMBERS: f"{signature} returned {fault.message}; it must return {needed}.",
         FaultKind.GARBLED: f"The check could not read what {signature} returned as numbers.",
     }[fault.kind]
 
 
-def describe_second_fault(fault: Fault, name: str, signature: str) -> str:
+def _of_symbols(message: str, needed: str) -> str:
+    """What an error means in a function whose arguments are symbols; else nothing."""
+    if "SymPy" not in needed or not TAKES_ONLY_NUMBERS.search(message):
+        return ""
+    return (
+        " Its arguments are SymPy's symbols, and the functions of NumPy and of math take only "
+        "numbers. Use SymPy's own, such as sp.cos."
+    )
+
+
+def describe_second_fault(fault: Fault, name: str, signature: str, needed: str = NUMBERS) -> str:
     """The sentence for a second call, after a first one that gave numbers."""
     if fault.kind in (FaultKind.RAISED, FaultKind.NOTHING, FaultKind.NOT_NUMBERS):
-        return describe_fault(fault, name, signature)
-    return f"{signature} gave no numbers."
+        return describe_fault(fault, name, signature, needed)
+    return f"{signature} returned nothing that the check can judge."

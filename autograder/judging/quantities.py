@@ -34,7 +34,7 @@ def one_number(call: Call, value: np.ndarray) -> tuple[np.ndarray]:
     """A value that is one number, whether it came as a number, (1,) or (1, 1)."""
     if np.size(value) != 1:
         raise UnfitError(
-            f"{np.size(value)} numbers of shape {np.shape(value)}; one number is asked for"
+            f"{np.size(value)} numbers of shape {np.shape(value)}; it must return one number"
         )
     return (np.reshape(value, ()),)
 
@@ -42,14 +42,14 @@ def one_number(call: Call, value: np.ndarray) -> tuple[np.ndarray]:
 def vector(value, n: int) -> np.ndarray:
     """A value of n numbers, whether it came as (n,), (n, 1) or (1, n)."""
     if np.shape(value) not in ((n,), (n, 1), (1, n)):
-        raise UnfitError(f"an array of shape {np.shape(value)}; shape ({n},) is asked for")
+        raise UnfitError(f"an array of shape {np.shape(value)}; it must return shape ({n},)")
     return np.reshape(value, n)
 
 
 def array(value, *shape: int) -> np.ndarray:
     """A value of exactly this shape."""
     if np.shape(value) != shape:
-        raise UnfitError(f"an array of shape {np.shape(value)}; shape {shape} is asked for")
+        raise UnfitError(f"an array of shape {np.shape(value)}; it must return shape {shape}")
     return value
 
 

@@ -24,7 +24,7 @@ def witness(
     joints = tuple((float(x), float(y)) for x, y in pose(call)) if pose else ()
     if criterion.is_truth:
         asked = f" ({what})" if what else ""
-        said = f"{bool(given[at])}, where {bool(right[at])} is right{asked}"
+        said = f"{bool(given[at])}; the right answer is {bool(right[at])}{asked}"
         return Witness(shown_call(call), said, "", joints)
     off, size = abs(float(given[at] - right[at])), abs(float(right[at]))
     share = f" ({_percent(off / size)} of the right value)" if size > 0 else ""

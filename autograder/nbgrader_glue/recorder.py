@@ -167,7 +167,7 @@ class Recorder:
         for cell in source.cells:
             name = grade_id(cell)
             if name and name not in self._rows.source_cells:
-                raise ValueError(f"{where} has a cell {name}, but the gradebook has not: {again}")
+                raise ValueError(f"{where} has a cell {name}, but the gradebook does not: {again}")
             if name and not _can_be_put_right(cell, self._rows.source_cells[name], self._rows):
                 raise ValueError(f"Inconsistent checksums: {name} has changed in {where}: {again}")
 

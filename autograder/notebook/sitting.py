@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from autograder.judging.check import CannotRunError, Check
-from autograder.judging.faults import describe_fault
+from autograder.judging.faults import PYTHON_ENDED, describe_fault
 from autograder.judging.verdict import State, Verdict
 from autograder.notebook import outputs
 from autograder.notebook.blame import Ran, explained, ran, stale
@@ -65,9 +65,10 @@ class Sitting:
                 shown = room.run(source)
         except RoomLostError as error:
             self._leave()
-            text = f"this cell ended Python itself: {error}"
+            reason = one_line(str(error)).removeprefix("it ended").lstrip(": ")
+            text = "this cell ended Python itself" + (f": {reason}" if reason else "")
             shown = [outputs.error("RoomLostError", text, [text])]
-            why = f"the end of Python itself ({one_line(str(error))})"
+            why = PYTHON_ENDED + (f" ({reason})" if reason else "")
             self._cells.append(Ran(source, why, stopped=True))
         else:
             self._ran.append(source)

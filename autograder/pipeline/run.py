@@ -20,7 +20,8 @@ from autograder.pipeline.lock import locked
 from autograder.pipeline.recorder import Recorder, Standing
 from autograder.pipeline.worker import judge, load
 from autograder.protocol import one_line
-from autograder.sandbox.room import share, use_shared
+from autograder.sandbox.room import share
+from autograder.sandbox.ways import use_shared
 from autograder.terminal import shown_name, shown_note
 
 CACHE = Path("course") / "cache-of-results"

@@ -21,6 +21,8 @@ MODULES = (
     c6_regressor,
 )
 CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
+# The answers that a person reads, by the grade_id of their cell.
+READ = ("p1-proof", "p2-proof", "p3-derivation", "p4-check", "p5-discussion", "c6-discussion")
 
 
 class UnknownCheckError(ValueError):
@@ -31,15 +33,20 @@ class UnknownCheckError(ValueError):
 
 
 def known_check(id: object) -> str:
-    """The id, where a check has it; else UnknownCheckError, with those that are nearest."""
+    """The id, where a check has it; else UnknownCheckError, with those that are nearest.
+
+    The error says so if a person reads the answer.
+    """
     if not isinstance(id, str):
         name = getattr(id, "__name__", "")
         said = "nothing" if id is None else f"a {type(id).__name__}"
         raise UnknownCheckError(
-            f"give the id of a check, in quotes; this is {said}{_meant(nearest(str(name)))}"
+            f"give the id of a check, in quotes; you gave {said}{_meant(nearest(str(name)))}"
         )
+    if id in READ:
+        raise UnknownCheckError(f"no check judges {id!r}: a person reads it and gives its points")
     if id not in CHECKS:
-        meant = _meant(nearest(id)) or f"; known are {', '.join(CHECKS)}"
+        meant = _meant(nearest(id)) or f"; the checks are {', '.join(CHECKS)}"
         raise UnknownCheckError(f"there is no check {id!r}{meant}")
     return id
 

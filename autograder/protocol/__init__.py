@@ -26,7 +26,8 @@ from .calls import (
     time_limit,
 )
 from .looks import Look
-from .readings import MOST_NUMBERS, FaultKind, NotNumbersError, one_line, shortened
+from .readings import MOST_NUMBERS, FaultKind, NotNumbersError
+from .words import one_line, shortened
 
 __all__ = [
     "CALL_SECONDS",

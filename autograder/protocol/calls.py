@@ -23,8 +23,8 @@ from .readings import (
     evaluate,
     read_numbers,
     read_parts,
-    shortened,
 )
+from .words import shortened
 
 CALL_SECONDS = 2.0  # of the processor's time
 # Code that sleeps for ever uses no processor time, and on a busy machine honest code gets little. So
@@ -51,13 +51,15 @@ class Call:
     args: floats, arrays, namespaces and tuples of them, or the stand-ins of `arguments`. at: points,
     each a mapping from symbol to number, at which the SymPy expression that comes back is evaluated;
     the reply then holds one value a point. parts: whether the function returns several things at once,
-    named or in order; the reply then does too.
+    named or in order; the reply then does too. truth: whether it returns True or False, which the reply
+    holds as 1 or 0.
     """
 
     name: str
     args: tuple
     at: tuple[Mapping[str, float], ...] = ()
     parts: bool = False
+    truth: bool = False
 
 
 @dataclass(frozen=True)
@@ -149,7 +151,7 @@ def read(call: Call, result):
     """A function's result as the numbers that the call asks for; NotNumbersError where it has none."""
     if call.at:
         return evaluate(result, call.at)
-    return read_parts(result) if call.parts else read_numbers(result)
+    return read_parts(result) if call.parts else read_numbers(result, call.truth)
 
 
 def answer_all(calls: list[Call], namespace: Mapping) -> list[Reply]:
@@ -231,12 +233,13 @@ def time_limit(seconds: float) -> Iterator[None]:
 
 def encode_call(call: Call) -> dict:
     args = [encode(value) for value in call.args]
-    return {"name": call.name, "args": args, "at": list(call.at), "parts": call.parts}
+    shape = {"at": list(call.at), "parts": call.parts, "truth": call.truth}
+    return {"name": call.name, "args": args, **shape}
 
 
 def decode_call(message: dict) -> Call:
     args = tuple(decode(value) for value in message["args"])
-    return Call(message["name"], args, tuple(message["at"]), message["parts"])
+    return Call(message["name"], args, tuple(message["at"]), message["parts"], message["truth"])
 
 
 def encode_reply(reply: Reply) -> dict:

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from types import TracebackType
 
 from .calls import TimeLimitError, message_of, time_limit
-from .readings import one_line
+from .words import one_line
 
 # Takes the id of the check in whose function an error was raised, if any; gives the one to blame.
 Blame = Callable[[str | None], str | None]

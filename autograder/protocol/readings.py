@@ -9,9 +9,10 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from .words import described
+
 # A reply of 24 such answers is not yet too long for the sandbox to send.
 MOST_NUMBERS = 50_000
-MOST_CHARACTERS = 300
 MOST_ENTRIES = 100
 DEEPEST = 4
 
@@ -42,22 +43,29 @@ class NotNumbersError(Exception):
         self.kind = kind
 
 
-def read_numbers(value) -> np.ndarray:
-    """`value` as a float array; NotNumbersError says what came instead."""
+def read_numbers(value, truth: bool = False) -> np.ndarray:
+    """`value` as a float array; NotNumbersError says what came instead.
+
+    truth: whether True and False are asked for, and count as 1 and 0; elsewhere they are no numbers.
+    """
     if value is None:
         raise NotNumbersError(FaultKind.NOTHING, "")
     if callable(value) and not hasattr(value, "__array__"):
-        raise NotNumbersError(FaultKind.NOT_NUMBERS, "a function")
+        raise NotNumbersError(FaultKind.NOT_NUMBERS, described(value))
+    if truth and getattr(value, "is_Boolean", False):
+        with suppress(TypeError):  # SymPy's True or False is one, a relation of symbols is not
+            value = bool(value)
     try:
         array = np.asarray(value)
     except ValueError:
         raise NotNumbersError(FaultKind.NOT_NUMBERS, "rows of different lengths") from None
     if array.size > MOST_NUMBERS:
-        raise NotNumbersError(FaultKind.NOT_NUMBERS, f"{array.size} entries, far too many")
+        text = f"an array of {array.size} entries, which is far too large"
+        raise NotNumbersError(FaultKind.NOT_NUMBERS, text)
     if array.dtype.kind == "O":
         array = np.array([_number(entry) for entry in array.flat]).reshape(array.shape)
-    if array.dtype.kind not in "biuf":
-        raise NotNumbersError(FaultKind.NOT_NUMBERS, _described(value))
+    if array.dtype.kind not in ("biuf" if truth else "iuf"):
+        raise NotNumbersError(FaultKind.NOT_NUMBERS, described(value))
     return array.astype(float)
 
 
@@ -76,7 +84,7 @@ def read_parts(value, depth: int = DEEPEST):
 
 def _number(entry) -> float:
     free = getattr(entry, "free_symbols", None)
-    if free:
+    if free and not getattr(entry, "is_Relational", False):
         names = ", ".join(sorted(str(symbol) for symbol in free))
         raise NotNumbersError(FaultKind.NOT_NUMBERS, f"an expression that still contains {names}")
     if isinstance(entry, numbers.Real) or hasattr(entry, "__float__"):
@@ -84,30 +92,38 @@ def _number(entry) -> float:
             return float(entry)
         except (TypeError, ValueError, OverflowError):
             pass
-    raise NotNumbersError(FaultKind.NOT_NUMBERS, _described(entry))
-
-
-def _described(value) -> str:
-    return f"{type(value).__name__} {shortened(repr(value), 60)}"
+    raise NotNumbersError(FaultKind.NOT_NUMBERS, described(entry))
 
 
 def evaluate(expression, points) -> np.ndarray:
     """A SymPy expression's numbers, or a matrix's, at each point: a mapping from name to number."""
     import sympy  # here, so that only symbolic answers wait for it
 
+    given = np.asarray(expression) if isinstance(expression, np.matrix) else expression
     try:
-        if isinstance(expression, list | tuple | np.ndarray):
-            if any(isinstance(entry, str) for entry in np.array(expression, dtype=object).flat):
-                raise sympy.SympifyError(expression)
-            expression = sympy.Array(expression)
+        if isinstance(given, list | tuple | np.ndarray):
+            if any(isinstance(entry, str) for entry in np.array(given, dtype=object).flat):
+                raise sympy.SympifyError(given)
+            expression = sympy.Array(given)
         expression = sympy.sympify(expression, strict=True)
     except (sympy.SympifyError, AttributeError, TypeError, ValueError):
-        read_numbers(expression)
-        raise NotNumbersError(FaultKind.NOT_NUMBERS, _described(expression)) from None
+        read_numbers(given)
+        raise NotNumbersError(FaultKind.NOT_NUMBERS, described(given)) from None
+    entries = [expression]
+    if isinstance(expression, sympy.MatrixBase | sympy.NDimArray):
+        entries = list(np.array(expression.tolist(), dtype=object).flat)
+    for entry in entries:
+        if not isinstance(entry, sympy.Expr):  # an equation, a truth value, a set, a dict …
+            raise NotNumbersError(
+                FaultKind.NOT_NUMBERS, described(given if entry is expression else entry)
+            )
     if expression.is_Matrix:
         expression = expression.as_immutable()
     symbols = tuple(sorted(expression.free_symbols, key=lambda symbol: symbol.name))
-    return np.array([read_numbers(_value_at(expression, symbols, point)) for point in points])
+    try:
+        return np.array([read_numbers(_value_at(expression, symbols, point)) for point in points])
+    except RecursionError:  # in SymPy, for an expression that has no value
+        raise NotNumbersError(FaultKind.NOT_NUMBERS, described(given)) from None
 
 
 def _value_at(expression, symbols, point):
@@ -124,17 +140,6 @@ def _compiled(symbols, expression):
     import sympy
 
     return sympy.lambdify(symbols, expression, "numpy")
-
-
-def shortened(text: str, most: int = MOST_CHARACTERS) -> str:
-    return text if len(text) <= most else text[: most - 1] + "…"
-
-
-def one_line(text: str, most: int = MOST_CHARACTERS) -> str:
-    """The text, printable and shortened, so that a student's text cannot pass for lines of ours."""
-    if not text.isprintable():
-        text = repr(text[:most])[1:-1]
-    return shortened(text, most)
 
 
 def encode_value(value):

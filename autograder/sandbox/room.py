@@ -1,9 +1,6 @@
 """Runs one notebook's code in a room: a process that can reach nothing but its own memory.
 
-With bubblewrap, the process has no network, no home directory, no course folder, none of this
-project's files but the runner, and a read-only system. Without bubblewrap (macOS, some containers),
-there are only limits on time, memory, processes and file size, and `Room` says so once. Either way, a
-room is a fork of a warm process if the system allows that, and otherwise a new process.
+`ways.py` says what keeps the process apart, and how it is started.
 
 Limits on time count the processor's time, of all processes of a room together: on a busy machine, an
 honest answer takes longer on the clock, but no more processor time. Each has a limit on the clock
@@ -16,12 +13,9 @@ import logging
 import math
 import os
 import select
-import socket
 import sys
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
-from enum import Enum
 from functools import cache
 from typing import NoReturn
 
@@ -35,10 +29,7 @@ from autograder.protocol import (
     encode_call,
     one_line,
 )
-from autograder.sandbox import nursery
-from autograder.sandbox.bubblewrap import bubblewrapped, has_bubblewrap
-from autograder.sandbox.cold import ColdProcess
-from autograder.sandbox.unwalled import UnwalledNursery, UnwalledProcess
+from autograder.sandbox.ways import Shared, Way, started, warm_process_of, ways_here
 
 log = logging.getLogger(__name__)
 
@@ -59,23 +50,6 @@ MOST_BYTES = 32 << 20
 MOST_VALUES = 1 << 20
 MOST_OUTPUTS = 100
 BYTES_A_NUMBER = 32
-
-
-class Way(Enum):
-    """How a room is made."""
-
-    WARM = "forked from a warm process, in bubblewrap"
-    COLD = "started in bubblewrap"
-    UNWALLED = "forked from a warm process, without walls"
-    UNWALLED_COLD = "started without walls"
-
-    @property
-    def walled(self) -> bool:
-        return self in (Way.WARM, Way.COLD)
-
-    @property
-    def warm(self) -> bool:
-        return self in (Way.WARM, Way.UNWALLED)
 
 
 class RoomLostError(Exception):
@@ -103,7 +77,7 @@ class Room:
     def __init__(self, way: Way | None = None, files: Mapping[str, bytes] | None = None):
         self.way = way or _best_way()
         self._buffer = bytearray()
-        self._process = _start(self.way)
+        self._process = started(self.way)
         os.set_blocking(self._process.requests, False)
         self._before = self._used = 0.0
         try:
@@ -284,10 +258,8 @@ class Room:
 
 
 def _best_way() -> Way:
-    warm_way, cold_way = Way.UNWALLED, Way.UNWALLED_COLD
-    if has_bubblewrap():
-        warm_way, cold_way = Way.WARM, Way.COLD
-    return warm_way if _works(warm_way) else cold_way
+    warm, cold = ways_here()
+    return warm if _works(warm) else cold
 
 
 @cache
@@ -303,37 +275,7 @@ def _works(way: Way) -> bool:
         return False
 
 
-def _start(way: Way):
-    if not way.warm:
-        return ColdProcess(way.walled)
-    own = _nursery(way)
-    return nursery.WarmProcess(own) if way.walled else UnwalledProcess(own)
-
-
-def _nursery(way: Way) -> nursery.Nursery:
-    if way.walled:
-        return nursery.running(way, lambda: nursery.Nursery(*bubblewrapped("forks.py")))
-    return nursery.running(way, UnwalledNursery)
-
-
-@dataclass(frozen=True)
-class Shared:
-    """A warm process that its owner shares with the processes that work for it."""
-
-    way: Way
-    channel: socket.socket
-
-    def close(self) -> None:
-        self.channel.close()
-
-
 def share() -> Shared | None:
     """This process's warm process, for others to use; None if rooms are not warm."""
     way = _best_way()
-    return Shared(way, _nursery(way).share()) if way.warm else None
-
-
-def use_shared(shared: Shared | None) -> None:
-    """Fork rooms from another process's warm process."""
-    if shared is not None:
-        nursery.use_shared(shared.way, shared.channel)
+    return warm_process_of(way) if way.warm else None

@@ -58,7 +58,7 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
         replies = answer_all(calls, namespace)
         error = _definitions.missing(name) if _definitions else ""
         if error and replies[0].fault and replies[0].fault.kind is FaultKind.MISSING:
-            return [Reply(fault=Fault(FaultKind.CELL_FAILED, f"{error}."))]
+            return [Reply(fault=Fault(FaultKind.CELL_FAILED, error))]
         return replies
 
     return CHECKS[id].run(ask, rng, count)

@@ -13,11 +13,11 @@ FINEST = 4 * np.finfo(float).eps
 
 @dataclass(frozen=True)
 class Event:
-    """The event that g(t, x), one number, reaches or passes zero; x: (N,), t in s.
+    """The event that g(t, x), a single number, reaches or passes zero; x: (N,), t in s.
 
-    direction: +1 for rising through zero only, −1 for falling only, 0 for both.
-    terminal: whether the simulation stops there.
-    Raises ValueError, naming the argument, for a g that is no function and for another direction.
+    direction: +1 for rising through zero only, −1 for falling only, 0 for both. terminal: whether
+    the simulation stops there. Raises ValueError, naming the argument, if g is not a function, or
+    if direction is none of these.
     """
 
     g: Callable[[float, np.ndarray], float]
@@ -35,9 +35,9 @@ class Event:
 class Trajectory:
     """States over time, and the events on the way.
 
-    t: (T,), s: the times asked for; if a terminal event stopped the simulation, those before it, and
-    its own time last. x: (T, N), the states at t. event_times: for each event its times, (k,),
-    s; event_states: the states there, (k, N). stopped_by: the index of the event that stopped the
+    t: (T,), s: the times asked for; if a terminal event stopped the simulation, the times before
+    it, then its own. x: (T, N), the states at t. event_times: for each event its times, (k,), s;
+    event_states: the states there, (k, N). stopped_by: the index of the event that stopped the
     simulation, or None.
     """
 
@@ -52,8 +52,8 @@ class Trajectory:
 class Watch:
     """Looks, step by step, for sign changes of each event's g.
 
-    An event is seen where g has one sign at the start of a step and the other, or zero, at its end;
-    g that turns back within one step is not seen, and a start at zero is no event.
+    It sees an event if g has one sign at the start of a step and the other sign, or zero, at its
+    end. It misses a g that turns back within one step. A g that starts at zero is no event.
     """
 
     events: tuple[Event, ...]

@@ -88,7 +88,7 @@ def all_finite(name: str, array: np.ndarray) -> np.ndarray:
 
 
 def state_vector(name: str, value, size: int) -> np.ndarray:
-    """`value` as a float array of shape (..., size); otherwise ValueError with both shapes."""
+    """`value` as a float array of shape (..., size); otherwise a ValueError that names both shapes."""
     needs = f"real numbers of shape (..., {size})"
     array = real_array(name, value, needs)
     if array.ndim == 0 or array.shape[-1] != size:

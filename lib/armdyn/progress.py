@@ -14,11 +14,11 @@ class _Bar(tqdm):
 
 
 def progress_bar(total: float, wanted: bool):
-    """A context; its value counts simulated time, in s, by `.update(dt)`, and is None without a bar.
+    """A context whose value counts simulated time, s, by `.update(dt)`; without a bar it is None.
 
-    The bar appears on stderr after a second, and goes when the run ends. There is one only if stderr
-    is a terminal or a notebook that somebody works in. TQDM_DISABLE=1 in the environment switches it
-    off.
+    The bar appears on stderr after a second, and disappears when the run ends. It appears only if
+    stderr is a terminal, or a notebook in which somebody works. TQDM_DISABLE=1 in the environment
+    switches it off.
     """
     if not wanted or not (_is_terminal(sys.stderr) or _is_notebook(sys.stderr)):
         return contextlib.nullcontext()

@@ -2,9 +2,9 @@
 
 Each function takes a model and states of shape (..., n), looks at all of them, and returns a
 `Finding`: the largest violation, where it is, and the floor that rounding alone can reach. A
-finding is a number with a witness, not a yes or no; `holds` compares the two.
+finding is a number with a witness, not a yes or no; `holds` compares the violation with the floor.
 
-All raise ValueError for states that are of the wrong shape or not finite, and for no state at all.
+All raise ValueError if the states have the wrong shape or are not finite, or if there are none.
 
 Source of the first three: R. M. Murray, Z. Li, S. S. Sastry (1994), A Mathematical Introduction to
 Robotic Manipulation, lemma 4.2.
@@ -27,9 +27,9 @@ DIFFERENCE_FLOOR = 100 * EPS**0.8
 class Finding:
     """The largest violation of a property over some states.
 
-    violation: relative, without unit. floor: what rounding can leave of it. witness: the state at
-    the worst case, and what shows the violation there, by name. A model that returns NaN has the
-    violation NaN, and the property does not hold.
+    violation: relative, without a unit. floor: how large rounding alone can make it. witness: the
+    state of the worst case and, by name, what shows the violation there. If a model returns NaN,
+    the violation is NaN and the property does not hold.
     """
 
     claim: str
@@ -52,9 +52,9 @@ class Finding:
 
 @dataclass(frozen=True, eq=False)
 class CoriolisFinding(Finding):
-    """Whether C is the Christoffel choice, with a second finding: whether C q̇ at least is right.
+    """Whether C is the Christoffel choice; a second finding says whether at least C q̇ is right.
 
-    Many C give the same C q̇, and with it the same motion; one of them is Σ_k h_ijk q̇_k.
+    Many C give the same C q̇, and so the same motion; one of them is Σ_k h_ijk q̇_k.
     """
 
     torque: Finding
@@ -81,8 +81,8 @@ def symmetry(model, q) -> Finding:
 def positive_definiteness(model, q) -> Finding:
     """All eigenvalues of M are > 0; the witness holds the smallest one (kg·m²) and its eigenvector.
 
-    The violation is 1 where the smallest eigenvalue is not above rounding, n·1.8e-15 times the largest,
-    and 0 elsewhere. Of an M that is not symmetric the symmetric part is judged, since it alone
+    The violation is 1 if the smallest eigenvalue is not above rounding, n·1.8e-15 times the
+    largest, and 0 otherwise. If M is not symmetric, its symmetric part is judged, since only that
     enters q̇ᵀ M q̇. q: (..., n), rad.
     """
     (q,) = _states(model, q=q)
@@ -132,8 +132,8 @@ def christoffel_form(model, q, qd) -> CoriolisFinding:
     """C_ij = Σ_k h_ijk q̇_k with h_ijk = ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), or merely valid.
 
     The derivatives are differences of M, so that C is judged by M alone. The violation is
-    max |C − Σ h q̇| over the scale of `skew_symmetry`, that of `torque` |C q̇ − (Σ h q̇) q̇| over the
-    same times |q̇|; the witnesses hold both sides. q (rad), qd (rad/s): (..., n).
+    max |C − Σ h q̇| over the scale of `skew_symmetry`; that of `torque` is |C q̇ − (Σ h q̇) q̇| over that
+    scale times |q̇|; the witnesses hold both sides. q (rad), qd (rad/s): (..., n).
     """
     q, qd = _states(model, q=q, qd=qd)
     C, _, scale = _rates(model, q, qd)
@@ -171,7 +171,7 @@ def gravity_gradient(model, q) -> Finding:
 
 
 def power_balance(model, q, qd, u) -> Finding:
-    """dE/dt = q̇ᵀ(u − f) along the motion: what goes in, less friction, is stored.
+    """dE/dt = q̇ᵀ(u − f) along the motion: the arm stores what goes in, less what friction takes.
 
     The violation is |dE/dt − q̇ᵀ(u − f)| over the sizes of the powers and energies, with dE/dt by
     differences of E along ẋ. q (rad), qd (rad/s), u (N·m): (..., n).
@@ -208,22 +208,23 @@ def _states(model, **named) -> tuple[np.ndarray, ...]:
 
 
 def _rates(model, q, qd) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """C, Ṁ by differences, and the size that rounding and truncation of both are measured in."""
+    """C, Ṁ by differences, and the size by which rounding and truncation of both are measured."""
     C, M_dot = model.C(q, qd), _rate_of(model.M, q, qd)
     scale = np.maximum(_largest(M_dot), _largest(C)) + _largest(model.M(q)) * _largest_entry(qd)
     return C, M_dot, scale * _turns(q)
 
 
 def _turns(q) -> np.ndarray:
-    """By how much rounding of q itself, which grows with q, adds to that of a difference."""
+    """How much the rounding of q itself, which grows with q, adds to that of a difference."""
     return 1 + _largest_entry(q) / 10
 
 
 def _potential_size(model, q) -> np.ndarray:
     """|P|, its change over one unit of each coordinate, and the terms that may cancel in it.
 
-    The change is not 0 at an equilibrium where P = 0. Of an arm balanced by counterweights P and ∂P/∂q
-    are nothing but rounding, and only the size of the terms that cancel tells that g is right.
+    The change is not 0 at an equilibrium where P = 0. For an arm balanced by counterweights, P and
+    ∂P/∂q are nothing but rounding, and only the size of the terms that cancel shows that g is
+    right.
     """
     P, axes = model.potential_energy, np.eye(model.n)
     changes = sum(np.abs(P(q + axis) - P(q)) for axis in axes)

@@ -39,7 +39,7 @@ def motion_transform(R, p) -> np.ndarray:
 
 
 def motion_cross(v) -> np.ndarray:
-    """v×, (..., 6, 6): the rate of a velocity that is at rest in a body moving with v, (..., 6)."""
+    """v×, (..., 6, 6): the rate of a velocity that is fixed in a body moving with v, (..., 6)."""
     turn = skew(v[..., :3])
     return _blocks(turn, np.zeros_like(turn), skew(v[..., 3:]), turn)
 
@@ -56,7 +56,7 @@ def swapped_cross(f) -> np.ndarray:
 
 
 def rigid_inertia(mass, com, inertia) -> np.ndarray:
-    """Spatial inertia (6, 6) about the frame's origin: it takes [ω; v] to the momentum.
+    """Spatial inertia (6, 6) about the frame's origin: it maps [ω; v] to the momentum.
 
     mass: kg. com: (3,), centre of mass in the frame, m. inertia: (3, 3), about the centre of mass
     and along the frame's axes, kg·m².

@@ -211,10 +211,14 @@ def test_a_figure_has_the_style_whatever_matplotlib_is_set_to():
     figure, ax = plotting.figure(5, 3)
     draw_on(ax)
     assert pixels(figure) == wanted
-    with matplotlib.rc_context({"font.size": 17, "lines.linewidth": 9, "axes.grid": False}):
-        figure, ax = plotting.figure(5, 3)
-        draw_on(ax)
-        assert pixels(figure) == wanted
+    for style in (
+        {"font.size": 17, "lines.linewidth": 9, "axes.grid": False},
+        *("ggplot", "dark_background", "bmh", "fivethirtyeight", "seaborn-v0_8-poster"),
+    ):
+        with matplotlib.style.context(style):
+            figure, ax = plotting.figure(5, 3)
+            draw_on(ax)
+            assert pixels(figure) == wanted, style
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,8 @@
 
 import pytest
 
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 from tests.autograder.sandbox import rooms as rooms_of_tests
 
 

@@ -100,6 +100,33 @@ def test_outside_the_courses_folder_one_line_says_what_to_do(tmp_path, monkeypat
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("command", ["grade", "report"])
+@pytest.mark.parametrize(
+    ("asked", "meant"),
+    [
+        ("p3", "Did you mean p3-pendulum?"),
+        ("P3-Pendulum", "Did you mean p3-pendulum?"),
+        ("pendulum", "Did you mean p3-pendulum?"),
+        ("p3-pendelum", "Did you mean p3-pendulum?"),
+        ("nothing", "There are p3-pendulum."),
+        ("", "There are p3-pendulum."),
+    ],
+)
+def test_an_assignment_that_is_not_there_is_named_with_the_one_that_may_be_meant(
+    course, capsys, command, asked, meant
+):
+    assert main([command, asked]) == 2
+    said = f"autograder: there is no solutions/{asked}/{asked}.ipynb. {meant}\n"
+    assert capsys.readouterr().err == said
+
+
+@pytest.mark.parametrize("asked", [f"{P3}/", f"solutions/{P3}", f"./solutions/{P3}/"])
+@pytest.mark.parametrize("command", ["grade", "report"])
+def test_an_assignment_may_be_named_by_its_folder(course, capsys, command, asked):
+    assert main([command, asked]) == 2  # nothing is released yet
+    assert "there is no solutions/" not in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("arguments", [[], ["no-such-command"], ["problems", "--force"]])
 def test_what_is_not_understood_is_refused(arguments, capsys):
     with pytest.raises(SystemExit) as stopped:

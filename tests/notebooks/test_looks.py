@@ -17,7 +17,8 @@ import pytest
 
 from autograder.problems import CHECKS
 from autograder.protocol import Look, TimeLimitError
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 from autograder.student import look
 from autograder.student.cell import NotCorrectError
 

@@ -89,7 +89,7 @@ def largest_floats(release):
     )
 
 
-@attack(says="g_vec(q, pend) returned 900000 entries, far too many")
+@attack(says="g_vec(q, pend) returned an array of 900000 entries, which is far too large")
 def many_numbers(release):
     """Returns more numbers than were asked for, the right one perhaps among them."""
     return cheat(release, g_vec=function("g_vec", "np.linspace(-50, 50, 900_000)"))
@@ -222,7 +222,7 @@ def masked_numbers(release):
     return cheat(release, g_vec=function("g_vec", "np.ma.masked_array([1.0], mask=[True])"))
 
 
-@attack(lost=("p3-lagrangian",), says="must return numbers")
+@attack(lost=("p3-lagrangian",), says="must return a SymPy expression")
 def symbol_as_code(release):
     """Returns an expression whose symbol's name is code, for whoever compiles it."""
     name = "__import__('os')._exit(0) or q"

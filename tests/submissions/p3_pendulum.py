@@ -114,11 +114,11 @@ BAD_ANSWERS = {
     ),
     "returns_string": (
         function("g_vec", "'m g lc sin q'"),
-        "g_vec(q, pend) returned str 'm g lc sin q'; it must return numbers.",
+        "g_vec(q, pend) returned the text 'm g lc sin q'; it must return numbers.",
     ),
     "wrong_shape": (
         function("g_vec", "np.zeros(3)"),
-        "g_vec(q, pend) returned 3 numbers of shape (3,); one number is asked for.",
+        "g_vec(q, pend) returned 3 numbers of shape (3,); it must return one number.",
     ),
     "returns_nan": (
         function("g_vec", "q * np.nan"),

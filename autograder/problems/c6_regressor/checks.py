@@ -44,11 +44,11 @@ def _telling_state(rng):
 @each
 def _columns(call, value):
     if value.shape == (6, 2):
-        raise UnfitError("an array of shape (6, 2); one row for each joint is asked for, (2, 6)")
+        raise UnfitError("an array of shape (6, 2); it must return one row for each joint, (2, 6)")
     if value.shape != (2, 6):
         raise UnfitError(
-            f"an array of shape {value.shape}; one row for each joint and one column for each of the "
-            "six parameters is asked for, (2, 6)"
+            f"an array of shape {value.shape}; it must return one row for each joint and one "
+            "column for each of the six parameters, (2, 6)"
         )
     masses, inertias = value[:, [mistakes.M1, mistakes.M2]], value[:, [mistakes.J1, mistakes.J2]]
     at_joint_1, at_joint_2 = value[:, mistakes.MC2]
@@ -109,7 +109,7 @@ def _estimates(calls, values):
     for place, value in enumerate(values):
         if np.size(value) == 6:
             raise UnfitError(
-                "6 numbers; the four base parameters are asked for, since no motion shows all six of π"
+                "6 numbers; it must return the four base parameters, since no motion shows all six of π"
             )
         beta = vector(value, 4)
         parts = (beta[[0, 2]], beta[[1, 3]])
@@ -191,9 +191,9 @@ CHECKS = (
         ),
         mistakes=mistakes.REGRESSOR,
         terms=(
-            Term("its part of gravity", _part(gravity=1.0)),
-            Term("its part of velocities", _part(velocity=1.0)),
-            Term("its part of accelerations", _part(acceleration=1.0)),
+            Term("its gravity part", _part(gravity=1.0)),
+            Term("its velocity part", _part(velocity=1.0)),
+            Term("its acceleration part", _part(acceleration=1.0)),
         ),
         hints=(
             "Take M q̈ + C q̇ + g, multiply every product out, and first replace m ℓc² + I by J. "
@@ -223,7 +223,7 @@ CHECKS = (
                 ),
             ),
             Criterion(
-                "rank of a motion with a joint at rest, or both",
+                "rank of a motion with one joint or both at rest",
                 "",
                 0.35,
                 otherwise=(

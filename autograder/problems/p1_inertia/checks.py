@@ -94,7 +94,10 @@ M_TERMS = (
     Term("the centre of mass of link 1", _link_1(lambda arm: arm.m1 * arm.lc1**2)),
     Term("the mass of link 2, carried at the elbow", _link_1(lambda arm: arm.m2 * arm.l1**2)),
     Term("the rotation of link 2", _link_2(lambda arm: arm.I2)),
-    Term("the centre of mass of link 2 about the elbow", _link_2(lambda arm: arm.m2 * arm.lc2**2)),
+    Term(
+        "the centre of mass of link 2 about the elbow",
+        _link_2(lambda arm: arm.m2 * arm.lc2**2),
+    ),
     Term(
         "the coupling of the two links",
         lambda q, arm: (
@@ -118,7 +121,8 @@ SPEAKS_OF = {
 
 def _matrix_calls(rng, count):
     return [
-        Call("is_spd", (2.0 ** rng.integers(-3, 4) * matrix(rng),))  # exact: no digit changes
+        # A power of two changes no digit.
+        Call("is_spd", (2.0 ** rng.integers(-3, 4) * matrix(rng),), truth=True)
         for _ in range(max(1, count // VISIBLE_CASES))
         for _, matrix in MATRICES
     ]
@@ -129,7 +133,7 @@ def _verdicts(calls, values):
     found = []
     for place, (answer,) in enumerate(one_number(calls, values)):
         if answer not in (0, 1):
-            raise UnfitError(f"{answer:.4g}; True or False is asked for")
+            raise UnfitError(f"{answer:.4g}; it must return True or False")
         kind, _ = MATRICES[place % len(MATRICES)]
         found.append(tuple(answer if k in SPEAKS_OF[kind] else NOTHING for k in range(4)))
     return found
@@ -154,7 +158,7 @@ def _singular_and_allowed(call, value):
 def _arm_and_q(value):
     """The arm as a namespace of its eight numbers, and q; UnfitError for what is neither."""
     if not isinstance(value, list) or len(value) != 2 or not isinstance(value[0], dict):
-        raise UnfitError("no pair of an arm and a q; (arm, q) is asked for, arm a dict")
+        raise UnfitError("something other than a pair; it must return (arm, q), with arm a dict")
     arm, q = value
     missing = [name for name in PARAMETERS if name not in arm]
     if missing:

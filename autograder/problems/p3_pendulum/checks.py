@@ -49,7 +49,7 @@ def _lagrangian_calls(rng, count):
 def _lagrangian_parts(call, value):
     """The change of L with q̇, and with q: a constant in P, which no equation of motion sees, is free."""
     if value.shape != (3,):
-        raise UnfitError(f"an expression of shape {value.shape[1:]}; L is one number")
+        raise UnfitError(f"an expression of shape {value.shape[1:]}; it must return one expression")
     hanging, at_rest, moving = value
     return (np.array(moving - at_rest), np.array(at_rest - hanging))
 

@@ -45,7 +45,7 @@ def _torque_calls(rng, count):
 @each
 def _torques(call, value):
     if np.size(value) == 1:
-        raise UnfitError("one number; g has one entry for each joint. Is it P?")
+        raise UnfitError("one number; it must return one entry for each joint. Is it P?")
     return tuple(vector(value, 2))
 
 
@@ -106,7 +106,7 @@ def _configurations(value):
     if np.size(value) and (np.shape(value) == (2,) or shape == (2,)):
         return np.reshape(value, (-1, 2))
     raise UnfitError(
-        f"an array of shape {np.shape(value)}; one row (q1, q2) for each configuration is asked for"
+        f"an array of shape {np.shape(value)}; it must return one row (q1, q2) for each configuration"
     )
 
 

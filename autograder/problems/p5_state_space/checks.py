@@ -130,13 +130,13 @@ def _read_states(call, value):
         return np.reshape(value, (rows, columns)), value.T
     if np.shape(value) == (rows - 1, columns):
         raise UnfitError(
-            f"{rows - 1} rows for {rows} times; one row for each time is asked for, and the state "
-            "at t[0] is x0"
+            f"{rows - 1} rows for {rows} times; it must return one row for each time, and the "
+            "state at t[0] is x0"
         )
     if np.shape(value) != (rows, columns):
         raise UnfitError(
-            f"an array of shape {np.shape(value)}; one row for each time and one column for each "
-            f"entry of the state are asked for, shape {(rows, columns)}"
+            f"an array of shape {np.shape(value)}; it must return one row for each time and one "
+            f"column for each entry of the state, shape {(rows, columns)}"
         )
     return value, value
 
@@ -280,7 +280,7 @@ CHECKS = (
                 matching=EXACTLY,
             ),
             Criterion(
-                "observed order (4 is asked for)",
+                "observed order (should be 4)",
                 "",
                 0.2,
                 otherwise=(

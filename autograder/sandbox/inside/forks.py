@@ -52,7 +52,7 @@ def main():
         return
     channel.send(b"ready")
     while True:
-        ready, _, _ = select.select([channel, warm_lives], [], [])
+        ready, _, _ = select.select([channel.fileno(), warm_lives], [], [])
         if warm_lives in ready:
             return
         message, descriptors, *_ = socket.recv_fds(channel, 16, REQUEST)
@@ -61,7 +61,8 @@ def main():
         if message == b"alive?":
             channel.send(b"alive")
         if len(descriptors) == REQUEST:
-            _start_room(*descriptors, to_warm, first, namespaces)
+            requests, replies, handles = descriptors
+            _start_room(requests, replies, handles, to_warm, first, namespaces)
         for descriptor in descriptors:
             os.close(descriptor)
 

@@ -19,8 +19,14 @@ def only_pictures():
     from matplotlib.backends.registry import backend_registry
 
     load, select = backend_registry.load_backend_module, pylabtools.select_figure_formats
-    backend_registry.load_backend_module = lambda backend: load(INLINE)
-    rcsetup.validate_backend = matplotlib.RcParams.validate["backend"] = lambda backend: INLINE
+
+    def inline(backend):
+        return INLINE
+
+    # setattr, as these are others' own functions.
+    setattr(backend_registry, "load_backend_module", lambda backend: load(INLINE))  # noqa: B010
+    setattr(rcsetup, "validate_backend", inline)  # noqa: B010
+    matplotlib.RcParams.validate["backend"] = inline
     matplotlib.rcParams["backend"] = INLINE
     pylabtools.select_figure_formats = lambda shell, formats, **options: select(
         shell, {"png"}, **options

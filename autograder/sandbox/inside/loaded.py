@@ -17,9 +17,9 @@ def load() -> None:
     from matplotlib.figure import Figure
     from matplotlib_inline import backend_inline  # noqa: F401
 
-    axes = Figure().subplots()
-    axes.set(title="$q$", xlabel="t")
-    axes.figure.savefig(io.BytesIO())
+    figure = Figure()
+    figure.subplots().set(title="$q$", xlabel="t")
+    figure.savefig(io.BytesIO())
     matplotlib.pyplot.switch_backend(os.environ["MPLBACKEND"])
     q = sympy.Symbol("q", real=True)
     matrix = sympy.simplify(sympy.Matrix([[1 - sympy.cos(q)]]).diff(q))  # these import on first use

@@ -159,7 +159,8 @@ def _run(shell, source, seconds, protocol):
     # A magic's error is only shown, and the cell goes on, perhaps to an error that stops it.
     told = [*errors[:1], *(error for error in errors[1:] if error[1] is stopped)]
     return outputs + [
-        _error(shell, source, *error, protocol) | {"stopped": error[1] is stopped} for error in told
+        _error(shell, source, kind, value, lines, protocol) | {"stopped": value is stopped}
+        for kind, value, lines in told
     ]
 
 

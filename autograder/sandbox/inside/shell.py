@@ -51,10 +51,10 @@ class Displays(DisplayPublisher):
 
     def __init__(self, *args, **kwargs):
         super().__init__(*args, **kwargs)
-        self.shown = []
+        self.shown: list[tuple[dict, str | None]] = []
         self._clear_first = False
 
-    def publish(self, data, metadata=None, *, transient=None, update=False, **kwargs):
+    def publish(self, data, metadata=None, source=None, *, transient=None, update=False, **kwargs):
         if self._clear_first:
             self.clear_output()
         name = (transient or {}).get("display_id")
@@ -81,6 +81,7 @@ class Results(DisplayHook):
         pass
 
     def write_format_data(self, format_dict, md_dict=None):
+        assert self.shell is not None  # it made this hook
         self.shell.display_pub.publish(format_dict)
 
     def finish_displayhook(self):
@@ -98,12 +99,15 @@ class RoomShell(InteractiveShell):
     displayhook_class = Type(Results)
     display_pub_class = Type(Displays)
 
+    display_pub: Displays
+
     def __init__(self, *args, **kwargs):
         super().__init__(*args, **kwargs)
         self.context = contextvars.copy_context()
         self.running, self.left_out, self.errors = 0, [], []
         self._loop, self._abandoned = None, []
         self.input_transformers_cleanup.append(self._without_unknown_cell_magic)
+        assert self.extension_manager is not None  # it was just made
         self.extension_manager.load_extension("storemagic")
         self.set_hook("show_in_pager", lambda *args, **kwargs: None, 0)
 
@@ -259,7 +263,7 @@ class RoomShell(InteractiveShell):
             if not frame.filename.startswith(TYPED) or "run_cell_magic(" in (frame.line or ""):
                 continue
             here = frame.filename.startswith(cells)
-            number = frame.lineno + above if here else frame.lineno
+            number = (frame.lineno or 0) + (above if here else 0)
             text = "".join(source.split("\n")[number - 1 : number]) if here else frame.line
             typed.append((here, number, text))
         at = next((number for here, number, _ in typed if here), 0)

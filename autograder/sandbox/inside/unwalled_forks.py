@@ -39,12 +39,12 @@ def main():
     signal.signal(signal.SIGCHLD, lambda *_: None)
     signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
     channel.send(b"ready")
-    rooms = {}
+    rooms: dict[int, str] = {}  # by the watch that leads it, a room's folder
     while True:
-        ready, _, _ = select.select([channel, ended], [], [])
+        ready, _, _ = select.select([channel.fileno(), ended], [], [])
         if ended in ready:
             _end_groups(ended, rooms)
-        if channel not in ready:
+        if channel.fileno() not in ready:
             continue
         message, descriptors, *_ = socket.recv_fds(channel, MOST_BYTES, DESCRIPTORS)
         if not message:
@@ -52,7 +52,9 @@ def main():
         if message == b"alive?":
             channel.send(b"alive")
         if len(descriptors) == DESCRIPTORS:
-            _start_room(os.fsdecode(message.removeprefix(b"room")), *descriptors, rooms, shell)
+            requests, replies, line = descriptors
+            folder = os.fsdecode(message.removeprefix(b"room"))
+            _start_room(folder, requests, replies, line, rooms, shell)
         for descriptor in descriptors:
             os.close(descriptor)
     while rooms and select.select([ended], [], [], END_SECONDS)[0]:  # they end with the judge, too

@@ -1,13 +1,15 @@
 """Figures of arms, of the terms of their equation of motion and of how they move.
 
-The only part of armdyn with matplotlib, whose settings (matplotlib.rcParams) it leaves alone: the
-course's style is in the figures that `figure` makes. No pyplot: a figure is an object like any
-other, drawn when it is asked for, with nothing to close. A notebook shows one as a `Picture`, or a
-motion as an `Animation`, which carry a description for those who do not see them.
+This is the only part of armdyn that uses matplotlib. It leaves matplotlib's settings
+(matplotlib.rcParams) alone: the course's style is in the figures that `figure` makes. It does not
+use pyplot: a figure is an object like any other, it is drawn when you ask for it, and you need not
+close it. A notebook shows a figure as a `Picture`, and a motion as an `Animation`; both carry a
+description for those who do not see them.
 
-Colours: M. Okabe, K. Ito (2008), Color Universal Design, told apart with any colour vision; maps
-of a quantity use cividis, whose lightness rises evenly. Lines also differ by dashes, bars by hatch
-and points by shape, so that nothing rests on colour alone.
+The colours are those of M. Okabe, K. Ito (2008), Color Universal Design, which people can tell
+apart whatever their colour vision; maps of a quantity use cividis, whose lightness rises evenly.
+Lines also differ by dashes, bars by hatch and points by shape, so that nothing depends on colour
+alone.
 """
 
 from armdyn.plotting.animation import Animation

@@ -25,16 +25,16 @@ STANDS = 5
 
 @dataclass(frozen=True)
 class Animation:
-    """An arm that moves, or several; as a cell's last line it shows itself, with play and a slider.
+    """One moving arm or several; as a cell's last line it shows itself, with controls to play it.
 
     model: a Pendulum, a Planar2R or a PlanarChain. t: (T,), increasing, s. q: (T, n), rad, or
     (B, T, n) for up to 5 motions of the arm in one picture; the first n columns of the states that
-    `simulate` gives. alt: a sentence that says what is to be seen, for those who do not see it.
+    `simulate` gives. alt: a sentence that says what moves and how, for those who do not see it.
     speed: seconds of motion per second of watching. names: one short text per motion, at its tip.
 
     A notebook stores some 10 to 40 KB: the angles at up to 30 frames a second, a player that asks
-    nothing of the network, and a still figure with the way of the tip and a few postures. Where no
-    script runs (a notebook not trusted, a code host, paper) the figure is what remains.
+    nothing of the network, and a still figure with the path of the tip and a few postures. Where no
+    script runs (a notebook not trusted, a code host, paper) only the figure remains.
 
     Raises ValueError, naming the argument, for shapes that do not fit, for an empty alt, and for a
     motion so long that its frames do not fit: show a part of it, or raise the speed. TypeError for
@@ -76,7 +76,7 @@ class Animation:
         self._times()
 
     def still(self) -> Figure:
-        """The way of each tip, and the arm at a few times, from light to dark and thin to thick."""
+        """The path of each tip, and the arm at a few times, from light to dark and thin to thick."""
         fig, ax = figure(3.7, 3.7)
         alone = len(self.q) == 1
         when = np.linspace(self.t[0], self.t[-1], STANDS if alone else 2)
@@ -128,7 +128,7 @@ class Animation:
         return np.linspace(self.t[0], self.t[-1], max(frames, 2))
 
     def _at(self, times) -> np.ndarray:
-        """q at the times, (B, len(times), n), rad, straight between those given."""
+        """q at the times, (B, len(times), n), rad, linear between those given."""
         return np.stack(
             [
                 np.stack([np.interp(times, self.t, column) for column in motion.T], axis=-1)

@@ -1,4 +1,4 @@
-"""Draws an arm, and the way of its tip."""
+"""Draws an arm, and the path of its tip."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -39,7 +39,7 @@ def draw_arm(ax: Axes, model, q) -> None:
 
 
 def draw_trace(ax: Axes, model, q, color: str = OKABE_ITO["vermilion"]) -> None:
-    """Draw the way of the tip on `ax`, from a hollow circle to a square; q: (T, n), rad.
+    """Draw the path of the tip on `ax`, from a hollow circle to a square; q: (T, n), rad.
 
     A pendulum's tip is its centre of mass. Axes in m as in `draw_arm`, over which it can be drawn.
     Raises TypeError for a model that `draw_arm` does not draw, ValueError for a q of another shape.

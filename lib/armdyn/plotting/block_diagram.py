@@ -18,9 +18,9 @@ def draw_block_diagram(ax: Axes, diagram) -> None:
     """Draw the diagram on `ax`: its blocks in the order in which signals pass, and its wires.
 
     diagram: a bdsim.BlockDiagram, such as `armdyn.ports.block_diagram.diagram` makes. Each output
-    has its name beside it and a colour; a dot marks where its wire branches, and wires that cross
-    without one do not meet. Those that lead back run below the blocks, those that pass a block by
-    run above.
+    has its own colour, and its name beside it. A dot marks where its wire branches; wires that
+    cross without a dot do not meet. Wires that lead back run below the blocks, and wires that pass
+    a block run above it.
     """
     columns = _columns(diagram)
     places: dict = {}
@@ -167,7 +167,7 @@ def _draw_wires(ax, diagram, columns, places) -> None:
 
 
 def _branches(y, levels):
-    """The heights at which a vertical from y that wires leave at these levels branches."""
+    """The heights at which a vertical from y branches, if wires leave it at these levels."""
     ends = {y, *levels}
     inner = ends - {min(ends), max(ends)}
     return inner | ({y} if levels.count(y) and len(ends) > 1 else set())

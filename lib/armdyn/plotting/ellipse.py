@@ -15,9 +15,10 @@ POINTS = 181
 def draw_inertia_ellipse(ax: Axes, M, energy: float = 1.0, **line) -> np.ndarray:
     """Draw the velocities with ½ q̇ᵀ M q̇ = energy (J) on `ax`: (q̇1, q̇2), rad/s; M: (2, 2), kg·m².
 
-    The half-axes are √(2·energy/λ) along the eigenvectors of M: long where little inertia resists,
-    and drawn thin. line: keywords of `Axes.plot`. Returns the curve, (P, 2). Raises ValueError for
-    an M that is not (2, 2), not symmetric or not positive definite: the curve is then no ellipse.
+    The half-axes, which are drawn thin, are √(2·energy/λ) along the eigenvectors of M: they are
+    long where little inertia resists. line: keywords of `Axes.plot`. Returns the curve, (P, 2).
+    Raises ValueError for an M that is not (2, 2), not symmetric or not positive definite: the curve
+    is then no ellipse.
     """
     M = state_vector("M", M, 2)
     energy = positive("energy", energy, "J")

@@ -15,9 +15,9 @@ MARKS = {"minimum": "o", "saddle": "D", "maximum": "^"}
 def energy_landscape(model, limits: tuple[float, float] = (-np.pi, np.pi)) -> Figure:
     """P over (q1, q2), J, from limits[0] to limits[1] (rad) both ways, and its equilibria.
 
-    Where P has a minimum the arm rests without torque and stays; from a saddle or a maximum it
-    leaves. model: with two joints. Raises ValueError for another number of joints, for limits that
-    are not two increasing numbers, and as `equilibria` where the equilibria are not isolated.
+    At a minimum of P the arm rests without torque and stays; it leaves a saddle or a maximum.
+    model: with two joints. Raises ValueError for another number of joints, for limits that are not
+    two increasing numbers, and as `equilibria` where the equilibria are not isolated.
     """
     if model.n != 2:
         raise ValueError(f"model: needs two joints, has {model.n}")

@@ -16,7 +16,7 @@ POINTS = 41
 def phase_portrait(
     model, states=(), q_limits: tuple[float, float] = (-np.pi, np.pi), qd_limit: float | None = None
 ) -> Figure:
-    """How every state (q, q̇) of a free one-joint arm moves on, its equilibria, and given runs.
+    """How each state (q, q̇) of a free one-joint arm moves on, with its equilibria and given runs.
 
     model: with one joint. states: runs, each (T, 2), [q; q̇] over time in rad and rad/s, as
     `simulate` gives them; drawn from a hollow circle to a square. q_limits in rad; q̇ from −qd_limit
@@ -64,7 +64,7 @@ def draw_phase(ax: Axes, model, x, joint: int = 0, **line) -> None:
 
     x: states over time, (T, 2n), rad and rad/s. joint counts from 0. line: keywords of `Axes.plot`.
     For n > 1 this is a projection: its curve may cross itself. Raises ValueError for an x of
-    another shape and for a joint that the model has not.
+    another shape and for a joint that the model does not have.
     """
     x = state_vector("x", x, 2 * model.n)
     if x.ndim != 2 or len(x) == 0:

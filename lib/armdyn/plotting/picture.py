@@ -18,8 +18,8 @@ class Picture:
 
     `alt` says what the figure shows, for readers who do not see it: it becomes the image's
     alternative text in JupyterLab and in nbconvert's pages, and the plain text of the output.
-    JupyterLab has no alternative text for image/png outputs, hence the HTML beside it.
-    Raises ValueError where alt is empty.
+    JupyterLab has no alternative text for image/png outputs, hence the HTML beside it. Raises
+    ValueError if alt is empty.
     """
 
     figure: Figure

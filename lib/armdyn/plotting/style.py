@@ -26,7 +26,16 @@ OKABE_ITO = {
 LINES = ("blue", "vermilion", "green", "purple", "black")
 DASHES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)))
 
-STYLE: Any = {
+# Another style may be in force, which an import can set: roboticstoolbox sets ggplot.
+LOOKS = (
+    *("axes.", "figure.edgecolor", "figure.subplot.", "font.", "grid.", "image.cmap", "legend."),
+    *("lines.", "mathtext.", "patch.", "text.", "xtick.", "ytick."),
+)
+PLAIN = {
+    name: value for name, value in matplotlib.rcParamsDefault.items() if name.startswith(LOOKS)
+}
+
+STYLE: Any = PLAIN | {
     "axes.axisbelow": True,
     "axes.grid": True,
     "axes.prop_cycle": cycler(color=[OKABE_ITO[name] for name in LINES], linestyle=DASHES),

@@ -24,7 +24,8 @@ def torque_terms(model, q, qd, qdd, limit: float | None = None) -> Figure:
     """The arm at q, and beside it each joint's M q̈, C q̇, g, f and their sum u as bars, in N·m.
 
     q (rad), qd (rad/s), qdd (rad/s²): (n,). limit: the bars' axes run from −limit to limit (N·m),
-    for figures that are compared; a longer bar is cut, its number is not. Without it, bars fit.
+    so that figures can be compared; a longer bar is cut, but its number is not. Without it, the
+    axes fit the bars.
     """
     values = terms(model, q, qd, qdd)
     limit = 1.25 * max(np.abs(values).max(), 1e-9) if limit is None else limit

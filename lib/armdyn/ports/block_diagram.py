@@ -1,8 +1,8 @@
 """Runs the arm as a block diagram, like one in Simulink, with bdsim.
 
-A function block gives q̈ for u, q and q̇; one integrator makes q̇ of it, a second one q; both are led
-back into the function block. bdsim integrates the states of all the blocks together, by SciPy's
-solve_ivp.
+A function block computes q̈ from u, q and q̇. One integrator turns q̈ into q̇, a second one turns
+q̇ into q, and both are fed back into the function block. bdsim integrates the states of all the
+blocks together, by SciPy's solve_ivp.
 
 Source of bdsim: P. Corke (2020 on), bdsim, block diagram simulation for Python.
 """
@@ -15,7 +15,7 @@ from armdyn.simulate import SCIPY_METHODS, SMALLEST_RTOL
 
 
 def diagram(model, x0, u: Input, start: float = 0.0):
-    """The compiled bdsim.BlockDiagram of the arm, to be run, or drawn by `plotting`.
+    """The compiled bdsim.BlockDiagram of the arm, to run, or to draw with `plotting`.
 
     model: any Manipulator. x0: (2n,), [q; q̇], the initial states of the integrators, rad and rad/s.
     u: the input, N·m: (n,), a constant block; or u(t, x), a function block, fed by the time from
@@ -69,8 +69,8 @@ def simulate(
     """The states [q; q̇] of the arm at the times t, as its block diagram runs, (T, 2n).
 
     model, x0, u: as for `diagram`. t: (T,), increasing, s. method: one of SciPy's, "RK45", "RK23",
-    "DOP853" or "LSODA", which choose their steps by rtol and atol; bdsim has no fixed step, nor a
-    largest one here.
+    "DOP853" or "LSODA", which choose their steps by rtol and atol; bdsim has no fixed step, and
+    here it has no largest step.
 
     Raises ValueError for times that do not increase and an unknown method; FloatingPointError where
     the method cannot go on or the states are not finite; what the model or u raises on the way,

@@ -62,10 +62,11 @@ def run(
 
     model: a Planar2R; a sequence of them, one for each row of states (k, 2n); or a Derivation,
     whose parameters `values` gives as a mapping of names to numbers, or a sequence of those.
-    states: (..., 2n), [q; q̇]. u: (..., n), zero if None. generated: what codegen writes for the
-    arm instead of what is written by hand, as it always is for a Derivation; without friction.
-    Raises ValueError, MissingToolError, BuildError and ProgramError, as `start` and
-    `Program.terms`, and where u, values or friction do not fit the model.
+    states: (..., 2n), [q; q̇]. u: (..., n), zero if None. generated: whether to run what codegen
+    writes for the arm, which has no friction, instead of what is written by hand; a Derivation
+    always runs as codegen writes it. Raises ValueError, MissingToolError, BuildError and
+    ProgramError, as `start` and `Program.terms`, and where u, values or friction do not fit the
+    model.
     """
     derivation, parameters = _model(model, values, generated)
     with start(language, derivation, seconds=seconds) as program:

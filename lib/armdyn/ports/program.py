@@ -25,10 +25,10 @@ class Terms:
 
 
 class Program:
-    """A started program; a context manager, at whose end the program is ended.
+    """A started program; as a context manager, it ends the program at the end of its block.
 
-    n: the number of joints; count: of parameters. Both methods raise ValueError for arrays of
-    another shape or not finite, and ProgramError where the program fails; it has ended then.
+    n: the number of joints; count: of parameters. Both methods raise ValueError for arrays that
+    have another shape or are not finite, and ProgramError if the program fails; it has ended then.
     """
 
     def __init__(self, conversation: Conversation, n: int, count: int):

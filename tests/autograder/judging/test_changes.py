@@ -13,7 +13,8 @@ from autograder.judging.changes import changed
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from autograder.protocol import Call, Expressions, Fault, FaultKind, Function, Reply, Symbol
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 from tests.autograder.verdicts import judged
 
 ARGS = (

@@ -5,7 +5,8 @@ import pytest
 from autograder.notebook import beside
 from autograder.notebook.beside import Beside, choose
 from autograder.protocol import Fault, FaultKind, Reply
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 from tests.autograder.sandbox.rooms import EVERY_WAY, printed
 
 FILES = {

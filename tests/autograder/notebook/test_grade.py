@@ -209,7 +209,7 @@ SIX_WAYS_TO_STOP = {
     ),
     "inertia_about_pivot": (
         "import os\nos._exit(0)\ndef inertia_about_pivot(I_com, m, lc): return 0",
-        "the cell that should define it stopped with the end of Python itself (it ended).",
+        "the cell that should define it stopped because Python itself ended. Fix that cell, ",
     ),
     "small_angle_frequency": (
         "def small_angle_frequency(pend):\n    raise NotImplementedError",

@@ -15,7 +15,8 @@ from autograder.notebook.grade import grade
 from autograder.notebook.repair import grade_id, is_locked
 from autograder.notebook.scores import outputs_for
 from autograder.sandbox import room as sandbox
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 from tests.autograder.course_problems import problem, without_plots
 from tests.autograder.descendants import adopting, below
 from tests.autograder.eventually import eventually

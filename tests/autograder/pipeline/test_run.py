@@ -14,7 +14,8 @@ from autograder.digest import digest
 from autograder.pipeline import run as pipeline
 from autograder.pipeline.cache import Cache
 from autograder.pipeline.executors import Processes, outcomes
-from autograder.sandbox.room import share, use_shared
+from autograder.sandbox.room import share
+from autograder.sandbox.ways import use_shared
 from tests.autograder import courses
 from tests.autograder.courses import P3, submit
 from tests.submissions import p3_pendulum

@@ -33,7 +33,7 @@ def test_a_wrong_answer_shows_its_mistake(row: Row):
     met = [row_of.met for row_of in verdict.rows]
     criterion = check.criteria[met.index(False)]
     if criterion.is_truth:
-        truths = ("True, where False is right", "False, where True is right")
+        truths = ("True; the right answer is False", "False; the right answer is True")
         assert verdict.witness.returned.startswith(truths)
     else:
         assert criterion.unit in verdict.witness.off

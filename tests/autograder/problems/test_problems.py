@@ -11,7 +11,7 @@ import pytest
 
 from autograder.judging.verdict import State
 from autograder.notebook.recognise import grade_id
-from autograder.problems import CHECKS
+from autograder.problems import CHECKS, READ
 from tests.autograder.course_problems import NAMES, ROOT, problem
 from tests.submissions.answers import cell_of
 
@@ -44,6 +44,10 @@ OWN = {
 @pytest.fixture(scope="module", params=NAMES)
 def given(request):
     return problem(request.param)
+
+
+def test_a_person_reads_one_answer_of_each_problem():
+    assert sorted(READ) == sorted(own.read for own in OWN.values())
 
 
 def claims(cell) -> dict:
@@ -94,6 +98,7 @@ def test_one_answer_is_read_by_a_person_with_a_rubric(given):
     own = OWN[given.name]
     (read,) = [c for c in given.source.cells if claims(c).get("grade") and claims(c)["solution"]]
     assert (grade_id(read), read.cell_type) == (own.read, "markdown")
+    assert own.read in READ  # so that `check` can say so
     (rubric,) = RUBRIC.findall(text(given.source))
     rows = [row.split("|") for row in rubric.strip().splitlines()]
     assert sum(float(points) for _, points, *_ in rows) == own.points

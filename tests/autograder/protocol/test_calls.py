@@ -25,6 +25,7 @@ from autograder.protocol import (
     arguments,
     calls,
     readings,
+    words,
 )
 
 FLOATS = st.floats(allow_nan=False)
@@ -53,11 +54,11 @@ def same(one, other) -> bool:
     return type(one) is type(other) and one == other
 
 
-def ask(source: str, *args, at=()) -> Reply:
+def ask(source: str, *args, at=(), truth=False) -> Reply:
     """The reply of the student's function f, defined in a cell, to one call."""
     namespace = {"__name__": "__main__", "np": np, "sp": sp}
     exec(compile(source, "<ipython-input-1-0>", "exec"), namespace)
-    return protocol.answer(Call("f", args, at), namespace)
+    return protocol.answer(Call("f", args, at, truth=truth), namespace)
 
 
 @given(ARGUMENTS)
@@ -122,14 +123,13 @@ def test_what_is_no_reply_is_garbled(message):
 def test_a_forged_fault_cannot_flood_the_verdict():
     message = {"fault": {"kind": "raised", "message": "x" * 10**6, "line": "y" * 10**6}}
     fault = protocol.decode_reply(message).fault
-    assert len(fault.message) == len(fault.line) == readings.MOST_CHARACTERS
+    assert len(fault.message) == len(fault.line) == words.MOST_CHARACTERS
 
 
 @pytest.mark.parametrize(
     ("value", "expected"),
     [
         (2, 2.0),
-        (True, 1.0),
         (10**300, 1e300),
         ([1, 2.5], [1.0, 2.5]),
         (((1, 2), [3, 4]), [[1.0, 2.0], [3.0, 4.0]]),
@@ -156,18 +156,19 @@ def test_whatever_holds_numbers_is_read(value, expected):
     ("value", "kind", "message"),
     [
         (None, FaultKind.NOTHING, ""),
-        ("m g lc sin q", FaultKind.NOT_NUMBERS, "str 'm g lc sin q'"),
-        (b"12", FaultKind.NOT_NUMBERS, "bytes b'12'"),
-        (1j, FaultKind.NOT_NUMBERS, "complex 1j"),
-        ([1.0, None], FaultKind.NOT_NUMBERS, "NoneType None"),
-        ([1.0, "2"], FaultKind.NOT_NUMBERS, "list [1.0, '2']"),
-        ({"q": 1.0}, FaultKind.NOT_NUMBERS, "dict {'q': 1.0}"),
-        ({1.0}, FaultKind.NOT_NUMBERS, "set {1.0}"),
+        ("m g lc sin q", FaultKind.NOT_NUMBERS, "the text 'm g lc sin q'"),
+        (b"12", FaultKind.NOT_NUMBERS, "the bytes b'12'"),
+        (1j, FaultKind.NOT_NUMBERS, "the complex number 1j"),
+        ([1.0, None], FaultKind.NOT_NUMBERS, "None"),
+        ([1.0, "2"], FaultKind.NOT_NUMBERS, "the list [1.0, '2']"),
+        ({"q": 1.0}, FaultKind.NOT_NUMBERS, "the dict {'q': 1.0}"),
+        ({1.0}, FaultKind.NOT_NUMBERS, "the set {1.0}"),
         ([[1.0], [1.0, 2.0]], FaultKind.NOT_NUMBERS, "rows of different lengths"),
-        (ask, FaultKind.NOT_NUMBERS, "a function"),
-        (np.sin, FaultKind.NOT_NUMBERS, "a function"),
-        (10**400, FaultKind.NOT_NUMBERS, f"int 1{'0' * 58}…"),
-        (sp.I, FaultKind.NOT_NUMBERS, "ImaginaryUnit I"),
+        (ask, FaultKind.NOT_NUMBERS, "the function ask itself"),
+        (np.sin, FaultKind.NOT_NUMBERS, "the function sin itself"),
+        (float, FaultKind.NOT_NUMBERS, "the class float itself"),
+        (10**400, FaultKind.NOT_NUMBERS, f"the number 1{'0' * 58}…"),
+        (sp.I, FaultKind.NOT_NUMBERS, "the expression I"),
         (
             sp.Symbol("q") * sp.Symbol("m"),
             FaultKind.NOT_NUMBERS,
@@ -178,8 +179,23 @@ def test_whatever_holds_numbers_is_read(value, expected):
             FaultKind.NOT_NUMBERS,
             "an expression that still contains q",
         ),
-        (np.zeros(readings.MOST_NUMBERS + 1), FaultKind.NOT_NUMBERS, "50001 entries, far too many"),
-        (np.datetime64("2026-01-01"), FaultKind.NOT_NUMBERS, "datetime64"),
+        (np.zeros(readings.MOST_NUMBERS + 1), FaultKind.NOT_NUMBERS, "an array of 50001 entries"),
+        (
+            np.datetime64("2026-01-01"),
+            FaultKind.NOT_NUMBERS,
+            "the object datetime.date(2026, 1, 1)",
+        ),
+        (True, FaultKind.NOT_NUMBERS, "True"),
+        (np.array([True]), FaultKind.NOT_NUMBERS, "an array of True and False"),
+        (np.array([1j]), FaultKind.NOT_NUMBERS, "an array of complex numbers"),
+        (sp.true, FaultKind.NOT_NUMBERS, "True"),
+        (
+            sp.Eq(sp.Symbol("q"), 1),
+            FaultKind.NOT_NUMBERS,
+            "the equation Eq(q, 1)",
+        ),
+        (sp.Symbol("q") < 1, FaultKind.NOT_NUMBERS, "the inequality q < 1"),
+        ((x for x in "ab"), FaultKind.NOT_NUMBERS, "an object of the type generator"),
     ],
     ids=lambda value: type(value).__name__,
 )
@@ -189,6 +205,28 @@ def test_whatever_is_no_number_is_refused_and_named(value, kind, message):
     assert refused.value.kind is kind
     assert str(refused.value).startswith(message)
     assert len(str(refused.value)) < 100
+
+
+@pytest.mark.parametrize(
+    ("answer", "value"),
+    [
+        ("True", 1.0),
+        ("np.bool_(False)", 0.0),
+        ("np.array([True])", [1.0]),
+        ("sp.true", 1.0),
+        ("sp.Integer(1) > 2", 0.0),
+        ("1", 1.0),
+        ("0.5", 0.5),
+    ],
+)
+def test_where_a_truth_value_is_asked_for_it_is_read(answer, value):
+    np.testing.assert_array_equal(ask(f"def f(): return {answer}", truth=True).value, value)
+
+
+@pytest.mark.parametrize("answer", ["sp.Symbol('x') > 1", "'True'", "[True, None]"])
+def test_what_is_neither_true_nor_false_is_refused(answer):
+    fault = ask(f"def f(): return {answer}", truth=True).fault
+    assert fault.kind is FaultKind.NOT_NUMBERS
 
 
 def test_an_object_can_pose_as_an_array_but_gives_numbers_all_the_same():
@@ -214,7 +252,7 @@ def test_an_object_can_pose_as_an_array_but_gives_numbers_all_the_same():
         ("f = 3.0", Fault(FaultKind.NOT_CALLABLE, "float")),
         ("def f():\n    raise NotImplementedError", Fault(FaultKind.NOT_IMPLEMENTED)),
         ("def f(): pass", Fault(FaultKind.NOTHING)),
-        ("def f(): return 'one'", Fault(FaultKind.NOT_NUMBERS, "str 'one'")),
+        ("def f(): return 'one'", Fault(FaultKind.NOT_NUMBERS, "the text 'one'")),
         ("def f():\n    exit(3)", Fault(FaultKind.RAISED, "SystemExit: 3", "line 2")),
         ("def f(q): return q", Fault(FaultKind.RAISED, "TypeError: f() missing 1 required")),
         ("def f():\n    return f()", Fault(FaultKind.RAISED, "RecursionError: ", "line 2")),
@@ -245,7 +283,7 @@ def test_the_failing_line_is_the_students_own_with_its_text():
 
 def test_long_messages_are_cut():
     fault = ask("def f(): raise ValueError('x' * 10**6)").fault
-    assert len(fault.message) == readings.MOST_CHARACTERS
+    assert len(fault.message) == words.MOST_CHARACTERS
 
 
 def test_symbols_come_as_real_symbols_and_the_answer_is_evaluated_at_each_point():
@@ -265,9 +303,20 @@ def test_symbols_come_as_real_symbols_and_the_answer_is_evaluated_at_each_point(
     [
         ("q * sp.Symbol('l')", Fault(FaultKind.NOT_NUMBERS, "an expression that still contains l")),
         ("None", Fault(FaultKind.NOTHING)),
-        ("'q'", Fault(FaultKind.NOT_NUMBERS, "str 'q'")),
-        ("[1, 'q']", Fault(FaultKind.NOT_NUMBERS, "list [1, 'q']")),
-        ("f", Fault(FaultKind.NOT_NUMBERS, "a function")),
+        ("'q'", Fault(FaultKind.NOT_NUMBERS, "the text 'q'")),
+        ("[1, 'q']", Fault(FaultKind.NOT_NUMBERS, "the list [1, 'q']")),
+        ("f", Fault(FaultKind.NOT_NUMBERS, "the function f itself")),
+        ("sp.Eq(q, 1)", Fault(FaultKind.NOT_NUMBERS, "the equation Eq(q, 1)")),
+        ("[q, sp.Eq(q, 1)]", Fault(FaultKind.NOT_NUMBERS, "the equation Eq(q, 1)")),
+        ("q > 1", Fault(FaultKind.NOT_NUMBERS, "the inequality q > 1")),
+        ("True", Fault(FaultKind.NOT_NUMBERS, "True")),
+        ("np.array([True])", Fault(FaultKind.NOT_NUMBERS, "True")),
+        ("{'q': q}", Fault(FaultKind.NOT_NUMBERS, "the dict {'q': q}")),
+        ("{q}", Fault(FaultKind.NOT_NUMBERS, "the set {q}")),
+        (
+            "sp.Function('p')(q).diff(q)",
+            Fault(FaultKind.NOT_NUMBERS, "the expression Derivative(p(q), q)"),
+        ),
     ],
 )
 def test_symbolic_answers_that_give_no_numbers(result, fault):
@@ -356,4 +405,4 @@ def test_the_time_limit_leaves_a_quick_block_alone():
 
 @pytest.mark.parametrize(("most", "text"), [(5, "abcde"), (4, "abc…"), (1, "…")])
 def test_shortened(most, text):
-    assert readings.shortened("abcde", most) == text
+    assert words.shortened("abcde", most) == text

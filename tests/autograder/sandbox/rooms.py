@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 from tests.autograder.eventually import eventually
 
 EVERY_WAY = pytest.mark.parametrize("way", list(Way), indirect=True, ids=lambda way: way.name)

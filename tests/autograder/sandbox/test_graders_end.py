@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from autograder.sandbox.room import Way
+from autograder.sandbox.ways import Way
 from tests.autograder.eventually import eventually
 from tests.autograder.sandbox.rooms import EVERY_WAY, appears, gone
 
@@ -26,7 +26,8 @@ BUSY = {
 # The grader: a fork of it lives on with all its descriptors, as a forked helper of a library would.
 GRADER = """
 import os, sys, time
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 room = Room(Way[sys.argv[1]])
 if os.fork() == 0:
     os.setsid()
@@ -39,13 +40,14 @@ room.run(os.environ["CELL"])
 WORKERS = """
 import os, sys
 from autograder.sandbox import room as sandbox
+from autograder.sandbox.ways import use_shared
 from autograder.pipeline.executors import Processes
 
 def spin(source):
     sandbox.Room().run(source)
 
 if __name__ == "__main__":
-    with Processes(1, ("autograder.sandbox.room",), sandbox.share, sandbox.use_shared) as pool:
+    with Processes(1, ("autograder.sandbox.room",), sandbox.share, use_shared) as pool:
         future = pool.executor().submit(spin, os.environ["CELL"])
         (worker,) = pool.executor()._processes
         print(worker, flush=True)

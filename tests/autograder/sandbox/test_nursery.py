@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from autograder.sandbox import nursery
+from autograder.sandbox import nursery, ways
 from autograder.sandbox import room as sandbox
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 from tests.autograder.descendants import below
 from tests.autograder.eventually import eventually
 from tests.autograder.sandbox.rooms import (
@@ -214,7 +215,8 @@ class TestLife:
         mark = f"mark-{os.urandom(8).hex()}"
         code = (
             "import sys\n"
-            "from autograder.sandbox.room import Room, Way\n"
+            "from autograder.sandbox.room import Room\n"
+            "from autograder.sandbox.ways import Way\n"
             "room = Room(Way[sys.argv[2]])\n"
             "room.run(sys.argv[1])\n"
             "print('ready', flush=True)\n"
@@ -237,7 +239,8 @@ class TestLife:
         code = (
             "import os, sys\n"
             "from autograder.sandbox import nursery\n"
-            "from autograder.sandbox.room import Room, Way\n"
+            "from autograder.sandbox.room import Room\n"
+            "from autograder.sandbox.ways import Way\n"
             "way = Way[sys.argv[1]]\n"
             "with Room(way) as room:\n"
             "    pid = os.fork()\n"
@@ -256,7 +259,7 @@ class TestLife:
 class TestFallback:
     @pytest.fixture(autouse=True)
     def _walls(self, way, monkeypatch):
-        monkeypatch.setattr(sandbox, "has_bubblewrap", lambda: way.walled)
+        monkeypatch.setattr(ways, "has_bubblewrap", lambda: way.walled)
 
     def test_rooms_are_warm_by_default(self, way):
         with Room() as room:

@@ -11,7 +11,8 @@ import pytest
 from autograder.protocol import Call
 from autograder.sandbox import bubblewrap
 from autograder.sandbox import room as sandbox
-from autograder.sandbox.room import Room, RoomLostError, StarvedError, TooLongError, Way
+from autograder.sandbox.room import Room, RoomLostError, StarvedError, TooLongError
+from autograder.sandbox.ways import Way
 from tests.autograder.sandbox.rooms import EVERY_WAY, failed, gone, printed, processes_with, sleeper
 
 # What stops a loop, ignored.

@@ -21,7 +21,8 @@ from autograder.sandbox.inside.left_out import (
     NOT_FIRST,
     UNKNOWN,
 )
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 from tests.autograder.sandbox.rooms import failed, printed
 from tests.submissions.p3_pendulum import RIGHT
 

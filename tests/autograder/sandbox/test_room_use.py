@@ -6,7 +6,8 @@ import pytest
 
 from autograder.sandbox import bubblewrap
 from autograder.sandbox.inside.watch import MOST_PROCESSES
-from autograder.sandbox.room import Room, RoomLostError, Way
+from autograder.sandbox.room import Room, RoomLostError
+from autograder.sandbox.ways import Way
 from tests.autograder.sandbox.rooms import WALLED_WAYS, printed
 
 # Each of these takes one GiB, in pages large enough to be quick.

@@ -6,7 +6,7 @@ import nbclient
 import nbformat
 import pytest
 
-from autograder import check, hint
+from autograder import check, hint, look_at
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS, UnknownCheckError, nearest
 from autograder.student.cell import NotCorrectError
@@ -102,9 +102,9 @@ def test_the_error_is_one_line_for_a_student_and_the_whole_verdict_for_validate(
     ("asked", "said"),
     [
         ("near", "there is no check 'start-kinetic-energi'; did you mean 'start-kinetic-energy'?"),
-        ("far", f"there is no check 'nothing like it'; known are {', '.join(CHECKS)}"),
+        ("far", f"there is no check 'nothing like it'; the checks are {', '.join(CHECKS)}"),
         ("hint", "there is no check 'p3-freq'; did you mean 'p3-small_angle_frequency'?"),
-        ("empty", "give the id of a check, in quotes; this is nothing"),
+        ("empty", "give the id of a check, in quotes; you gave nothing"),
     ],
 )
 def test_an_unknown_id_is_answered_in_one_line(kernel, asked, said):
@@ -140,6 +140,13 @@ def test_the_nearest_ids(asked, meant):
     assert nearest(asked) == meant
 
 
+@pytest.mark.parametrize("function", [check, hint, look_at])
+def test_an_answer_that_a_person_reads_is_said_to_be_one(function):
+    said = "no check judges 'p3-derivation': a person reads it and gives its points"
+    with pytest.raises(UnknownCheckError, match=said):
+        function("p3-derivation")
+
+
 @pytest.mark.parametrize("wrong", [None, 3, p3_M, ["p3-M"], check])
 def test_what_is_no_text_is_said_to_be_none(wrong):
     for function in (check, hint):
@@ -164,7 +171,7 @@ def test_a_missing_function_is_blamed_on_the_cell_that_failed(kernel):
     assert error.evalue == f"{START}: error in your code"
     said = (
         "The notebook does not define kinetic_energy: the cell that should define it stopped with "
-        "SyntaxError: invalid syntax, line 2."
+        "SyntaxError: invalid syntax, line 2. Fix that line, "
     )
     assert said in " ".join(card.data["text/plain"].split())
 

@@ -1,9 +1,9 @@
 """Talks to a running program that answers numbers with numbers.
 
-A message is a count and so many numbers, all as little-endian doubles, so that each arrives as it
-was. An answer opens with the eight bytes `numbers:`; whatever the program printed before them is
-text, kept apart: a forgotten print does no harm. The program reads the whole of a request before
-it answers, and ends when its input does.
+A message is a count and then that many numbers, all as little-endian doubles, so that each arrives
+as it was sent. An answer opens with the eight bytes `numbers:`; whatever the program printed before
+them is text and is kept apart, so that a forgotten print does no harm. The program reads the whole
+of a request before it answers, and ends when its input does.
 """
 
 import contextlib
@@ -25,15 +25,16 @@ SHOWN = 2000
 
 
 class ProgramError(RuntimeError):
-    """A program ended, hung or wrote something else than an answer; the message quotes its output."""
+    """A program ended, hung or wrote something other than an answer; the message quotes its output."""
 
 
 class Conversation:
-    """A program, started once, that is asked and answers; a context manager that ends it.
+    """A program that is started once and then answers requests; a context manager that ends it.
 
-    command: its words. folder: where it runs; by default here. seconds: for each answer, and for
-    the start with the first. environment: by default this process's own. patience: with more than 1,
-    the seconds are the processor's where the system counts them, and so many times as many the clock's.
+    command: its words. folder: where it runs; by default here. seconds: the limit for each answer;
+    for the first one, together with the start. environment: by default this process's own.
+    patience: if more than 1, `seconds` limits the processor time where the system counts it, and
+    the limit on the clock is this many times as long.
 
     late: whether an answer took too long. starved: whether that was by the clock alone.
     """

@@ -1,7 +1,8 @@
 """Answers requests, messages of numbers, in Mathics3: a program of its own, run in its folder.
 
 What the numbers mean is said by armdyn.ports, and in driver.wl. One more request is 2 and the code
-points of an expression in the Wolfram Language; the answer are those of the InputForm of its value.
+points of an expression in the Wolfram Language; the answer is the code points of the InputForm of
+its value.
 """
 
 import os

@@ -17,9 +17,9 @@ MOST_LETTERS = 1_000_000
 class Session:
     """Mathics3, started with planar_2r.wl, or with what codegen writes for a derivation.
 
-    A context manager, at whose end Mathics3 is ended. `program`: the Program that the same session
-    answers as, in numbers. seconds: the time limit of each answer; the start takes five to ten.
-    Raises ValueError for a derivation that cannot be written, and MissingToolError.
+    A context manager that ends Mathics3 at the end of its block. `program`: the Program that the
+    same session answers as, in numbers. seconds: the time limit of each answer; starting takes five
+    to ten seconds. Raises ValueError for a derivation that cannot be written, and MissingToolError.
     """
 
     def __init__(self, derivation: Derivation | None = None, *, seconds: float = 60):

@@ -26,7 +26,7 @@ from tests.autograder.verdicts import assert_told_apart, judged, sentences
     [
         (
             ("mc2[1] = l1 * c2 * a1", "mc2[1] = 1.2 * l1 * c2 * a1"),
-            "In your column of m2 ℓc2, joint 2, its part of accelerations comes out 20 % too large.",
+            "In your column of m2 ℓc2, joint 2, its acceleration part comes out 20 % too large.",
         ),
         (
             ("mc1[0] = g * c1", "mc1[0] = 0.7 * g * c1", "l1 * mc1[0]", "l1 * g * c1"),
@@ -35,7 +35,7 @@ from tests.autograder.verdicts import assert_told_apart, judged, sentences
         ),
         (
             (ALL_V, f"- 2.5{ALL_V[1:].replace('l1', '* l1', 1)}"),
-            "In your column of m2 ℓc2, joint 1, its part of velocities is 2.5 times as large as it "
+            "In your column of m2 ℓc2, joint 1, its velocity part is 2.5 times as large as it "
             "should be.",
         ),
     ],
@@ -106,20 +106,24 @@ def test_a_doubled_error_is_not_two_mistakes():
         (
             "c6-regressor",
             Y(LIST, "[m1, mc1, J1, m2, mc2, J2])"),
-            "shape (6, 2); one row for each joint is asked for, (2, 6).",
+            "shape (6, 2); it must return one row for each joint, (2, 6).",
         ),
         (
             "c6-regressor",
             Y(LIST, "[mc1, J1, mc2, J2]).T"),
-            "shape (2, 4); one row for each joint and one column for each of the six parameters is",
+            "shape (2, 4); it must return one row for each joint and one column for each of the six ",
         ),
         (
             "c6-identify",
             fit("[1, 2, 4, 5]", "[0, 1, 2, 3, 4, 5]", "(-1, 4)", "(-1, 6)"),
-            "6 numbers; the four base parameters are asked for, since no motion shows all six of π.",
+            "6 numbers; it must return the four base parameters, since no motion shows all six of π.",
         ),
         ("c6-identify", "return arm.m1, 0, 0, 0", "has no attribute 'm1'"),
-        ("c6-rank_of_excitation", count("matrix_rank(W)", "svd(W)[1]"), "one number is asked for."),
+        (
+            "c6-rank_of_excitation",
+            count("matrix_rank(W)", "svd(W)[1]"),
+            "it must return one number.",
+        ),
     ],
 )
 def test_what_is_no_answer_is_an_error(check_id, body, said):

@@ -117,10 +117,10 @@ def test_mistake_is_named_only_where_it_matches_to_rounding():
 @pytest.mark.parametrize(
     ("check_id", "body", "said"),
     [
-        ("p2-M_dot", "return h * b", "an array of shape (); shape (2, 2) is asked for"),
-        ("p2-C", "return [h, b]", "an array of shape (2,); shape (2, 2) is asked for"),
-        ("p2-C_other", "return np.eye(3)", "an array of shape (3, 3); shape (2, 2) is asked for"),
-        ("p2-christoffel", "return sp.zeros(n, 1)", "shape (2, 1); shape (2, 2) is asked for"),
+        ("p2-M_dot", "return h * b", "an array of shape (); it must return shape (2, 2)"),
+        ("p2-C", "return [h, b]", "an array of shape (2,); it must return shape (2, 2)"),
+        ("p2-C_other", "return np.eye(3)", "an array of shape (3, 3); it must return shape (2, 2)"),
+        ("p2-christoffel", "return sp.zeros(n, 1)", "shape (2, 1); it must return shape (2, 2)"),
     ],
 )
 def test_other_shapes_are_named(check_id, body, said):

@@ -121,7 +121,7 @@ def test_order_is_observed():
 @pytest.mark.parametrize(
     ("returned", "problem"),
     [
-        ("states[1:]", "one row for each time is asked for, and the state at t[0] is x0"),
+        ("states[1:]", "it must return one row for each time, and the state at t[0] is x0"),
         ("states[-1]", "one row for each time and one column for each entry of the state"),
         ("states[:, :1]", "one row for each time and one column for each entry of the state"),
     ],

@@ -21,7 +21,8 @@ from autograder.protocol import Call, FaultKind
 from autograder.sandbox import bubblewrap
 from autograder.sandbox import room as sandbox
 from autograder.sandbox.bubblewrap import INSIDE
-from autograder.sandbox.room import Room, Way
+from autograder.sandbox.room import Room
+from autograder.sandbox.ways import Way
 from tests.autograder.course_problems import problem
 from tests.autograder.courses import run
 from tests.autograder.sandbox.rooms import failed, gone, kept, printed, room_of
