@@ -18,6 +18,9 @@ from armdyn.parameters import state_vector, state_vectors
 # of M are sums of several products, each with its own.
 ROUNDING = 8 * np.finfo(float).eps
 
+# What a model says of its motion.
+TERMS = frozenset({"M", "C", "g_vec", "f_vec"})
+
 
 class Manipulator(ABC):
     """A robot with `n` generalised coordinates.

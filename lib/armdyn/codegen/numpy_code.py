@@ -17,7 +17,7 @@ from armdyn.codegen import straight_line
 from armdyn.codegen.buffers import in_buffers
 from armdyn.codegen.program import ShortFloats, unknown_function
 from armdyn.derive import Derivation
-from armdyn.manipulator import Manipulator
+from armdyn.manipulator import TERMS, Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
 
 # As many states at a time as keep every temporary in the processor's cache.
@@ -77,7 +77,12 @@ class NumpyModel(Manipulator):
         return self._potential(state_vector("q", q, self.n))[()]
 
     def dynamics(self, q, qd, u) -> np.ndarray:
-        """q̈ = M⁻¹ (u − C q̇ − g), (n,), by M = L D Lᵀ written out; raises as `Manipulator`."""
+        """q̈ = M⁻¹ (u − C q̇ − g), (n,), by M = L D Lᵀ written out; raises as `Manipulator`.
+
+        A subclass with another M, C, g or f moves by its own.
+        """
+        if not generated_terms(self):
+            return super().dynamics(q, qd, u)
         states = [q, qd, u]
         # Plain arrays need no look before: what is not finite shows in q̈.
         if not all(_plain(s, self.n) for s in states):
@@ -122,6 +127,21 @@ class NumpyModel(Manipulator):
 
     def _constants(self, program):
         return constants(program, self.derivation, self.values)
+
+
+_M, _C, _G, _F = NumpyModel.M, NumpyModel.C, NumpyModel.g_vec, NumpyModel.f_vec
+
+
+def generated_terms(model) -> bool:
+    """Whether M, C, g and f are the generated ones, whatever others could have come in their place."""
+    cls = type(model)
+    return (
+        cls.M is _M
+        and cls.C is _C
+        and cls.g_vec is _G
+        and cls.f_vec is _F
+        and TERMS.isdisjoint(vars(model))
+    )
 
 
 class _Callable:
