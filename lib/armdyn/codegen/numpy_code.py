@@ -246,6 +246,11 @@ def _checked(derivation, values):
 def _refuse_unknown(derivation):
     """ValueError for a function that has no code, now and not when it is first called."""
     parts = [*derivation.M, *derivation.C, *derivation.g_vec, derivation.P]
+    known = {*derivation.q, *derivation.qd, *derivation.parameters}
+    if unknown := sorted({s.name for part in parts for s in sp.sympify(part).free_symbols - known}):
+        raise ValueError(
+            f"derivation: depends on {', '.join(unknown)}: needs q, qd and its parameters only"
+        )
     functions = {type(f): f for part in parts for f in sp.sympify(part).atoms(sp.Function)}
     for function in functions.values():
         program = straight_line.terms(derivation, [function])

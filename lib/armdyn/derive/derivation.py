@@ -6,6 +6,8 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from armdyn.derive.names import refuse_shared
+
 
 @dataclass(frozen=True)
 class Derivation:
@@ -16,7 +18,7 @@ class Derivation:
     g_vec: (n, 1), the gradient of P. f_vec: (n, 1), the friction, zero where not given. Units are
     whatever the parameters bring.
     Raises ValueError for an f_vec of another shape, or one that depends on more than q̇ and
-    parameters.
+    parameters, and for two symbols of one name.
 
     Nothing is simplified: the expressions keep the structure in which subexpressions are shared,
     so that `sympy.cse` finds them. Where sums are nested to that end, `.doit()` flattens them.
@@ -32,6 +34,7 @@ class Derivation:
     f_vec: sp.ImmutableMatrix = field(default=None)  # zero, set below
 
     def __post_init__(self):
+        refuse_shared((*self.q, *self.qd, *self.parameters), "q, qd, parameters")
         given = sp.zeros(self.n, 1) if self.f_vec is None else self.f_vec
         object.__setattr__(self, "f_vec", _friction(given, self.n, self.qd, self.parameters))
 
