@@ -17,12 +17,13 @@ class Rate:
     u: held constant, (n,); one row per time of t, (..., T, n), of which row k is put in by hold(k);
     or a function u(t, x). Raises ValueError for another shape, and, when called, for an input or
     an ẋ that is not real numbers of the right shape.
-    latest: the last time at which ẋ was finite.
+    latest: the last time at which ẋ was finite. calls: how often it was asked for.
     """
 
     def __init__(self, f, u: Input, t):
         self.f = f
         self.latest = -np.inf
+        self.calls = 0
         self.samples = None
         self.u = u if callable(u) else all_finite("u", real_array("u", u))
         if not callable(self.u) and self.u.ndim > 1:
@@ -51,6 +52,7 @@ class Rate:
         return [int(k) + 1 for k in np.flatnonzero(changed)]
 
     def __call__(self, t, x) -> np.ndarray:
+        self.calls += 1
         if not np.isfinite(x).all():
             return np.full(x.shape, np.nan)
         u = real_array("u(t, x)", self.u(t, x)) if callable(self.u) else self.u

@@ -10,6 +10,7 @@ from scipy import integrate
 
 from armdyn.events import Event, Trajectory, Watch, listed
 from armdyn.integrators import INTEGRATORS, rk4
+from armdyn.pace import ADVICE, Pace
 from armdyn.parameters import all_finite, finite, nonnegative, positive, real_array, state_vector
 from armdyn.progress import progress_bar
 from armdyn.rate import Input, Rate, slope_of
@@ -69,7 +70,8 @@ def simulate(
     "implicit_midpoint": see `armdyn.integrators`) take one step from each time to the next; one of
     SciPy's ("RK45", "RK23", "DOP853", "LSODA") chooses its own steps by rtol and atol, the same
     for all arms, so that each keeps the tolerances; it starts anew where a sampled input jumps.
-    Where Coulomb friction holds a joint at rest those steps become very short, and "rk4" is better.
+    Where Coulomb friction holds a joint at rest, such a method makes no more progress, and says so;
+    "rk4" goes on.
     events: functions g(t, x), or `Event`s, one or a list, whose zeros are located, for one arm. A
     fixed-step method locates them by a shorter step of its own.
     progress: whether a run longer than a second shows a bar, if stderr is a terminal or a notebook
@@ -228,7 +230,7 @@ def _adaptive_steps(rate, x0, t, method, rtol, atol) -> Iterator[_Step]:
     def flat(time, y):
         return rate(time, y.reshape(shape)).ravel()
 
-    y = x0.ravel()
+    y, pace = x0.ravel(), Pace(method, rate, t[0], t[-1])
     bounds = [0, *rate.jumps(), len(t) - 1]
     for first, last in pairwise(bounds):
         rate.hold(first)
@@ -240,9 +242,10 @@ def _adaptive_steps(rate, x0, t, method, rtol, atol) -> Iterator[_Step]:
                 message = solver.step()
             stopped = f"{method} stopped near t = {rate.latest:.6g} s"
             if solver.status == "failed":
-                raise FloatingPointError(f"{stopped}: {message}")
+                raise FloatingPointError(f"{stopped}: {str(message).rstrip('.')}; {ADVICE}")
             if not np.isfinite(solver.y).all():
                 raise FloatingPointError(f"{stopped}: the state is not finite")
+            pace.step(solver.t)
             yield _Step(solver.t, solver.y.reshape(shape), _Between(solver, shape))
         y = solver.y
 
