@@ -47,6 +47,20 @@ class Derivation:
         """h[i, j, k], (n, n, n), the Christoffel symbols of the first kind of M."""
         return christoffel_symbols(self.M, self.q)
 
+    def inverse_dynamics_slopes(self, qdd) -> tuple[sp.ImmutableMatrix, sp.ImmutableMatrix]:
+        """∂u/∂q and ∂u/∂q̇ of u = M q̈ + C q̇ + g + f, (n, n) each; ∂u/∂q̈ is M.
+
+        qdd: n symbols or expressions. Raises ValueError for another number of them. sign(q̇), of
+        Coulomb friction, counts as constant, as it is while the joint moves.
+        """
+        qdd = _listed("qdd", qdd, self.n)
+        left = self.M * sp.Matrix(qdd) + self.C * sp.Matrix(self.qd) + self.g_vec
+        held = {jump: sp.Dummy() for jump in self.f_vec.atoms(sp.sign)}
+        friction = self.f_vec.xreplace(held).jacobian(self.qd)
+        friction = friction.xreplace({dummy: jump for jump, dummy in held.items()})
+        by_velocity = left.jacobian(self.qd) + friction
+        return left.jacobian(self.q).as_immutable(), by_velocity.as_immutable()
+
     def equations(self, qdd, u) -> tuple[sp.Eq, ...]:
         """The n equations of motion (M q̈ + C q̇ + g + f)_i = u_i.
 
