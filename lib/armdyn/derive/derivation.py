@@ -53,7 +53,7 @@ class Derivation:
         qdd: n symbols or expressions. Raises ValueError for another number of them. sign(q̇), of
         Coulomb friction, counts as constant, as it is while the joint moves.
         """
-        qdd = _listed("qdd", qdd, self.n)
+        qdd = listed("qdd", qdd, self.n)
         left = self.M * sp.Matrix(qdd) + self.C * sp.Matrix(self.qd) + self.g_vec
         held = {jump: sp.Dummy() for jump in self.f_vec.atoms(sp.sign)}
         friction = self.f_vec.xreplace(held).jacobian(self.qd)
@@ -66,7 +66,7 @@ class Derivation:
 
         qdd, u: n symbols or expressions each. Raises ValueError for another number of them.
         """
-        qdd, u = (_listed(name, value, self.n) for name, value in (("qdd", qdd), ("u", u)))
+        qdd, u = (listed(name, value, self.n) for name, value in (("qdd", qdd), ("u", u)))
         left = self.M * sp.Matrix(qdd) + self.C * sp.Matrix(self.qd) + self.g_vec + self.f_vec
         return tuple(sp.Eq(a, b, evaluate=False) for a, b in zip(left, u, strict=True))
 
@@ -81,7 +81,7 @@ class Derivation:
         """
         zeros = [0] * self.n
         d, k = (
-            _listed(name, zeros if given is None else given, self.n)
+            listed(name, zeros if given is None else given, self.n)
             for name, given in (("viscous", viscous), ("coulomb", coulomb))
         )
         new: list[sp.Symbol] = []
@@ -95,7 +95,7 @@ class Derivation:
                         "function of q̇ and parameters alone"
                     )
                 known = {*self.qd, *self.parameters, *new}
-                new += sorted(entry.free_symbols - known, key=_by_name)
+                new += sorted(entry.free_symbols - known, key=by_name)
         names = [s.name for s in (*self.q, *self.qd, *self.parameters, *new)]
         for symbol in new:
             if names.count(symbol.name) > 1:
@@ -141,10 +141,10 @@ def from_inertia(M, P, q, qd, parameters) -> Derivation:
 def parameters_of(expressions, q, qd) -> tuple[sp.Symbol, ...]:
     """The symbols that are neither coordinates nor velocities, by name, m2 before m10."""
     found = set().union(*(e.free_symbols for e in expressions)) - set(q) - set(qd)
-    return tuple(sorted(found, key=_by_name))
+    return tuple(sorted(found, key=by_name))
 
 
-def _by_name(symbol):
+def by_name(symbol):
     parts = re.split(r"(\d+)", symbol.name)
     return [(int(p), "") if p.isdigit() else (-1, p) for p in parts]
 
@@ -166,7 +166,7 @@ def _friction(given, n, qd, parameters):
     return f
 
 
-def _listed(name, value, n):
+def listed(name, value, n):
     try:
         listed = list(value)
     except TypeError:
