@@ -106,6 +106,15 @@ def test_the_energy_gained_is_the_work_done(case):
     assert np.all(np.abs(gained - work) <= 1e-12 * (size + np.max(arm.M(q)) * 36))
 
 
+def test_a_long_step_through_thick_oil_loses_what_the_oil_takes():
+    arm = Planar2R(1.0, 0.8, 0.5, 0.4, 2.0, 1.5, 0.2, 0.1, viscous=(2.0, 0.5))
+    x = run(arm, [0.3, 0.4, 3.0, -5.0], 0.05, 10)
+    moved = np.diff(x[:, :2], axis=0)
+    lost = np.vecdot(arm.f_vec(moved / 0.05), moved)
+    assert np.all(lost > 0)
+    np.testing.assert_allclose(np.diff(energy_drift(arm, x)), -lost, atol=1e-13 * 50)
+
+
 @settings(max_examples=15)
 @given(vectors(4, 2.0), st.floats(0.001, 0.02))
 def test_back_in_time_is_where_it_came_from(x, dt):
