@@ -24,18 +24,30 @@ class Equilibrium:
     """A configuration with g(q) = 0, and what P has there.
 
     q: (n,), rad or m, an angle in (−π, π]. stiffness: (n,), the eigenvalues of ∂g/∂q in rising
-    order, N·m/rad (with slides among the joints, in the mixed units of q). kind: "minimum" (all
-    positive: the arm stays near), "maximum" (all negative) or "saddle".
+    order, N·m/rad (with slides among the joints, in the mixed units of q). angle: (n,), which
+    coordinates are angles: a full turn of one leads to the same place. kind: "minimum" (all positive:
+    the arm stays near), "maximum" (all negative) or "saddle".
     """
 
     q: np.ndarray
     stiffness: np.ndarray
+    angle: np.ndarray
 
     @property
     def kind(self) -> str:
         if self.stiffness[0] > 0:
             return "minimum"
         return "maximum" if self.stiffness[-1] < 0 else "saddle"
+
+    def between(self, low: float, high: float) -> np.ndarray:
+        """All q with every coordinate from low to high that are this equilibrium, (k, n)."""
+        slack, turn = 1e-9, 2 * np.pi
+        places = []
+        for q, angle in zip(self.q, self.angle, strict=True):
+            first, last = np.ceil((low - slack - q) / turn), np.floor((high + slack - q) / turn)
+            turns = np.arange(first, last + 1) if angle else np.zeros(int(low <= q <= high))
+            places.append(q + turn * turns)
+        return np.array(list(itertools.product(*places))).reshape(-1, len(self.q))
 
 
 def equilibria(model, within=None) -> tuple[Equilibrium, ...]:
@@ -103,7 +115,7 @@ class _Search:
             relative = np.abs(np.linalg.eigvalsh(even[:, np.newaxis] * H * even))
             if np.min(relative) <= 1e-6 * np.max(relative):
                 raise self._not_isolated()
-            found.append(Equilibrium(q, np.linalg.eigvalsh(H)))
+            found.append(Equilibrium(q, np.linalg.eigvalsh(H), self.angle))
         return found
 
     def _roots(self, starts) -> list[np.ndarray]:

@@ -152,6 +152,21 @@ def test_a_slide_on_a_turning_beam_balances_where_its_weight_does(pull):
     assert [point.q[1] for point in found] == pytest.approx([-2.0 * pull / 0.5] * 2)
 
 
+def test_only_angles_are_repeated_in_a_wider_picture():
+    arm = Planar2R(1.0, 0.8, 0.5, 0.4, 2.0, 1.5, 0.2, 0.1)
+    down = equilibria(arm)[0]
+    wide = down.between(-2 * np.pi, 2 * np.pi)
+    assert {tuple(place) for place in wide.round(6)} == {
+        (round(a, 6), b)
+        for a in (-np.pi / 2, 3 * np.pi / 2)
+        for b in (round(-2 * np.pi, 6), 0, round(2 * np.pi, 6))
+    }
+    np.testing.assert_allclose(arm.g_vec(wide), 0, atol=1e-7)
+    rest = equilibria(Potential(lambda q: q - 1, lambda q: (q - 1) ** 2 / 2))[0]
+    np.testing.assert_allclose(rest.between(-20, 20), [[1.0]])
+    assert rest.between(2, 20).shape == (0, 1)
+
+
 def test_what_falls_has_no_equilibrium():
     lift = Link("prismatic", 3.0, axis=(0, 0, 1), inertia=np.eye(3))
     assert equilibria(SerialChain((lift,))) == ()
