@@ -1,10 +1,10 @@
 """Linearises the equation of motion: how u and q̈ change with q, q̇, q̈ and u, and ẋ ≈ A δx + B δu.
 
 Of u = M q̈ + C q̇ + g + f, the slopes in q̇ and q̈ are exact: C is linear in q̇, so that
-∂u/∂q̇_k = C(q, q̇) e_k + C(q, e_k) q̇ + ∂f/∂q̇_k, and ∂u/∂q̈ = M. The slope in q is by central
-differences of order 8, with an error of about 1e-13 of the largest term (a few 1e-14 for the arms of
-`armdyn.models`; more where u changes much over 0.06 rad or m). `Derivation.inverse_dynamics_slopes`
-gives it in symbols, exactly.
+∂u/∂q̇_k = C(q, q̇) e_k + C(q, e_k) q̇ + ∂f/∂q̇_k, and ∂u/∂q̈ = M. The slope in q is exact for the
+models of `armdyn.codegen` with up to four coordinates. For others it is by central differences of order
+8, with an error of about 1e-13 of the largest term (more where u changes much over 0.06 rad or m).
+`Derivation.inverse_dynamics_slopes` gives the slopes in symbols.
 """
 
 from dataclasses import dataclass
@@ -67,9 +67,9 @@ def inverse_dynamics_slopes(model, q, qd, qdd) -> InverseSlopes:
         held = np.matvec(model.M(q), _each(qdd)) + np.matvec(model.C(q, _each(qd)), _each(qd))
         return held + model.g_vec(q)
 
-    return InverseSlopes(
-        _slope(torque, q, np.full(q.shape, STEP)), by_velocity + _friction_slope(model, qd), M
-    )
+    exact = getattr(model, "slope_in_q", lambda *_: None)(q, qd, qdd)
+    by_q = _slope(torque, q, np.full(q.shape, STEP)) if exact is None else exact
+    return InverseSlopes(by_q, by_velocity + _friction_slope(model, qd), M)
 
 
 def forward_dynamics_slopes(model, q, qd, u) -> ForwardSlopes:

@@ -26,6 +26,9 @@ BLOCK = 8192
 # A pivot of M below this, relative to its trace: close enough to singular for a careful look.
 SUSPECT = 1e-11
 
+# Coordinates up to which the second derivatives of the energies are derived.
+EXACT_UP_TO = 4
+
 
 def numpy_model(derivation: Derivation, values: Mapping[str, float]) -> "NumpyModel":
     """The derivation with numbers for its parameters, as a `Manipulator` in NumPy.
@@ -93,6 +96,29 @@ class NumpyModel(Manipulator):
         except ValueError:  # batch axes that do not broadcast: `Manipulator` says so
             found = None
         return super().dynamics(*states) if found is None else found
+
+    def slope_in_q(self, q, qd, qdd) -> np.ndarray | None:
+        """∂(M q̈ + C q̇ + g)/∂q, (n, n), from the derivation's own derivatives; q, qd, qdd: (n,).
+
+        None where they would take long to derive, with more than four coordinates, and where M, C or
+        g is another than the derivation's. `armdyn.linearisation` is the way to it.
+        """
+        if self.n > EXACT_UP_TO or not generated_terms(self):
+            return None
+        q, qd, qdd = state_vectors(self.n, q=q, qd=qd, qdd=qdd)
+        inertia, rest = self._slopes
+        by_inertia = np.einsum("...ikj,...j->...ik", inertia(q), qdd)
+        return by_inertia + rest(q, qd)
+
+    @cached_property
+    def _slopes(self):
+        """∂M_ij/∂q_k as (n, n, n), by i, k, j; ∂(C q̇ + g)_i/∂q_k, (n, n)."""
+        d = self.derivation
+        rest = (d.C * sp.Matrix(d.qd) + d.g_vec).jacobian(d.q)
+        entries = [d.M[i, j].diff(x) for i in range(d.n) for x in d.q for j in range(d.n)]
+        inertia = self._callable("q", entries)
+        inertia.shape = (d.n,) * 3
+        return inertia, self._callable("qv", rest.as_immutable())
 
     @cached_property
     def _inertia(self):
