@@ -1,6 +1,7 @@
 """Elastic joints and the slider-crank, each by another route than the one that derived it."""
 
 import doctest
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -71,7 +72,7 @@ def test_stiff_joints_are_rigid_joints():
     rigid = planar_2r()
     J = sp.symbols("J1 J2", real=True)
     heavy = numpy_model(
-        mechanisms.replace(
+        replace(
             rigid, M=(rigid.M + sp.diag(*J)).as_immutable(), parameters=(*rigid.parameters, *J)
         ),
         ARM | {"J1": 0.3, "J2": 0.1},
@@ -188,8 +189,8 @@ k = sp.Symbol("k", real=True)
     ("make", "says"),
     [
         (lambda: elastic_joints(planar_2r(), [k]), r"^stiffness: got 1 entries, needs 2"),
-        (lambda: elastic_joints(planar_2r(), k), r"^stiffness = k: needs a sequence"),
-        (lambda: elastic_joints(planar_2r(), None, 3), r"^rotor_inertia = 3: needs a sequence"),
+        (lambda: elastic_joints(planar_2r(), k), r"^stiffness = k: needs 2 symbols"),
+        (lambda: elastic_joints(planar_2r(), None, 3), r"^rotor_inertia = 3: needs 2 symbols"),
         (
             lambda: elastic_joints(planar_2r(), [k, k * planar_2r().q[0]]),
             r"^stiffness\[1\] = k\*q1: depends on q1; needs a constant",

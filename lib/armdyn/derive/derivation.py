@@ -53,7 +53,7 @@ class Derivation:
         qdd: n symbols or expressions. Raises ValueError for another number of them. sign(q̇), of
         Coulomb friction, counts as constant, as it is while the joint moves.
         """
-        qdd = listed("qdd", qdd, self.n)
+        qdd = _listed("qdd", qdd, self.n)
         left = self.M * sp.Matrix(qdd) + self.C * sp.Matrix(self.qd) + self.g_vec
         held = {jump: sp.Dummy() for jump in self.f_vec.atoms(sp.sign)}
         friction = self.f_vec.xreplace(held).jacobian(self.qd)
@@ -66,7 +66,7 @@ class Derivation:
 
         qdd, u: n symbols or expressions each. Raises ValueError for another number of them.
         """
-        qdd, u = (listed(name, value, self.n) for name, value in (("qdd", qdd), ("u", u)))
+        qdd, u = (_listed(name, value, self.n) for name, value in (("qdd", qdd), ("u", u)))
         left = self.M * sp.Matrix(qdd) + self.C * sp.Matrix(self.qd) + self.g_vec + self.f_vec
         return tuple(sp.Eq(a, b, evaluate=False) for a, b in zip(left, u, strict=True))
 
@@ -81,7 +81,7 @@ class Derivation:
         """
         zeros = [0] * self.n
         d, k = (
-            listed(name, zeros if given is None else given, self.n)
+            _listed(name, zeros if given is None else given, self.n)
             for name, given in (("viscous", viscous), ("coulomb", coulomb))
         )
         new: list[sp.Symbol] = []
@@ -95,7 +95,7 @@ class Derivation:
                         "function of q̇ and parameters alone"
                     )
                 known = {*self.qd, *self.parameters, *new}
-                new += sorted(entry.free_symbols - known, key=by_name)
+                new += sorted(entry.free_symbols - known, key=_by_name)
         names = [s.name for s in (*self.q, *self.qd, *self.parameters, *new)]
         for symbol in new:
             if names.count(symbol.name) > 1:
@@ -141,10 +141,10 @@ def from_inertia(M, P, q, qd, parameters) -> Derivation:
 def parameters_of(expressions, q, qd) -> tuple[sp.Symbol, ...]:
     """The symbols that are neither coordinates nor velocities, by name, m2 before m10."""
     found = set().union(*(e.free_symbols for e in expressions)) - set(q) - set(qd)
-    return tuple(sorted(found, key=by_name))
+    return tuple(sorted(found, key=_by_name))
 
 
-def by_name(symbol):
+def _by_name(symbol):
     parts = re.split(r"(\d+)", symbol.name)
     return [(int(p), "") if p.isdigit() else (-1, p) for p in parts]
 
@@ -166,13 +166,13 @@ def _friction(given, n, qd, parameters):
     return f
 
 
-def listed(name, value, n):
+def _listed(name, value, n):
     try:
-        listed = list(value)
+        _listed = list(value)
     except TypeError:
         raise ValueError(
             f"{name} = {value!r}: needs a sequence of {n}, one per coordinate"
         ) from None
-    if len(listed) != n:
-        raise ValueError(f"{name}: got {len(listed)} entries, needs {n}, one per coordinate")
-    return [sp.sympify(entry) for entry in listed]
+    if len(_listed) != n:
+        raise ValueError(f"{name}: got {len(_listed)} entries, needs {n}, one per coordinate")
+    return [sp.sympify(entry) for entry in _listed]

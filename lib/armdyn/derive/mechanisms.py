@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from armdyn.derive.derivation import Derivation, by_name, listed
+from armdyn.derive.derivation import Derivation, parameters_of
 from armdyn.derive.energies import from_energies
 from armdyn.derive.names import refuse_taken
 
@@ -46,33 +46,44 @@ def elastic_joints(rigid: Derivation, stiffness=None, rotor_inertia=None) -> Der
         ("rotor_inertia", rotor_inertia, "J"),
     ):
         entries = sp.symbols(f"{letter}1:{n + 1}", real=True) if value is None else value
-        parts[name] = listed(name, entries, n)
+        parts[name] = _constants(name, entries, rigid)
         if value is None:
             ours = {s.name: f"an entry of {name}" for s in entries}
             refuse_taken(ours, known, "rigid", f"give {name}")
         for i, entry in enumerate(parts[name]):
-            if not isinstance(entry, sp.Expr) or entry.is_Matrix:
-                raise ValueError(f"{name}[{i}] = {entry}: needs a symbol or an expression")
-            if moving := entry.free_symbols & {*rigid.q, *rigid.qd}:
-                raise ValueError(
-                    f"{name}[{i}] = {entry}: depends on {min(moving, key=str)}; needs a constant"
-                )
             refuse_taken(given, entry.free_symbols, f"{name}[{i}]", "give another symbol")
     k, J = parts.values()
-    new = set().union(*(e.free_symbols for e in (*k, *J))) - known
+    new = parameters_of((*k, *J), rigid.q, rigid.qd)
     pull = sp.Matrix([a * (q - motor) for a, q, motor in zip(k, rigid.q, theta, strict=True)])
     stored = [a * (q - motor) ** 2 / 2 for a, q, motor in zip(k, rigid.q, theta, strict=True)]
-    return replace(
-        rigid,
+    return Derivation(
         q=(*rigid.q, *theta),
         qd=(*rigid.qd, *thetad),
-        parameters=(*rigid.parameters, *sorted(new, key=by_name)),
+        parameters=(*rigid.parameters, *(s for s in new if s not in known)),
         M=sp.diag(rigid.M, *J).as_immutable(),
         C=sp.diag(rigid.C, sp.zeros(n, n)).as_immutable(),
         g_vec=sp.Matrix([*(rigid.g_vec + pull), *(-pull)]).as_immutable(),
         P=rigid.P + sum(stored),
         f_vec=sp.Matrix([*rigid.f_vec, *[0] * n]).as_immutable(),
     )
+
+
+def _constants(name, value, rigid) -> list[sp.Expr]:
+    """n expressions that hold no coordinate; ValueError, naming the entry, for anything else."""
+    try:
+        entries = [sp.sympify(entry) for entry in value]
+    except (TypeError, sp.SympifyError):
+        raise ValueError(f"{name} = {value!r}: needs {rigid.n} symbols or expressions") from None
+    if len(entries) != rigid.n:
+        raise ValueError(f"{name}: got {len(entries)} entries, needs {rigid.n}, one per joint")
+    for i, entry in enumerate(entries):
+        if not isinstance(entry, sp.Expr) or entry.is_Matrix:
+            raise ValueError(f"{name}[{i}] = {entry}: needs a symbol or an expression")
+        if moving := entry.free_symbols & {*rigid.q, *rigid.qd}:
+            raise ValueError(
+                f"{name}[{i}] = {entry}: depends on {min(moving, key=str)}; needs a constant"
+            )
+    return entries
 
 
 def slider_crank() -> Derivation:
