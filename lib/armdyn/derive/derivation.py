@@ -168,11 +168,11 @@ def _friction(given, n, qd, parameters):
 
 def _listed(name, value, n):
     try:
-        _listed = list(value)
+        listed = list(value)
     except TypeError:
         raise ValueError(
             f"{name} = {value!r}: needs a sequence of {n}, one per coordinate"
         ) from None
-    if len(_listed) != n:
-        raise ValueError(f"{name}: got {len(_listed)} entries, needs {n}, one per coordinate")
-    return [sp.sympify(entry) for entry in _listed]
+    if len(listed) != n:
+        raise ValueError(f"{name}: got {len(listed)} entries, needs {n}, one per coordinate")
+    return [sp.sympify(entry) for entry in listed]

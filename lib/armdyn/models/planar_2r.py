@@ -169,6 +169,12 @@ FLOAT = np.dtype(float)
 PLAIN = len(fields(Planar2R)) + 1  # and what is lumped
 
 
+def as_written(arm: Planar2R) -> bool:
+    """Whether M, C, g and f of the arm are those of Planar2R, and its parameters say all of it."""
+    terms = type(arm).M, type(arm).C, type(arm).g_vec, type(arm).f_vec
+    return terms == (_M, _C, _G, _F) and TERMS.isdisjoint(vars(arm))
+
+
 def _matrix(a11, a12, a21, a22) -> np.ndarray:
     """Entries of shape (...) as a (..., 2, 2) array."""
     matrices = np.empty((*np.broadcast(a11, a12, a21, a22).shape, 2, 2))
