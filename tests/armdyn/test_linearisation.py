@@ -63,7 +63,8 @@ def test_a_generated_model_with_another_gravity_has_its_slopes():
     np.testing.assert_allclose(found.q, needed.q, rtol=1e-11, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+# Of three links, 30 digits take long; tests/peers has longer arms.
+@pytest.mark.parametrize("name", [name for name in EXAMPLES if name != "3 links, offsets"])
 def test_against_the_derivation(name):
     """The symbols h_ijk, and the slopes of u as exact as 30 digits make them."""
     d = EXAMPLES[name]()
