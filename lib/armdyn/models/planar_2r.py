@@ -109,9 +109,9 @@ class Planar2R(Manipulator):
         another than this class's, from wherever it came.
         """
         cls = type(self)
-        a, b, k, G1, G2, least = self._lumped
         own = self.__dict__
         try:
+            a, b, k, G1, G2, least = own["_lumped"]
             if (
                 q.dtype is qd.dtype is u.dtype is FLOAT
                 and cls.g_vec is _G
@@ -120,7 +120,9 @@ class Planar2R(Manipulator):
                 and cls.M is _M
                 and (len(own) == PLAIN or TERMS.isdisjoint(own))
             ):
-                (q1, q2), (qd1, qd2), (u1, u2) = q.tolist(), qd.tolist(), u.tolist()
+                q1, q2 = q.tolist()
+                qd1, qd2 = qd.tolist()
+                u1, u2 = u.tolist()
                 coupling, minus_h, g2 = k * cos(q2), k * sin(q2), G2 * cos(q1 + q2)
                 det = a * b - coupling * coupling
                 if det > least:
@@ -133,6 +135,9 @@ class Planar2R(Manipulator):
                         qdd = empty(2)  # quicker to fill than np.array is to read a list
                         qdd[0], qdd[1] = qdd1, qdd2
                         return qdd
+        except KeyError:
+            _ = self._lumped  # kept from now on
+            return Planar2R.dynamics(self, q, qd, u)
         except (AttributeError, TypeError, ValueError):
             pass  # not arrays of numbers: the general way says what is wrong with them
         return super().dynamics(q, qd, u)
