@@ -107,7 +107,9 @@ def _describe(links: list[complex]) -> str:
 
 
 def _degrees(direction: complex) -> str:
-    return f"{math.degrees(cmath.phase(direction)):.0f}°".replace("-", "−")
+    # cmath.phase overflows on the smallest numbers.
+    angle = math.degrees(math.atan2(direction.imag, direction.real))
+    return f"{angle:.0f}°".replace("-", "−")
 
 
 def _beside(text: str, picture: str) -> str:

@@ -12,12 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-Rate = Callable[[float, np.ndarray], np.ndarray]
+from armdyn.discrete_gradient import energy_momentum
+from armdyn.iteration import to_rounding
 
-ITERATIONS = 100
-EPSILON = np.finfo(float).eps
-ROUNDING = 4 * EPSILON
-NEARLY = 1e-9
+Rate = Callable[[float, np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -26,11 +24,14 @@ class Integrator:
 
     order: the error after a given time shrinks as dt to this power, for a smooth rate.
     split: the state is [positions; velocities], of even size.
+    of_model: the step asks M, C, g, f and P of the model: `rate.model` is a Manipulator, and
+    `rate.input(t, x)` its input.
     """
 
-    step: Callable[[Rate, float, np.ndarray, float], np.ndarray]
+    step: Callable[..., np.ndarray]
     order: int
     split: bool = False
+    of_model: bool = False
 
 
 def euler(rate: Rate, t: float, x, dt: float) -> np.ndarray:
@@ -86,24 +87,13 @@ def implicit_midpoint(rate: Rate, t: float, x, dt: float) -> np.ndarray:
     Source: E. Hairer, C. Lubich, G. Wanner (2006), Geometric Numerical Integration, chapters II,
     V (symmetry) and VIII (iterating to rounding).
     """
-    k = rate(t, x)
-    last = np.inf
-    done = np.zeros(x.shape[:-1], bool)
-    for _ in range(ITERATIONS):
-        new = rate(t + dt / 2, x + dt / 2 * k)
-        change = np.max(np.abs(dt * (new - k)), axis=-1)
-        size = np.max(np.abs(x) + np.abs(dt * new), axis=-1)
-        if not np.isfinite(size).all():
-            break
-        k = new
-        # Rounding inside the rate may keep the change above ROUNDING: then it stops shrinking.
-        done |= (change <= ROUNDING * size) | ((change >= last) & (change <= NEARLY * size))
-        if done.all():
-            return x + dt * k
-        last = change
-    raise FloatingPointError(
-        f"implicit_midpoint did not converge in the step of {dt:.3g} s from t = {t:.6g} s: its "
-        "iteration needs a shorter step, and a rate without jumps such as Coulomb friction at rest"
+    return x + to_rounding(
+        lambda change: dt * rate(t + dt / 2, x + change / 2),
+        dt * rate(t, x),
+        x,
+        "implicit_midpoint",
+        t,
+        dt,
     )
 
 
@@ -112,4 +102,5 @@ INTEGRATORS = {
     "semi_implicit_euler": Integrator(semi_implicit_euler, order=1, split=True),
     "rk4": Integrator(rk4, order=4),
     "implicit_midpoint": Integrator(implicit_midpoint, order=2),
+    "energy_momentum": Integrator(energy_momentum, order=2, split=True, of_model=True),
 }

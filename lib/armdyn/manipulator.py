@@ -18,6 +18,9 @@ from armdyn.parameters import state_vector, state_vectors
 # of M are sums of several products, each with its own.
 ROUNDING = 8 * np.finfo(float).eps
 
+# What a model says of its motion.
+TERMS = frozenset({"M", "C", "g_vec", "f_vec"})
+
 
 class Manipulator(ABC):
     """A robot with `n` generalised coordinates.
@@ -52,6 +55,14 @@ class Manipulator(ABC):
     def f_vec(self, qd) -> np.ndarray:
         """Friction torque f(q̇), (n,), N·m; zero unless the model has friction."""
         return np.zeros_like(state_vector("qd", qd, self.n))
+
+    def christoffel_symbols(self, q) -> np.ndarray:
+        """h_ijk = ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), (n, n, n), kg·m²: C_ij = Σ_k h_ijk q̇_k.
+
+        C is linear in q̇, so that its value at the k-th unit velocity is h_ijk, without a derivative.
+        """
+        q = state_vector("q", q, self.n)
+        return np.moveaxis(self.C(q[..., np.newaxis, :], np.eye(self.n)), -3, -1)
 
     def inverse_dynamics(self, q, qd, qdd) -> np.ndarray:
         """Input u = M q̈ + C q̇ + g + f that gives the acceleration qdd, (n,), N·m."""

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import all_finite, real_array
 
 Input = np.ndarray | Callable[[float, np.ndarray], np.ndarray]
@@ -17,12 +18,16 @@ class Rate:
     u: held constant, (n,); one row per time of t, (..., T, n), of which row k is put in by hold(k);
     or a function u(t, x). Raises ValueError for another shape, and, when called, for an input or
     an ẋ that is not real numbers of the right shape.
-    latest: the last time at which ẋ was finite.
+    f: a function f(x, u), or a Manipulator, which stands for its state form; `model` is None for a
+    function.
+    latest: the last time at which ẋ was finite. calls: how often it was asked for.
     """
 
     def __init__(self, f, u: Input, t):
-        self.f = f
+        self.model = f if isinstance(f, Manipulator) else None
+        self.f = f.state_derivative if isinstance(f, Manipulator) else f
         self.latest = -np.inf
+        self.calls = 0
         self.samples = None
         self.u = u if callable(u) else all_finite("u", real_array("u", u))
         if not callable(self.u) and self.u.ndim > 1:
@@ -50,10 +55,15 @@ class Rate:
         changed = np.any(rows[1:] != rows[:-1], axis=tuple(range(1, rows.ndim)))
         return [int(k) + 1 for k in np.flatnonzero(changed)]
 
+    def input(self, t, x) -> np.ndarray:
+        """u at this time and state."""
+        return real_array("u(t, x)", self.u(t, x)) if callable(self.u) else self.u
+
     def __call__(self, t, x) -> np.ndarray:
+        self.calls += 1
         if not np.isfinite(x).all():
             return np.full(x.shape, np.nan)
-        u = real_array("u(t, x)", self.u(t, x)) if callable(self.u) else self.u
+        u = self.input(t, x)
         if not np.isfinite(u).all():
             return np.full(x.shape, np.nan)
         try:

@@ -10,6 +10,8 @@ from scipy import integrate
 
 from armdyn.events import Event, Trajectory, Watch, listed
 from armdyn.integrators import INTEGRATORS, rk4
+from armdyn.manipulator import Manipulator
+from armdyn.pace import ADVICE, Pace
 from armdyn.parameters import all_finite, finite, nonnegative, positive, real_array, state_vector
 from armdyn.progress import progress_bar
 from armdyn.rate import Input, Rate, slope_of
@@ -60,16 +62,18 @@ def simulate(
 ) -> np.ndarray | Trajectory:
     """States of ẋ = f(x, u) at the times `t`, from x(t[0]) = x0.
 
-    f(x, u): the state form, such as `arm.state_derivative`, x = [q; q̇].
+    f(x, u): the state form, such as `arm.state_derivative`, x = [q; q̇]; or the arm itself, a
+    Manipulator, which means the same. "energy_momentum" needs the arm.
     x0: (N,), or (..., N) for many arms at once.
     u: the input, N·m: (n,), held constant; (T, n), sampled, where row k is held from t[k] to
     t[k + 1] (the last row is not used); or a function u(t, x) that gives it. With many arms, samples
     of their own have shape (..., T, n), and constants of their own (..., 1, n).
     t: (T,), increasing, s. The fixed-step methods ("euler", "semi_implicit_euler", "rk4",
-    "implicit_midpoint": see `armdyn.integrators`) take one step from each time to the next; one of
-    SciPy's ("RK45", "RK23", "DOP853", "LSODA") chooses its own steps by rtol and atol, the same
-    for all arms, so that each keeps the tolerances; it starts anew where a sampled input jumps.
-    Where Coulomb friction holds a joint at rest those steps become very short, and "rk4" is better.
+    "implicit_midpoint", "energy_momentum": see `armdyn.integrators`) take one step from each time to
+    the next; one of SciPy's ("RK45", "RK23", "DOP853", "LSODA") chooses its own steps by rtol and
+    atol, the same for all arms, so that each keeps the tolerances; it starts anew where a sampled
+    input jumps. Where Coulomb friction holds a joint at rest, such a method makes no more progress,
+    and says so; "rk4" goes on.
     events: functions g(t, x), or `Event`s, one or a list, whose zeros are located, for one arm. A
     fixed-step method locates them by a shorter step of its own.
     progress: whether a run longer than a second shows a bar, if stderr is a terminal or a notebook
@@ -89,6 +93,8 @@ def simulate(
         raise ValueError(f"method = {method!r}: needs one of {known}")
     if method in INTEGRATORS and INTEGRATORS[method].split and x0.shape[-1] % 2:
         raise ValueError(f"x0: got shape {x0.shape}; {method} needs (..., 2n), [q; q̇]")
+    if method in INTEGRATORS and INTEGRATORS[method].of_model and not isinstance(f, Manipulator):
+        raise ValueError(f"f: {method} needs the arm, a Manipulator, and not its state_derivative")
     rtol, atol = positive("rtol", rtol, "1"), nonnegative("atol", atol, "unit of x")
     rate = Rate(f, u, t)
     try:
@@ -228,7 +234,7 @@ def _adaptive_steps(rate, x0, t, method, rtol, atol) -> Iterator[_Step]:
     def flat(time, y):
         return rate(time, y.reshape(shape)).ravel()
 
-    y = x0.ravel()
+    y, pace = x0.ravel(), Pace(method, rate, t[0], t[-1])
     bounds = [0, *rate.jumps(), len(t) - 1]
     for first, last in pairwise(bounds):
         rate.hold(first)
@@ -240,9 +246,10 @@ def _adaptive_steps(rate, x0, t, method, rtol, atol) -> Iterator[_Step]:
                 message = solver.step()
             stopped = f"{method} stopped near t = {rate.latest:.6g} s"
             if solver.status == "failed":
-                raise FloatingPointError(f"{stopped}: {message}")
+                raise FloatingPointError(f"{stopped}: {str(message).rstrip('.')}; {ADVICE}")
             if not np.isfinite(solver.y).all():
                 raise FloatingPointError(f"{stopped}: the state is not finite")
+            pace.step(solver.t)
             yield _Step(solver.t, solver.y.reshape(shape), _Between(solver, shape))
         y = solver.y
 

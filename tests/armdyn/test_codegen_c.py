@@ -19,6 +19,7 @@ from armdyn.codegen import (
 )
 from armdyn.derive import from_energies, planar_2r, planar_chain
 from armdyn.manipulator import Manipulator
+from armdyn.simulate import simulate
 from tests.armdyn.arms import a_few, arms_and_states, assert_close, planar_arms
 from tests.armdyn.derivations import EXAMPLES, states, values
 
@@ -205,6 +206,50 @@ def test_singular_and_nearly_singular_are_left_to_the_reference(arm):
     close = c_model(planar_2r(), {**arm.values, "I2": 1e-13, "lc2": 0.0})
     q, qd, u = states(2, batch=(40,))
     assert np.array_equal(close.dynamics(q, qd, u), Manipulator.dynamics(close, q, qd, u))
+
+
+class Springs:
+    """A mixin with another potential: beside gravity, a spring in each joint."""
+
+    def g_vec(self, q):
+        return super().g_vec(q) + 40 * np.asarray(q)
+
+
+class SpringModel(Springs, CompiledModel):
+    pass
+
+
+class SpringNumpyModel(Springs, NumpyModel):
+    pass
+
+
+class Damped(CompiledModel):
+    def dynamics(self, q, qd, u):
+        return super().dynamics(q, qd, u - 3 * qd)
+
+
+def test_a_subclass_moves_by_its_own_terms_in_every_call(arm):
+    """Loops and floats too: none of them may still have the generated gravity in it."""
+    q, qd, u = states(2, (3,))
+    at_rest = np.concatenate([q, qd], axis=-1)
+    for kind in (SpringModel, SpringNumpyModel, Damped):
+        other = kind(arm.derivation, arm.values)
+        pulled = u - (3 * qd if kind is Damped else 40 * q)
+        expected = arm.dynamics(q, qd, pulled)
+        np.testing.assert_allclose(other.dynamics(q, qd, u), expected, rtol=1e-9)
+        np.testing.assert_allclose(other.dynamics(q[0], qd[0], u[0]), expected[0], rtol=1e-9)
+        if kind is SpringNumpyModel:
+            continue
+        np.testing.assert_allclose(other.dynamics_many(q, qd, u), expected, rtol=1e-9)
+        found = other.dynamics_floats(*q[0], *qd[0], *u[0])
+        np.testing.assert_allclose(found, expected[0], rtol=1e-9)
+        t = np.linspace(0, 0.1, 11)
+        path = simulate(other.state_derivative, at_rest, u[:, np.newaxis, :], t)
+        np.testing.assert_allclose(other.rk4(at_rest, u, 0.01, 10), path, rtol=1e-9)
+        last = other.rk4(at_rest, u, 0.01, 10, final=True)
+        np.testing.assert_allclose(last, path[:, -1], rtol=1e-9)
+        with pytest.raises(FloatingPointError, match="stopped being finite at t = "):
+            other.rk4(100 * at_rest, u, 5.0, 100)
 
 
 def test_other_values_and_other_processes_use_the_same_module(arm, cache):

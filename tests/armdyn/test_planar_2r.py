@@ -1,4 +1,5 @@
-from functools import cache
+from functools import cache, partial, partialmethod
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -201,3 +202,122 @@ def test_one_state_in_floats_and_the_general_way_agree(arm, q, qd, u):
     one = arm.dynamics(q, qd, u)
     general = Manipulator.dynamics(arm, q, qd, u)
     assert_close(one, general, np.max(np.abs(general)), tolerance=1e-9)
+
+
+class NoGravity:
+    """A mixin: it knows nothing of the arm it stands before."""
+
+    def g_vec(self, q):
+        return np.zeros_like(np.asarray(q, dtype=float))
+
+
+class Rubbing:
+    def f_vec(self, qd):
+        return 3.0 * np.asarray(qd)
+
+
+class Before(NoGravity, Planar2R):
+    pass
+
+
+class Behind(Planar2R, NoGravity):
+    """Planar2R's own gravity comes first here."""
+
+
+class Grandchild(Before):
+    pass
+
+
+class Late(Planar2R):
+    pass
+
+
+Late.M = lambda self, q: 2 * Planar2R.M(self, q)
+
+
+class Partial(Planar2R):
+    C = partialmethod(lambda self, half, q, qd: half * Planar2R.C(self, q, qd), 0.5)
+
+
+class Pushed(Rubbing, Planar2R):
+    """Its own `dynamics` hands on to the closed form's, which is not the way here."""
+
+    def dynamics(self, q, qd, u):
+        return super().dynamics(q, qd, u)
+
+
+class Changeable(Planar2R):
+    def __init__(self, *arguments, **keywords):
+        super().__init__(*arguments, **keywords)
+        self.g_vec = lambda q: np.array([1.0, -2.0])
+
+
+class Tipper(Planar2R):
+    """A load that is computed anew each time."""
+
+    load = 0.0
+
+    @property
+    def m2(self):
+        return self.__dict__["m2"] + self.load
+
+    @m2.setter
+    def m2(self, value):
+        self.__dict__["m2"] = value
+
+
+def general(arm, q, qd, u):
+    """q̈ from what the model says of its motion, and nothing else."""
+    return np.linalg.solve(arm.M(q), u - arm.C(q, qd) @ qd - arm.g_vec(q) - arm.f_vec(qd))
+
+
+PARAMETERS = (1.0, 0.8, 0.5, 0.4, 3.0, 2.0, 0.25, 0.11)
+STATE = np.array([0.3, 0.4]), np.array([1.0, 2.0]), np.array([0.1, 0.2])
+
+
+@pytest.mark.parametrize(
+    "kind", [Before, Behind, Grandchild, Late, Partial, Pushed, Changeable, Weightless]
+)
+def test_the_arm_moves_as_its_terms_say_wherever_they_come_from(kind):
+    arm = kind(*PARAMETERS)
+    q, qd, u = STATE
+    np.testing.assert_allclose(arm.dynamics(q, qd, u), general(arm, q, qd, u), rtol=1e-12)
+    slope = arm.state_derivative(np.concatenate([q, qd]), u)
+    np.testing.assert_allclose(slope[2:], general(arm, q, qd, u), rtol=1e-12)
+    same = np.allclose(arm.dynamics(q, qd, u), Planar2R(*PARAMETERS).dynamics(q, qd, u))
+    assert same == (kind is Behind)
+
+
+@pytest.mark.parametrize("term", ["M", "C", "g_vec", "f_vec"])
+def test_a_term_replaced_after_the_arm_has_moved_counts_too(term, monkeypatch):
+    def other(*arguments):
+        return 2 * getattr(base, term)(*arguments[-(1 if term != "C" else 2) :]) + 0.1
+
+    q, qd, u = STATE
+    base, arm, single = (Planar2R(*PARAMETERS) for _ in range(3))
+    before = arm.dynamics(q, qd, u)
+    single.dynamics(q, qd, u)
+    object.__setattr__(single, term, other)
+    np.testing.assert_allclose(single.dynamics(q, qd, u), general(single, q, qd, u), rtol=1e-12)
+    original = getattr(Planar2R, term)
+    base = SimpleNamespace(**{term: partial(original, base)})
+    monkeypatch.setattr(Planar2R, term, lambda self, *arguments: other(*arguments))
+    np.testing.assert_allclose(arm.dynamics(q, qd, u), general(arm, q, qd, u), rtol=1e-12)
+    assert not np.allclose(arm.dynamics(q, qd, u), before)
+
+
+def test_a_parameter_that_is_computed_anew_is_not_remembered():
+    arm = Tipper(*PARAMETERS)
+    arm.dynamics(*STATE)
+    type(arm).load = 1.5
+    try:
+        np.testing.assert_allclose(arm.dynamics(*STATE), general(arm, *STATE), rtol=1e-12)
+    finally:
+        type(arm).load = 0.0
+
+
+def test_the_plain_arm_takes_the_quick_way(monkeypatch):
+    """Else the tests above would compare the general way with itself."""
+    monkeypatch.setattr(Manipulator, "dynamics", None)
+    Planar2R(*PARAMETERS).dynamics(*STATE)
+    Behind(*PARAMETERS).dynamics(*STATE)

@@ -1,9 +1,13 @@
+from contextlib import suppress
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from armdyn import Pendulum, Planar2R
+from armdyn.pace import WINDOW
 from armdyn.simulate import SCIPY_METHODS, energy_drift, rk4_step, simulate
 from tests.armdyn.arms import a_few, between
 
@@ -129,6 +133,69 @@ def test_a_blow_up_is_one_clear_error(method):
         pytest.raises(FloatingPointError, match=r"t = 0\.(5|49)\d* s"),
     ):
         simulate(lambda x, u: x**3, [1.0], 0.0, t, method, rtol=1e-4, atol=1e-6)
+
+
+class Counted:
+    def __init__(self, f, most=25_000):
+        self.f, self.calls, self.most = f, 0, most
+
+    def __call__(self, x, u):
+        self.calls += 1
+        assert self.calls <= self.most, "no end in sight"
+        return self.f(x, u)
+
+
+STICKY = Pendulum(m=1.0, lc=0.5, I=0.3, coulomb=1.0)
+
+
+@pytest.mark.parametrize(
+    ("method", "pendulum", "tolerance"),
+    [
+        *((method, STICKY, 1e-9) for method in SCIPY_METHODS),  # swings, then sticks
+        *((method, STICKY, 1e-4) for method in ("RK45", "LSODA")),
+        *((method, replace(STICKY, coulomb=4.0), 1e-9) for method in ("RK45", "LSODA")),
+    ],
+)
+def test_coulomb_friction_that_holds_a_joint_is_said(method, pendulum, tolerance):
+    """More than 300,000 calls of f were made here once, without a word."""
+    f = Counted(pendulum.state_derivative)
+    # LSODA gives up by itself where it starts at the jump.
+    says = rf'{method} (makes no more progress at|stopped near) t = \d.*Coulomb .* method="rk4"'
+    with pytest.raises(FloatingPointError, match=says):
+        simulate(f, [0.5, 0.0], [0.0], [0, 5], method, tolerance, tolerance / 1000)
+    # What it advises works.
+    x = simulate(pendulum.state_derivative, [0.5, 0.0], [0.0], np.linspace(0, 2, 1001), "rk4")
+    assert np.max(np.abs(x[-100:, 1])) < 0.05
+
+
+@pytest.mark.parametrize("method", SCIPY_METHODS)
+@pytest.mark.parametrize(
+    "f",
+    [
+        lambda x, u: np.sign(0.5 - x),  # slides along its own jump
+        lambda x, u: np.sqrt(1 - x),  # NaN beyond 1
+        lambda x, u: np.where(x < 0.5, 1.0, np.nan),
+        lambda x, u: -1e9 * (x - np.cos(x)) if method_is_explicit(u) else -1e3 * x,
+    ],
+    ids=["jump", "root", "nan", "stiff"],
+)
+@pytest.mark.filterwarnings("ignore:invalid value")
+def test_every_adaptive_method_comes_to_an_end(method, f):
+    explicit = float(method != "LSODA")
+    with suppress(FloatingPointError):
+        simulate(Counted(f), [0.0], [explicit], [0, 10], method, 1e-6, 1e-9)
+
+
+def method_is_explicit(u):
+    return u[0] == 1
+
+
+def test_a_long_run_is_no_standstill():
+    """Many windows of calls, at one pace."""
+    f = Counted(lambda x, u: np.stack([x[..., 1], -x[..., 0]], axis=-1))
+    x = simulate(f, [1.0, 0.0], 0.0, [0, 200], "RK45", 1e-8, 1e-10)
+    assert f.calls > 4 * WINDOW
+    np.testing.assert_allclose(x[-1], [np.cos(200), -np.sin(200)], atol=1e-4)
 
 
 def test_an_overflow_in_plain_python_is_the_same_error():

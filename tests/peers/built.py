@@ -32,6 +32,10 @@ class Peer:
 
 
 def pinocchio(chain) -> Peer:
+    return of_pinocchio(pinocchio_model(chain))
+
+
+def pinocchio_model(chain):
     pin = library("pinocchio")
     model = pin.Model()
     model.gravity.linear = np.array(chain.gravity)
@@ -46,7 +50,7 @@ def pinocchio(chain) -> Peer:
         body = pin.Inertia(link.mass, np.array(link.com), np.array(link.inertia))
         model.appendBodyToJoint(last, body, pin.SE3.Identity())
     model.armature = np.array(chain.armature)
-    return of_pinocchio(model)
+    return model
 
 
 def of_pinocchio(model, configuration=lambda q: q) -> Peer:

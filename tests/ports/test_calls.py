@@ -15,6 +15,13 @@ FREE = Planar2R(1, 0.8, 0.5, 0.3, 2, 1.5, 0.2, 0.1)
 VALUES = dict(zip((s.name for s in planar_chain(2).parameters), range(1, 10), strict=True))
 
 
+class Weightless(Planar2R):
+    """Its gravity is not what a program computes from its parameters."""
+
+    def g_vec(self, q):
+        return 0 * super().g_vec(q)
+
+
 class Recorded:
     """A conversation that keeps the requests, and answers a number for each that is due."""
 
@@ -110,6 +117,8 @@ def test_an_answer_of_another_size_is_an_error(recorded, monkeypatch):
     [
         (("fortran", ARM, np.zeros(4)), {}, r"language = 'fortran': needs one of cpp, java, "),
         (("cpp", "arm", np.zeros(4)), {}, r"model = 'arm': needs a Planar2R, a sequence of them"),
+        (("cpp", Weightless(*FLAT[:8]), np.zeros(4)), {}, r"^model = .*has another M, C, g or f"),
+        (("cpp", [ARM, Weightless(*FLAT[:8])], np.zeros(4)), {}, r"has another M, C, g or f"),
         (("cpp", [], np.zeros(4)), {}, r"model = \[\]: needs a Planar2R"),
         (("cpp", [ARM, 1], np.zeros(4)), {}, r"model = \[.*: needs a Planar2R"),
         (("cpp", ARM, np.zeros(3)), {}, r"states: got shape \(3,\), needs .* \(\.\.\., 4\)"),

@@ -9,7 +9,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from armdyn.codegen import build, c_code, c_module, straight_line
-from armdyn.codegen.numpy_code import SUSPECT, NumpyModel
+from armdyn.codegen.numpy_code import SUSPECT, NumpyModel, generated_terms
 from armdyn.derive import Derivation
 from armdyn.manipulator import ROUNDING, Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
@@ -40,7 +40,11 @@ class CompiledModel(NumpyModel):
         _ = self._compiled, self._k
 
     def dynamics(self, q, qd, u) -> np.ndarray:
-        """q̈ = M⁻¹ (u − C q̇ − g), (n,); raises as `Manipulator.dynamics`."""
+        """q̈ = M⁻¹ (u − C q̇ − g), (n,); raises as `Manipulator.dynamics`.
+
+        A subclass with another M, C, g or f moves by its own, here and in the other calls; what the
+        model has when it first moves counts.
+        """
         found = self._one(self._k, q, qd, u)
         return self._checked_dynamics(q, qd, u) if found is None else found
 
@@ -61,7 +65,9 @@ class CompiledModel(NumpyModel):
             and out.flags.writeable
         ):
             raise ValueError(f"out: needs a C-contiguous, writable float64 array of shape {shape}")
-        if not self._run_many(states, out):
+        if not _generated(self):
+            out[...] = self.dynamics(*states)
+        elif not self._run_many(states, out):
             out[...] = Manipulator.dynamics(self, *states)
         return out
 
@@ -72,6 +78,8 @@ class CompiledModel(NumpyModel):
         Raises TypeError for another number of arguments or what is no number, and otherwise as
         `dynamics`.
         """
+        if not _generated(self):
+            return self._checked_floats
         return partial(self._compiled.of_floats, self._k, self._checked_floats)
 
     def rk4(self, x0, u, dt: float, steps: int, final: bool = False) -> np.ndarray:
@@ -105,6 +113,8 @@ class CompiledModel(NumpyModel):
         states = np.empty((*batch, 2 * n) if final else (*batch, steps + 1, 2 * n))
         if states.size == 0:
             return states
+        if not _generated(self):
+            return self._rk4_in_python(x0, u, dt, steps, states, final)
         stopped = self._compiled.rk4(
             self._k,
             n * ROUNDING,
@@ -117,6 +127,27 @@ class CompiledModel(NumpyModel):
         )
         if stopped >= 0:
             self._explain(x0, u, batch, dt, *divmod(stopped, steps + 1))
+        return states
+
+    def _rk4_in_python(self, x, u, dt, steps, states, final):
+        """The same loop by `state_derivative`, for a model with terms or dynamics of its own."""
+        for step in range(steps + 1):
+            if step:
+                try:
+                    with np.errstate(all="ignore"):
+                        x = self._one_step(x, u, dt)
+                except np.linalg.LinAlgError:
+                    raise
+                except ValueError:  # no longer finite on the way
+                    x = np.full_like(x, np.nan)
+                if not np.isfinite(x).all():
+                    raise FloatingPointError(
+                        f"the state stopped being finite at t = {step * dt:.6g} s"
+                    )
+            if not final:
+                states[..., step, :] = x
+        if final:
+            states[...] = x
         return states
 
     @cached_property
@@ -134,14 +165,17 @@ class CompiledModel(NumpyModel):
 
     @cached_property
     def _one(self):
-        return self._compiled.one
+        return self._compiled.one if generated_terms(self) else lambda *_: None
 
     def _checked_floats(self, *numbers):
         states = np.array(numbers, dtype=float).reshape(3, self.n)
-        return tuple(self._checked_dynamics(*states).tolist())
+        found = self._checked_dynamics(*states) if _generated(self) else self.dynamics(*states)
+        return tuple(found.tolist())
 
     def _checked_dynamics(self, q, qd, u):
         states = state_vectors(self.n, q=q, qd=qd, u=u)
+        if not generated_terms(self):
+            return Manipulator.dynamics(self, *states)
         found = np.empty(np.broadcast_shapes(*(s.shape for s in states)))
         return found if self._run_many(states, found) else Manipulator.dynamics(self, *states)
 
@@ -174,6 +208,20 @@ class CompiledModel(NumpyModel):
         for reach in (dt / 2, dt / 2, dt):
             slopes.append(self.state_derivative(x + reach * slopes[-1], u))
         return x + dt / 6 * (slopes[0] + 2 * slopes[1] + 2 * slopes[2] + slopes[3])
+
+
+_DYNAMICS, _SLOPE = CompiledModel.dynamics, CompiledModel.state_derivative
+
+
+def _generated(model) -> bool:
+    """Whether the compiled loops do what the model does by its methods."""
+    cls = type(model)
+    return (
+        generated_terms(model)
+        and cls.dynamics is _DYNAMICS
+        and cls.state_derivative is _SLOPE
+        and vars(model).keys().isdisjoint(("dynamics", "state_derivative"))
+    )
 
 
 def _rows(array, batch, width):

@@ -17,7 +17,7 @@ from armdyn.codegen import straight_line
 from armdyn.codegen.buffers import in_buffers
 from armdyn.codegen.program import ShortFloats, unknown_function
 from armdyn.derive import Derivation
-from armdyn.manipulator import Manipulator
+from armdyn.manipulator import TERMS, Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
 
 # As many states at a time as keep every temporary in the processor's cache.
@@ -25,6 +25,9 @@ BLOCK = 8192
 
 # A pivot of M below this, relative to its trace: close enough to singular for a careful look.
 SUSPECT = 1e-11
+
+# Coordinates up to which the second derivatives of the energies are derived.
+EXACT_UP_TO = 4
 
 
 def numpy_model(derivation: Derivation, values: Mapping[str, float]) -> "NumpyModel":
@@ -77,7 +80,12 @@ class NumpyModel(Manipulator):
         return self._potential(state_vector("q", q, self.n))[()]
 
     def dynamics(self, q, qd, u) -> np.ndarray:
-        """q̈ = M⁻¹ (u − C q̇ − g), (n,), by M = L D Lᵀ written out; raises as `Manipulator`."""
+        """q̈ = M⁻¹ (u − C q̇ − g), (n,), by M = L D Lᵀ written out; raises as `Manipulator`.
+
+        A subclass with another M, C, g or f moves by its own.
+        """
+        if not generated_terms(self):
+            return super().dynamics(q, qd, u)
         states = [q, qd, u]
         # Plain arrays need no look before: what is not finite shows in q̈.
         if not all(_plain(s, self.n) for s in states):
@@ -88,6 +96,29 @@ class NumpyModel(Manipulator):
         except ValueError:  # batch axes that do not broadcast: `Manipulator` says so
             found = None
         return super().dynamics(*states) if found is None else found
+
+    def slope_in_q(self, q, qd, qdd) -> np.ndarray | None:
+        """∂(M q̈ + C q̇ + g)/∂q, (n, n), from the derivation's own derivatives; q, qd, qdd: (n,).
+
+        None where they would take long to derive, with more than four coordinates, and where M, C or
+        g is another than the derivation's. `armdyn.linearisation` is the way to it.
+        """
+        if self.n > EXACT_UP_TO or not generated_terms(self):
+            return None
+        q, qd, qdd = state_vectors(self.n, q=q, qd=qd, qdd=qdd)
+        inertia, rest = self._slopes
+        by_inertia = np.einsum("...ikj,...j->...ik", inertia(q), qdd)
+        return by_inertia + rest(q, qd)
+
+    @cached_property
+    def _slopes(self):
+        """∂M_ij/∂q_k as (n, n, n), by i, k, j; ∂(C q̇ + g)_i/∂q_k, (n, n)."""
+        d = self.derivation
+        rest = (d.C * sp.Matrix(d.qd) + d.g_vec).jacobian(d.q)
+        entries = [d.M[i, j].diff(x) for i in range(d.n) for x in d.q for j in range(d.n)]
+        inertia = self._callable("q", entries)
+        inertia.shape = (d.n,) * 3
+        return inertia, self._callable("qv", rest.as_immutable())
 
     @cached_property
     def _inertia(self):
@@ -122,6 +153,21 @@ class NumpyModel(Manipulator):
 
     def _constants(self, program):
         return constants(program, self.derivation, self.values)
+
+
+_M, _C, _G, _F = NumpyModel.M, NumpyModel.C, NumpyModel.g_vec, NumpyModel.f_vec
+
+
+def generated_terms(model) -> bool:
+    """Whether M, C, g and f are the generated ones, whatever others could have come in their place."""
+    cls = type(model)
+    return (
+        cls.M is _M
+        and cls.C is _C
+        and cls.g_vec is _G
+        and cls.f_vec is _F
+        and TERMS.isdisjoint(vars(model))
+    )
 
 
 class _Callable:
@@ -226,6 +272,11 @@ def _checked(derivation, values):
 def _refuse_unknown(derivation):
     """ValueError for a function that has no code, now and not when it is first called."""
     parts = [*derivation.M, *derivation.C, *derivation.g_vec, derivation.P]
+    known = {*derivation.q, *derivation.qd, *derivation.parameters}
+    if unknown := sorted({s.name for part in parts for s in sp.sympify(part).free_symbols - known}):
+        raise ValueError(
+            f"derivation: depends on {', '.join(unknown)}: needs q, qd and its parameters only"
+        )
     functions = {type(f): f for part in parts for f in sp.sympify(part).atoms(sp.Function)}
     for function in functions.values():
         program = straight_line.terms(derivation, [function])

@@ -4,6 +4,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from armdyn.derive.derivation import Derivation, from_inertia, parameters_of
+from armdyn.derive.names import refuse_shared, refuse_taken
 
 
 def from_energies(K, P, q, qd=None) -> Derivation:
@@ -15,7 +16,8 @@ def from_energies(K, P, q, qd=None) -> Derivation:
     M_ij = ∂²K/∂q̇_i∂q̇_j, C_ij = Σ_k h_ijk q̇_k with the Christoffel symbols h_ijk, g = ∂P/∂q.
 
     Raises ValueError, naming the term, if K is not quadratic in q̇ or has terms of lower degree,
-    if P depends on q̇, or if time appears by itself.
+    if P depends on q̇, or if time appears by itself; and, naming the symbol, if two symbols have one
+    name, or one has the name that a coordinate or a velocity gets.
     """
     K, P = _expression("K", K), _expression("P", P)
     (K, P), q, qd = _in_symbols({"K": K, "P": P}, q, qd)
@@ -39,7 +41,7 @@ def from_lagrangian(L, q, qd=None) -> Derivation:
     """M, C and g of L(q, q̇) = ½ q̇ᵀ M(q) q̇ − P(q): as `from_energies`, P being −L at q̇ = 0.
 
     Raises ValueError, naming the term, if L has a term that is neither of degree 2 in q̇ nor free
-    of it, or if time appears by itself.
+    of it, or if time appears by itself, and for names that are taken, as `from_energies`.
     """
     (L,), q, qd = _in_symbols({"L": _expression("L", L)}, q, qd)
     at_rest = L.subs(dict.fromkeys(qd, 0))
@@ -123,19 +125,19 @@ def _expression(name, value):
 def _in_symbols(energies, q, qd):
     """The energies, q and qd in plain symbols, whether q came as symbols or as functions of time."""
     q = _sequence("q", q)
+    used = set().union(*(energy.free_symbols for energy in energies.values()))
+    refuse_shared(used, " and ".join(energies))
     if q and all(isinstance(x, AppliedUndef) and len(x.args) == 1 for x in q):
-        rates = [x.diff(x.args[0]) for x in q]
+        time = _time(q)
+        rates = [x.diff(time) for x in q]
         if qd is not None and _sequence("qd", qd) != rates:
             raise ValueError(
                 f"qd = {qd!r}: with functions of time as q, leave qd out or give {rates}"
             )
-        names = [x.func.__name__ for x in q]
-        plain = [sp.Symbol(name, real=True) for name in names]
-        plain_rates = [sp.Symbol(_rate_name(name), real=True) for name in names]
+        plain, plain_rates = _plain_names(q, energies)
         # The derivatives first, while they still have a function to be derivatives of.
         found = [e.xreplace(dict(zip(rates, plain_rates, strict=True))) for e in energies.values()]
         found = [e.xreplace(dict(zip(q, plain, strict=True))) for e in found]
-        time = q[0].args[0]
         energies = dict(zip(energies, found, strict=True))
         q, qd = plain, plain_rates
         _refuse_time(energies, time)
@@ -154,6 +156,7 @@ def _in_symbols(energies, q, qd):
                 f"q = {tuple(q)}, qd = {tuple(qd)}: needs as many velocities as coordinates, "
                 "all different"
             )
+        refuse_shared(used | {*q, *qd}, f"{', '.join(energies)}, q and qd")
         for name, energy in energies.items():
             functions = energy.atoms(AppliedUndef, sp.Derivative)
             if functions:
@@ -162,6 +165,35 @@ def _in_symbols(energies, q, qd):
                     "functions of time as q"
                 )
     return tuple(energies.values()), tuple(q), tuple(qd)
+
+
+def _time(q):
+    """The one symbol that all coordinates are functions of."""
+    times = {x.args[0] for x in q}
+    if len(times) > 1 or not isinstance(q[0].args[0], sp.Symbol):
+        raise ValueError(f"q = {q}: needs functions of one symbol, time, such as {q[0].func}(t)")
+    if len(set(q)) < len(q):
+        raise ValueError(f"q = {q}: needs coordinates that are all different")
+    return times.pop()
+
+
+def _plain_names(q, energies):
+    """Symbols for coordinates and velocities; ValueError where a name of theirs is taken."""
+    coordinates = [x.func.__name__ for x in q]
+    velocities = [_rate_name(name) for name in coordinates]
+    instead = "pass symbols for q and qd instead of functions of time"
+    given: dict[str, str] = {}
+    for names, role in ((coordinates, "the coordinate"), (velocities, "the velocity of")):
+        for name, x in zip(names, q, strict=True):
+            if name in given:
+                raise ValueError(
+                    f"q = {q}: {role} {x} would be called {name}, as is {given[name]}; rename "
+                    f"one of the functions, or {instead}"
+                )
+            given[name] = f"{role} {x}"
+    for where, energy in energies.items():
+        refuse_taken(given, energy.free_symbols, where, instead)
+    return ([sp.Symbol(name, real=True) for name in names] for names in (coordinates, velocities))
 
 
 def _refuse_time(energies, time):

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from armdyn.derive.derivation import Derivation, from_inertia, parameters_of
+from armdyn.derive.names import refuse_shared, refuse_taken
 
 JOINTS = ("revolute", "prismatic")
 
@@ -58,7 +59,8 @@ def from_links(links, gravity=None, q=None, qd=None) -> Derivation:
     links: a sequence of `Link`. gravity: the gravitational acceleration in the base frame, (3,),
     m/s²; (0, 0, −g) with the symbol g where not given. P = −Σ m gravityᵀ p. q, qd: the symbols to
     use, q1…qn and qd1…qdn where not given.
-    Raises ValueError for no links, what is not a Link, or another number of symbols.
+    Raises ValueError for no links, what is not a Link, or another number of symbols; and, naming the
+    symbol, for two symbols of one name, or one of a link with the name of a coordinate or of gravity.
 
     Source: R. M. Murray, Z. Li, S. S. Sastry (1994), A Mathematical Introduction to Robotic
     Manipulation, chapter 4.
@@ -71,6 +73,7 @@ def from_links(links, gravity=None, q=None, qd=None) -> Derivation:
     qd = _symbols("qd", qd, n)
     down = sp.Matrix([0, 0, -sp.Symbol("g", real=True)]) if gravity is None else gravity
     down = _matrix("gravity", down, (3, 1))
+    _refuse_names(links, gravity, down, q, qd)
 
     M, P = sp.zeros(n, n), sp.S.Zero
     height = sp.zeros(3, 1)  # of the link's origin, in the base frame
@@ -94,13 +97,35 @@ def from_links(links, gravity=None, q=None, qd=None) -> Derivation:
         velocity = drift + _crossed(spin, link.com)
         M += link.mass * velocity.T * velocity + spin.T * link.inertia * spin
         P -= link.mass * down.dot(height + R * link.com)
-    described = [sp.Matrix([link.mass]) for link in links]
-    described += [
-        getattr(link, name)
-        for link in links
-        for name in ("axis", "position", "rotation", "com", "inertia")
-    ]
+    described = [part for link in links for part in _described(link).values()]
     return from_inertia(M, P, q, qd, parameters_of((*described, down), q, qd))
+
+
+def _described(link) -> dict:
+    names = ("axis", "position", "rotation", "com", "inertia")
+    return {"mass": link.mass, **{name: getattr(link, name) for name in names}}
+
+
+def _refuse_names(links, gravity, down, q, qd):
+    """ValueError where a link's symbol has the name of a coordinate, a velocity or gravity."""
+    given = {
+        s.name: f"a {role}" for role, s_s in (("coordinate", q), ("velocity", qd)) for s in s_s
+    }
+    if gravity is None:
+        given["g"] = "the gravitational acceleration"
+    instead = "give other symbols as q and qd, or an expression as gravity"
+    used = [*q, *qd, *down.free_symbols]
+    for k, link in enumerate(links):
+        for name, part in _described(link).items():
+            refuse_taken(given, part.free_symbols, f"links[{k}].{name}", instead)
+            used += part.free_symbols
+    refuse_taken(
+        {name: role for name, role in given.items() if name != "g"},
+        down.free_symbols,
+        "gravity",
+        instead,
+    )
+    refuse_shared(used, "links, gravity, q and qd")
 
 
 def _turn(axis, angle):

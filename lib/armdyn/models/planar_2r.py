@@ -2,12 +2,14 @@
 
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from math import cos, inf, isfinite, sin
+from inspect import getattr_static
+from math import cos, inf, sin
 
 import numpy as np
+from numpy import empty  # found a little sooner, and `dynamics` is a matter of nanoseconds
 
 from armdyn.friction import joint_friction
-from armdyn.manipulator import Manipulator
+from armdyn.manipulator import TERMS, Manipulator
 from armdyn.parameters import (
     finite,
     nonnegative,
@@ -52,13 +54,6 @@ class Planar2R(Manipulator):
     )
 
     n = 2
-
-    def __init_subclass__(cls, **keywords):
-        super().__init_subclass__(**keywords)
-        # A subclass with another M, C, g or f moves by them, not by the closed form of this one.
-        if {"M", "C", "g_vec", "f_vec"} & vars(cls).keys():
-            own = vars(cls).get("dynamics", Manipulator.dynamics)
-            cls.dynamics = own  # type: ignore[method-assign]  # what this method is for
 
     def __post_init__(self):
         checks = {"l1": positive, "l2": positive, "lc1": finite, "lc2": finite, "g": finite}
@@ -109,13 +104,25 @@ class Planar2R(Manipulator):
         """Acceleration q̈ = M⁻¹ (u − C q̇ − g − f), (2,), rad/s²; errors as in `Manipulator`.
 
         One state without friction is summed in plain floats, and M solved by Cramer's rule: for two
-        joints NumPy's calls would cost ten times the arithmetic. All else goes the general way, and
-        so does what is near a singular M or not finite, to be judged there.
+        joints NumPy's calls would cost ten times the arithmetic. All else goes the general way: what
+        is near a singular M or not finite, to be judged there, and an arm whose M, C, g or f is
+        another than this class's, from wherever it came.
         """
+        cls = type(self)
+        own = self.__dict__
         try:
-            if q.nbytes == qd.nbytes == u.nbytes == 16:  # two doubles each
-                (q1, q2), (qd1, qd2), (u1, u2) = q.tolist(), qd.tolist(), u.tolist()
-                a, b, k, G1, G2, least = self._lumped
+            a, b, k, G1, G2, least = own["_lumped"]
+            if (
+                q.dtype is qd.dtype is u.dtype is FLOAT
+                and cls.g_vec is _G
+                and cls.f_vec is _F
+                and cls.C is _C
+                and cls.M is _M
+                and (len(own) == PLAIN or TERMS.isdisjoint(own))
+            ):
+                q1, q2 = q.tolist()
+                qd1, qd2 = qd.tolist()
+                u1, u2 = u.tolist()
                 coupling, minus_h, g2 = k * cos(q2), k * sin(q2), G2 * cos(q1 + q2)
                 det = a * b - coupling * coupling
                 if det > least:
@@ -124,10 +131,13 @@ class Planar2R(Manipulator):
                     rest2 = u2 - minus_h * qd1 * qd1 - g2
                     qdd1 = (b * rest1 - M12 * rest2) / det
                     qdd2 = ((a + M12 + coupling) * rest2 - M12 * rest1) / det
-                    if isfinite(qdd1 + qdd2):
-                        qdd = np.empty(2)  # quicker to fill than np.array is to read a list
+                    if qdd1 - qdd1 == qdd2 - qdd2:  # both finite
+                        qdd = empty(2)  # quicker to fill than np.array is to read a list
                         qdd[0], qdd[1] = qdd1, qdd2
                         return qdd
+        except KeyError:
+            _ = self._lumped  # kept from now on
+            return Planar2R.dynamics(self, q, qd, u)
         except (AttributeError, TypeError, ValueError):
             pass  # not arrays of numbers: the general way says what is wrong with them
         return super().dynamics(q, qd, u)
@@ -136,14 +146,18 @@ class Planar2R(Manipulator):
     def _lumped(self) -> tuple[float, ...]:
         """M11 = a + b + 2 k cos q2, M12 = b + k cos q2, M22 = b, g1 = G1 cos q1 + g2, g2 = G2 cos q12.
 
-        Last the determinant a b − (k cos q2)² below which it has lost too many digits.
+        Last the determinant a b − (k cos q2)² below which it has lost too many digits; no
+        determinant is above that where there is friction, or a parameter that is computed anew.
         """
         a = self.I1 + self.m1 * self.lc1**2 + self.m2 * self.l1**2
         b = self.I2 + self.m2 * self.lc2**2
         k = self.m2 * self.l1 * self.lc2
         G1, G2 = (self.m1 * self.lc1 + self.m2 * self.l1) * self.g, self.m2 * self.lc2 * self.g
-        frictionless = not any(self.viscous + self.coulomb)
-        return a, b, k, G1, G2, 1e-3 * a * b if frictionless else inf
+        computed = any(
+            hasattr(getattr_static(type(self), p.name, None), "__get__") for p in fields(self)
+        )
+        plain = not computed and not any(self.viscous + self.coulomb)
+        return a, b, k, G1, G2, 1e-3 * a * b if plain else inf
 
     def potential_energy(self, q) -> np.ndarray:
         """Zero with both centres of mass at the height of joint 1, J."""
@@ -152,6 +166,18 @@ class Planar2R(Manipulator):
         height1 = self.lc1 * np.sin(q1)
         height2 = self.l1 * np.sin(q1) + self.lc2 * np.sin(q12)
         return self.g * (self.m1 * height1 + self.m2 * height2)
+
+
+# What `dynamics` writes out in closed form, and the number of entries of an arm that has no others.
+_M, _C, _G, _F = Planar2R.M, Planar2R.C, Planar2R.g_vec, Planar2R.f_vec
+FLOAT = np.dtype(float)
+PLAIN = len(fields(Planar2R)) + 1  # and what is lumped
+
+
+def as_written(arm: Planar2R) -> bool:
+    """Whether M, C, g and f of the arm are those of Planar2R, and its parameters say all of it."""
+    terms = type(arm).M, type(arm).C, type(arm).g_vec, type(arm).f_vec
+    return terms == (_M, _C, _G, _F) and TERMS.isdisjoint(vars(arm))
 
 
 def _matrix(a11, a12, a21, a22) -> np.ndarray:

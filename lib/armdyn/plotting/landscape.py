@@ -33,7 +33,7 @@ def energy_landscape(model, limits: tuple[float, float] = (-np.pi, np.pi)) -> Fi
     found = equilibria(model)
     for kind, marker in MARKS.items():
         places = [
-            place for point in found if point.kind == kind for place in _seen(point.q, limits)
+            place for point in found if point.kind == kind for place in point.between(low, high)
         ]
         style: dict[str, Any] = {
             "markersize": 11,
@@ -57,15 +57,3 @@ def energy_landscape(model, limits: tuple[float, float] = (-np.pi, np.pi)) -> Fi
     if ax.lines:
         fig.legend(loc="outside lower center", ncols=3, frameon=False)
     return fig
-
-
-def _seen(q, limits) -> list[np.ndarray]:
-    """q and its copies, whole turns away, within the limits."""
-    low, high = limits
-    turns = 2 * np.pi
-    inside = [
-        angle
-        + turns * np.arange(np.ceil((low - angle) / turns - 1e-9), (high - angle) / turns + 1e-9)
-        for angle in q
-    ]
-    return [np.array([q1, q2]) for q1 in inside[0] for q2 in inside[1]]

@@ -44,8 +44,7 @@ def phase_portrait(
         draw_phase(ax, model, x)
     for point in equilibria(model):
         full = "black" if point.kind == "minimum" else "white"
-        turns = point.q[0] + 2 * np.pi * np.arange(-9, 10)
-        places = turns[(turns >= low - 1e-9) & (turns <= high + 1e-9)]
+        places = point.between(low, high)[:, 0]
         style: dict[str, Any] = {"markerfacecolor": full, "markeredgecolor": "black"}
         style |= {"clip_on": False, "zorder": 5}
         ax.plot(

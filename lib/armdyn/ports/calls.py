@@ -10,6 +10,7 @@ import numpy as np
 from armdyn.codegen.build import cache_folder
 from armdyn.derive import Derivation, planar_chain
 from armdyn.models import Planar2R
+from armdyn.models.planar_2r import as_written
 from armdyn.parameters import finite, state_vector
 from armdyn.ports import cpp, java, matlab, wolfram
 from armdyn.ports.program import Program, Terms
@@ -132,7 +133,12 @@ def _listed(given, kind, name, numbers):
 
 
 def _flat(arm):
-    return np.hstack(dataclasses.astuple(arm))
+    if not as_written(arm):
+        raise ValueError(
+            f"model = {arm}: has another M, C, g or f than Planar2R, which the program has; needs a "
+            "Planar2R, or a Derivation"
+        )
+    return np.hstack([getattr(arm, field.name) for field in dataclasses.fields(Planar2R)])
 
 
 def _frictionless(arm):
