@@ -1,6 +1,5 @@
 """Shows a verdict in a notebook as a card; whatever the colour says, the text says too."""
 
-import cmath
 import itertools
 import math
 from html import escape
