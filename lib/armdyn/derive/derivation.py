@@ -13,8 +13,9 @@ class Derivation:
 
     q, qd: the coordinates and velocities, n symbols each. parameters: all other symbols, those too
     that dropped out on the way (the length of the last link). M, C: (n, n), C in Christoffel form.
-    g_vec: (n, 1), the gradient of P. f_vec: (n, 1), the friction, zero where not given. Units are
-    whatever the parameters bring.
+    g_vec: (n, 1), the gradient of P. f_vec: (n, 1), the friction, zero where not given. bias: (n, 1),
+    C q̇ + g where that is known in fewer operations than C has, and None otherwise; code for q̈ is
+    made of it. Units are whatever the parameters bring.
     Raises ValueError for an f_vec of another shape, or one that depends on more than q̇ and
     parameters.
 
@@ -30,6 +31,7 @@ class Derivation:
     g_vec: sp.ImmutableMatrix
     P: sp.Expr
     f_vec: sp.ImmutableMatrix = field(default=None)  # zero, set below
+    bias: sp.ImmutableMatrix | None = field(default=None)
 
     def __post_init__(self):
         given = sp.zeros(self.n, 1) if self.f_vec is None else self.f_vec
