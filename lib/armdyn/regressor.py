@@ -3,7 +3,7 @@
 Y holds only geometry (lengths, joint axes, gravity), π only inertia: per link the mass, the first
 moment m c and the inertia about the joint frame. In these, and not in ℓc and an inertia about the
 centre of mass, the equation of motion is linear. Friction is no inertial parameter: it has columns
-of its own, `friction_columns`.
+of its own, `friction_columns`; so has the inertia of motors, `armature_columns`.
 
 π per link, in this order:
 
@@ -174,6 +174,19 @@ def friction_columns(qd) -> np.ndarray:
     return np.concatenate(
         [each * qd[..., np.newaxis], each * np.sign(qd)[..., np.newaxis]], axis=-1
     )
+
+
+def armature_columns(qdd) -> np.ndarray:
+    """A with A a = the motors' part of M q̈, a the armature of each joint; (..., n, n).
+
+    qdd: (..., n), rad/s² (m/s² for a prismatic joint). Raises ValueError for a qdd that is not
+    finite numbers. The first joint's column is also that of its link's inertia about the joint's
+    axis: torque shows only the sum of the two. On some arms this holds of joints further out, too.
+
+    Source: W. Khalil, E. Dombre (2002), Modeling, Identification and Control of Robots, chapter 9.
+    """
+    size = np.shape(qdd)[-1:] or (1,)
+    return np.eye(*size) * state_vector("qdd", qdd, *size)[..., np.newaxis]
 
 
 def _planar_parameters(m, lc, ly, I) -> np.ndarray:

@@ -8,6 +8,7 @@ from armdyn.spatial import rotation
 from tests.armdyn.arms import between, frictions, inertias, masses
 
 angles = between(-3.2, 3.2)
+none = st.just(0.0)
 
 
 def points(size):
@@ -39,13 +40,14 @@ def links(draw, joints=("revolute", "prismatic")):
 
 
 @st.composite
-def spatial_chains(draw, most=4, friction=frictions):
+def spatial_chains(draw, most=4, friction=frictions, armature=none):
     chain = draw(st.lists(links(), min_size=1, max_size=most))
     return SerialChain(
         tuple(chain),
         gravity=draw(points(10)),
         viscous=draw(st.tuples(*[friction] * len(chain))),
         coulomb=draw(st.tuples(*[friction] * len(chain))),
+        armature=draw(st.tuples(*[armature] * len(chain))),
     )
 
 

@@ -45,6 +45,7 @@ def pinocchio(chain) -> Peer:
         last = model.addJoint(last, joint, placement, f"joint{k}")
         body = pin.Inertia(link.mass, np.array(link.com), np.array(link.inertia))
         model.appendBodyToJoint(last, body, pin.SE3.Identity())
+    model.armature = np.array(chain.armature)
     return of_pinocchio(model)
 
 
@@ -61,6 +62,9 @@ def of_pinocchio(model, configuration=lambda q: q) -> Peer:
     def C(q, qd):
         return pin.computeCoriolisMatrix(model, data, at(q), qd).copy()
 
+    def kinetic_energy(q, qd):
+        return pin.computeKineticEnergy(model, data, at(q), qd)
+
     def potential_energy(q):
         return pin.computePotentialEnergy(model, data, at(q))
 
@@ -74,7 +78,8 @@ def of_pinocchio(model, configuration=lambda q: q) -> Peer:
         g_vec=lambda q: pin.computeGeneralizedGravity(model, data, at(q)).copy(),
         inverse_dynamics=lambda q, qd, qdd: pin.rnea(model, data, at(q), qd, qdd).copy(),
         dynamics=lambda q, qd, u: pin.aba(model, data, at(q), qd, u).copy(),
-        kinetic_energy=lambda q, qd: pin.computeKineticEnergy(model, data, at(q), qd),
+        # Pinocchio 4.1 counts the motors of some joints only: not the K of its own M.
+        kinetic_energy=None if np.any(model.armature) else kinetic_energy,
         potential_energy=potential_energy,
     )
 
@@ -98,6 +103,8 @@ def roboticstoolbox(chain) -> Peer:
                 m=link.mass,
                 r=upright.T @ np.array(link.com),
                 I=upright.T @ np.array(link.inertia) @ upright,
+                Jm=chain.armature[len(links)],
+                G=1.0,
             )
         )
     # Its gravity is the acceleration of a falling body, whatever its documentation says.
@@ -200,14 +207,15 @@ def mjcf(chain) -> str:
         return quoteattr(" ".join(f"{x:.17g}" for x in np.ravel(numbers)))
 
     opened = []
-    for link in chain.links:
+    for link, armature in zip(chain.links, chain.armature, strict=True):
         x, y, z, w = Rotation.from_matrix(link.rotation).as_quat()
         I = np.array(link.inertia)
         full = (*np.diag(I), I[0, 1], I[0, 2], I[1, 2])
         kind = {"revolute": "hinge", "prismatic": "slide"}[link.joint]
         opened.append(
             f"<body pos={text(link.translation)} quat={text((w, x, y, z))}>"
-            f'<joint type="{kind}" axis={text(link.axis)} limited="false"/>'
+            f'<joint type="{kind}" axis={text(link.axis)} limited="false" '
+            f"armature={text(armature)}/>"
             f"<inertial pos={text(link.com)} mass={text(link.mass)} fullinertia={text(full)}/>"
         )
     return (
@@ -235,7 +243,10 @@ def drake(chain) -> Peer:
         )
         base = plant.AddFrame(tree.FixedOffsetFrame(f"joint{k}", last.body_frame(), placement))
         kind = {"revolute": tree.RevoluteJoint, "prismatic": tree.PrismaticJoint}[link.joint]
-        plant.AddJoint(kind(f"moves{k}", base, body.body_frame(), np.array(link.axis)))
+        joint = kind(f"moves{k}", base, body.body_frame(), np.array(link.axis))
+        motor = plant.AddJointActuator(f"motor{k}", plant.AddJoint(joint))
+        motor.set_default_rotor_inertia(chain.armature[k])
+        motor.set_default_gear_ratio(1.0)
         last = body
     plant.Finalize()
     context = plant.CreateDefaultContext()

@@ -1,5 +1,6 @@
 """armdyn's models against five libraries that know nothing of it."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -47,6 +48,10 @@ def spatial_chain(n, rng):
     return SerialChain(tuple(links), gravity=rng.normal(size=3) * 6)
 
 
+def with_motors(n, rng):
+    return replace(spatial_chain(n, rng), armature=rng.uniform(0.1, 3, size=n))
+
+
 def as_spatial(model) -> SerialChain:
     if isinstance(model, Planar2R):
         two = ((model.l1, model.l2), (model.lc1, model.lc2), (model.m1, model.m2))
@@ -57,6 +62,7 @@ def as_spatial(model) -> SerialChain:
 ROBOTS = {f"2r-{k}": (planar_2r, ()) for k in range(3)}
 ROBOTS |= {f"planar-{n}r": (planar_chain, (n,)) for n in range(1, 7)}
 ROBOTS |= {f"spatial-{n}-{k}": (spatial_chain, (n,)) for n in range(1, 8) for k in range(2)}
+ROBOTS |= {f"motors-{n}": (with_motors, (n,)) for n in (1, 2, 3, 6)}
 
 
 @cache
@@ -87,8 +93,16 @@ def one_by_one(function, *states):
     return [function(*state) for state in zip(*states, strict=True)]
 
 
-@pytest.mark.parametrize("name", ROBOTS)
-@pytest.mark.parametrize("library", PEERS)
+@pytest.mark.parametrize(
+    ("library", "name"),
+    # modern_robotics has no motors.
+    [
+        (library, name)
+        for library in PEERS
+        for name in ROBOTS
+        if not (library == "modern_robotics" and name.startswith("motors"))
+    ],
+)
 def test_all_terms(library, name):
     other = peer(library, name)
     model, q, qd, z = robot(name)

@@ -31,6 +31,9 @@ class SerialChain(Manipulator):
     belong to: see `armdyn.spatial`. M, C and g come from the links' Jacobians, as they are defined;
     `rnea`, `crba` and `aba` are the recursive algorithms, which need no Jacobians.
 
+    `armature` adds to M's diagonal, and so to all that follows from M, but not to C and g. The motors'
+    masses belong to the links that carry them.
+
     Raises ValueError, naming the argument, for one that is not as described. Masses and inertias may
     be zero, and M(q) may then be singular: see `Manipulator.dynamics`.
     """
@@ -47,6 +50,13 @@ class SerialChain(Manipulator):
     coulomb: tuple[float, ...] | None = field(
         default=None, metadata={"unit": "N·m or N", "doc": "Coulomb friction of each joint"}
     )
+    armature: tuple[float, ...] | None = field(
+        default=None,
+        metadata={
+            "unit": "kg·m² or kg",
+            "doc": "inertia of each joint's motor as the joint feels it: see `reflected_inertia`",
+        },
+    )
 
     def __post_init__(self):
         links = tuple(self.links) if isinstance(self.links, Sequence) else ()
@@ -62,7 +72,7 @@ class SerialChain(Manipulator):
             "links": links,
             "gravity": tuple(finite(f"gravity[{i}]", g, "m/s²") for i, g in enumerate(gravity)),
         }
-        for name in ("viscous", "coulomb"):
+        for name in ("viscous", "coulomb", "armature"):
             value = getattr(self, name)
             zero = (0.0,) * len(links)
             unit = self.__dataclass_fields__[name].metadata["unit"]
@@ -76,12 +86,12 @@ class SerialChain(Manipulator):
         return len(self.links)
 
     def M(self, q) -> np.ndarray:
-        """Σ_k J_kᵀ I_k J_k over the links, (n, n)."""
+        """Σ_k J_kᵀ I_k J_k over the links, and the armature on the diagonal, (n, n)."""
         q = state_vector("q", q, self.n)
         M = np.zeros((*q.shape, self.n))
         for I, J in zip(self._inertias, self._jacobians(self._transforms(q)), strict=True):
             M += np.swapaxes(J, -1, -2) @ I @ J
-        return (M + np.swapaxes(M, -1, -2)) / 2
+        return (M + np.swapaxes(M, -1, -2)) / 2 + np.diag(self.armature)
 
     def C(self, q, qd) -> np.ndarray:
         """Christoffel form, (n, n): Σ_k J_kᵀ (I_k J̇_k + B_k J_k) over the links.
@@ -148,7 +158,10 @@ class SerialChain(Manipulator):
         return np.stack(list(self._jacobians(self._transforms(q))), axis=-3)
 
     def link_inertias(self) -> np.ndarray:
-        """Spatial inertia of each link about its frame, (n, 6, 6): M = Σ_k J_kᵀ I_k J_k."""
+        """Spatial inertia of each link about its frame, (n, 6, 6): of M = Σ_k J_kᵀ I_k J_k.
+
+        Without the armature, which belongs to no link.
+        """
         return self._inertias.copy()
 
     def rnea(self, q, qd, qdd) -> np.ndarray:
@@ -169,7 +182,8 @@ class SerialChain(Manipulator):
             a = np.matvec(X, a) + self._screws[k] * qdd[..., k : k + 1]
             a = a + np.matvec(motion_cross(v), moved)
             forces.append(np.matvec(I, a) + np.matvec(force_cross(v), np.matvec(I, v)))
-        u = self.f_vec(qd) + np.zeros(np.broadcast_shapes(q.shape, qd.shape, qdd.shape))
+        u = self.f_vec(qd) + np.array(self.armature) * qdd
+        u = u + np.zeros(np.broadcast_shapes(q.shape, qd.shape, qdd.shape))
         force = np.zeros(6)
         for k in reversed(range(self.n)):
             force = force + forces[k]
@@ -190,7 +204,7 @@ class SerialChain(Manipulator):
         for k in reversed(range(self.n)):
             composite = composite + self._inertias[k]
             force = composite @ self._screws[k]
-            M[..., k, k] = force @ self._screws[k]
+            M[..., k, k] = force @ self._screws[k] + self.armature[k]
             for j in reversed(range(k)):
                 force = np.vecmat(force, transforms[j + 1])
                 M[..., j, k] = M[..., k, j] = force @ self._screws[j]
@@ -201,10 +215,12 @@ class SerialChain(Manipulator):
         """q̈ = M⁻¹ (u − C q̇ − g − f), (n,), in a number of operations proportional to n.
 
         The articulated-body algorithm. Raises numpy.linalg.LinAlgError, naming the joint, where
-        the links from that joint outwards put up no resistance to its motion, to rounding.
+        the links from that joint outwards and its motor put up no resistance to its motion, to
+        rounding.
 
         Source: R. Featherstone (1983), The Calculation of Robot Dynamics Using Articulated-Body
-        Inertias, International Journal of Robotics Research 2(1).
+        Inertias, International Journal of Robotics Research 2(1); for motors, R. Featherstone
+        (2008), Rigid Body Dynamics Algorithms, chapter 9.
         """
         q, qd, u = state_vectors(self.n, q=q, qd=qd, u=u)
         transforms = self._transforms(q)
@@ -220,7 +236,7 @@ class SerialChain(Manipulator):
         for k in reversed(range(self.n)):
             inertia, bias = inertia + self._inertias[k], bias + biases[k]
             held = inertia @ self._screws[k]
-            resistance = (held @ self._screws[k])[..., np.newaxis]
+            resistance = (held @ self._screws[k] + self.armature[k])[..., np.newaxis]
             self._refuse_idle(k, resistance[..., 0], inertia)
             free = (effort[..., k : k + 1] - (bias @ self._screws[k])[..., np.newaxis]) / resistance
             drag = held / resistance
