@@ -91,7 +91,7 @@ class SerialChain(Manipulator):
         M = np.zeros((*q.shape, self.n))
         for I, J in zip(self._inertias, self._jacobians(self._transforms(q)), strict=True):
             M += np.swapaxes(J, -1, -2) @ I @ J
-        return (M + np.swapaxes(M, -1, -2)) / 2 + np.diag(self.armature)
+        return (M + np.swapaxes(M, -1, -2)) / 2 + np.diag(np.array(self.armature))
 
     def C(self, q, qd) -> np.ndarray:
         """Christoffel form, (n, n): Σ_k J_kᵀ (I_k J̇_k + B_k J_k) over the links.
@@ -199,12 +199,12 @@ class SerialChain(Manipulator):
         """
         q = state_vector("q", q, self.n)
         transforms = self._transforms(q)
-        M = np.empty((*q.shape, self.n))
+        M, armature = np.empty((*q.shape, self.n)), np.array(self.armature)
         composite = np.zeros((6, 6))
         for k in reversed(range(self.n)):
             composite = composite + self._inertias[k]
             force = composite @ self._screws[k]
-            M[..., k, k] = force @ self._screws[k] + self.armature[k]
+            M[..., k, k] = force @ self._screws[k] + armature[k]
             for j in reversed(range(k)):
                 force = np.vecmat(force, transforms[j + 1])
                 M[..., j, k] = M[..., k, j] = force @ self._screws[j]
@@ -232,11 +232,11 @@ class SerialChain(Manipulator):
             biases.append(np.matvec(force_cross(v), np.matvec(I, v)))
         effort = u - self.f_vec(qd)
         outwards: list = []
-        inertia, bias = np.zeros((6, 6)), np.zeros(6)
+        inertia, bias, armature = np.zeros((6, 6)), np.zeros(6), np.array(self.armature)
         for k in reversed(range(self.n)):
             inertia, bias = inertia + self._inertias[k], bias + biases[k]
             held = inertia @ self._screws[k]
-            resistance = (held @ self._screws[k] + self.armature[k])[..., np.newaxis]
+            resistance = (held @ self._screws[k] + armature[k])[..., np.newaxis]
             self._refuse_idle(k, resistance[..., 0], inertia)
             free = (effort[..., k : k + 1] - (bias @ self._screws[k])[..., np.newaxis]) / resistance
             drag = held / resistance
