@@ -13,7 +13,7 @@ from sympy.printing.codeprinter import PrintMethodNotImplementedError
 from sympy.printing.numpy import NumPyPrinter
 from sympy.printing.precedence import PRECEDENCE
 
-from armdyn.codegen import straight_line
+from armdyn.codegen import graph, straight_line
 from armdyn.codegen.buffers import in_buffers
 from armdyn.codegen.program import ShortFloats, unknown_function
 from armdyn.derive import Derivation
@@ -225,8 +225,8 @@ def _checked(derivation, values):
 
 def _refuse_unknown(derivation):
     """ValueError for a function that has no code, now and not when it is first called."""
-    parts = [*derivation.M, *derivation.C, *derivation.g_vec, derivation.P]
-    functions = {type(f): f for part in parts for f in sp.sympify(part).atoms(sp.Function)}
+    every = map(sp.sympify, [*derivation.M, *derivation.C, *derivation.g_vec, derivation.P])
+    functions = {type(e): e for e in graph.parts(every) if isinstance(e, sp.Function)}
     for function in functions.values():
         program = straight_line.terms(derivation, [function])
         given = [f"{name}_{i}" for name in "qv" for i in range(derivation.n)]

@@ -57,11 +57,14 @@ def serial_chain(chain, inertial_symbols: bool = False, tolerance: float = 1e-9)
             parameters += named
     found = frames(chain.links, chain.gravity, masses, tolerance)
     arm = Recursion(terms, found, q, qd)
+    M = arm.inertia()
+    for k, motor in enumerate(chain.armature):
+        M[k][k] = M[k][k] + motor
     derived = Derivation(
         q,
         qd,
         tuple(parameters),
-        _matrix(arm.inertia()),
+        _matrix(M),
         _matrix(arm.coriolis()),
         _matrix([arm.gravity_vector()]).T,
         arm.potential_energy().expression,
