@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 
 import sympy as sp
 
+
 def parts(expressions) -> Iterator[sp.Basic]:
     """Every part of the expressions once, each after its own parts."""
     met = set()
@@ -53,7 +54,8 @@ def shared(expressions, names) -> tuple[list, list]:
     for e in every:
         if _is_negative(e) and uses[e] > 1:
             uses[e.args[1]] += uses[e] - 1
-    steps, found = [], {}
+    steps: list[tuple[sp.Symbol, sp.Expr]] = []
+    found: dict[sp.Basic, sp.Basic] = {}
     for e in every:
         args = [found[a] for a in e.args]
         found[e] = e if args == list(e.args) else _rebuilt(e, args)

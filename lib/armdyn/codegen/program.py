@@ -8,6 +8,7 @@ from sympy.core.function import AppliedUndef
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 from sympy.simplify.fu import TR8
 
+from armdyn.codegen import graph
 from armdyn.codegen.naming import TermNames, checked_name, identifiers, meaning
 
 # Beyond this, combining products of sines would take seconds, so it is left out.
@@ -86,10 +87,15 @@ def program(derivation, name: str, reserved, **spelling) -> Program:
         for symbols in (derivation.q, derivation.qd, derivation.parameters)
     )
     taken = {*reserved, name, *(s.name for s in named.values())}
-    routines = {
-        part: _routine(part, sp.sympify(e).xreplace(named), q, qd, parameters, taken)
-        for part, e in parts.items()
-    }
+    routines = {}
+    for part, expression in parts.items():
+        entries = _entries(expression)
+        if derivation.bias is None:
+            entries = [entry.xreplace(named) for entry in entries]
+            found = _shortest(entries)
+        else:
+            found = graph.shared(graph.replaced(entries, named), sp.numbered_symbols(cls=sp.Dummy))
+        routines[part] = _routine(part, expression, found, (q, qd, parameters), taken)
     return Program(
         name=name,
         q=q,
@@ -104,23 +110,26 @@ def program(derivation, name: str, reserved, **spelling) -> Program:
 
 
 def _check(part, expression, symbols):
-    unknown = expression.free_symbols - set(symbols)
+    every = list(graph.parts(_entries(expression)))
+    unknown = {e for e in every if e.is_Symbol} - set(symbols)
     if unknown:
         raise ValueError(
             f"{part} depends on {', '.join(sorted(s.name for s in unknown))}: "
             "needs q, qd and parameters only"
         )
-    for odd in expression.atoms(AppliedUndef, sp.Derivative, sp.Integral):
-        raise ValueError(f"{part} contains {odd}: needs functions whose values are known")
+    for odd in every:
+        if isinstance(odd, AppliedUndef | sp.Derivative | sp.Integral):
+            raise ValueError(f"{part} contains {odd}: needs functions whose values are known")
 
 
-def _routine(part, expression, q, qd, parameters, taken) -> Routine:
-    entries = list(expression) if isinstance(expression, sp.MatrixBase) else [expression]
+def _entries(expression):
+    return list(expression) if isinstance(expression, sp.MatrixBase) else [sp.sympify(expression)]
+
+
+def _routine(part, expression, found, symbols, taken) -> Routine:
+    q, qd, parameters = symbols
     places = _places(part, expression)
-    shared, outs = min(
-        (sp.cse(form, symbols=sp.numbered_symbols(cls=sp.Dummy)) for form in _forms(entries)),
-        key=_operations,
-    )
+    shared, outs = found
     wanted: dict = {}
     for out, place in zip(outs, places, strict=True):
         wanted.setdefault(out, place)  # a symmetric entry has the name of the first
@@ -159,6 +168,11 @@ def _places(part, expression):
         return [f"{part}{i + 1}" for i in range(rows)]
     between = "" if rows < 10 else "x"
     return [f"{part}{i + 1}{between}{j + 1}" for i in range(rows) for j in range(columns)]
+
+
+def _shortest(entries):
+    forms = (sp.cse(f, symbols=sp.numbered_symbols(cls=sp.Dummy)) for f in _forms(entries))
+    return min(forms, key=_operations)
 
 
 def _forms(entries):

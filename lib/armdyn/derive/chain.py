@@ -36,9 +36,9 @@ def serial_chain(chain, inertial_symbols: bool = False, tolerance: float = 1e-9)
     beside its others. 1e-9 clears what a file with ten digits leaves of a right angle; a file that
     writes 1.5708 needs 1e-5.
 
-    The expressions share their parts, so that they are far longer when written out than the code that
-    `armdyn.codegen` makes of them: for six joints or more, avoid what walks through all of an expression,
-    as `free_symbols` and `simplify` do. `bias` is C q̇ + g by the recursion of Newton and Euler.
+    The expressions share their parts. The code that `armdyn.codegen` makes of them is short; written
+    out, they are a thousand times as long. So for six joints or more do not print or simplify them,
+    or ask for their `free_symbols`. `bias` is C q̇ + g by the recursion of Newton and Euler.
 
     Raises ValueError, naming the argument, for a tolerance that is not a number from 0 to 0.01.
     """

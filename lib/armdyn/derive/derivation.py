@@ -37,6 +37,12 @@ class Derivation:
         given = sp.zeros(self.n, 1) if self.f_vec is None else self.f_vec
         object.__setattr__(self, "f_vec", _friction(given, self.n, self.qd, self.parameters))
 
+    def __repr__(self):
+        # Written out, M, C and g of a robot would fill a book.
+        q = ", ".join(s.name for s in self.q)
+        parameters = ", ".join(s.name for s in self.parameters) or "none"
+        return f"<Derivation in {q}; parameters: {parameters}>"
+
     @property
     def n(self) -> int:
         """The number of coordinates."""

@@ -167,7 +167,8 @@ def _regrouped(joints, tolerance, length):
     J = [np.zeros_like(joints[0].J), *(joint.J.copy() for joint in joints)]
     if J[0].dtype == object:
         J[0] = J[0] + 0 * J[1]
-    size = [np.abs(entry) if entry.dtype == float else None for entry in J]
+    numeric = J[0].dtype == float
+    size = [np.abs(entry) if numeric else np.zeros((4, 4)) for entry in J]
     for k in reversed(range(len(joints))):
         unmoved = np.zeros((4, 4), dtype=bool)
         # On the axis of a turning link; the turning inertia of one that slides.
@@ -176,7 +177,7 @@ def _regrouped(joints, tolerance, length):
         part = np.where(unmoved, J[k + 1], 0 * J[k + 1])
         J[k + 1] = np.where(unmoved, 0 * J[k + 1], J[k + 1])
         J[k] = J[k] + T.astype(J[k].dtype) @ part @ T.T.astype(J[k].dtype)
-        if J[k].dtype == float:
+        if numeric:
             J[k + 1] = _significant(J[k + 1], size[k + 1], tolerance, length)
             size[k] = size[k] + np.abs(T) @ np.where(unmoved, size[k + 1], 0) @ np.abs(T).T
     kept = [replace(joint, J=entry) for joint, entry in zip(joints, J[1:], strict=True)]

@@ -1,75 +1,23 @@
-"""The recursions of a serial chain from link to link, in terms.
-
-Everything of a link is in the link's own frame of `derive.frames`: z is the joint's axis. Vectors are
-lists of three terms; a symmetric second moment is a dictionary of its upper triangle.
-"""
+"""The recursions of a serial chain from link to link, in terms."""
 
 from functools import cached_property
 
-import numpy as np
-import sympy as sp
-
-from armdyn.derive.frames import Frames, Joint
+from armdyn.derive.frames import Frames
 from armdyn.derive.terms import Term, Terms
-
-UPPER = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
-
-
-class Link:
-    """A link's own masses, and vectors carried to it and back over its joint."""
-
-    def __init__(self, terms: Terms, joint: Joint, q: sp.Symbol, qd: sp.Symbol):
-        self.terms, self.revolute, self.qd = terms, joint.revolute, terms(qd)
-        self.about_x = terms(joint.cos), terms(joint.sin)
-        c, s = terms(np.cos(joint.offset)), terms(np.sin(joint.offset))
-        if joint.revolute:
-            angle = sp.Add(q, sp.Float(joint.offset)) if joint.offset else q
-            c, s = terms(sp.cos(angle)), terms(sp.sin(angle))
-        for _ in range(joint.quarters % 4):
-            c, s = -s, c
-        self.about_z = c, s
-        self.position = [terms(x) for x in joint.position]
-        if not joint.revolute:
-            along = (0.0, -joint.sin, joint.cos)
-            self.position = [x + a * terms(q) for x, a in zip(self.position, along, strict=True)]
-        self.second = {at: terms(joint.J[at]) for at in UPPER}
-        self.first = [terms(joint.J[i, 3]) for i in range(3)]
-        self.mass = terms(joint.J[3, 3])
-
-    def outwards(self, v):
-        """A vector from the coordinates of the link before to this link's."""
-        x, y, z = v
-        c, s = self.about_x
-        y, z = _turned(c, -s, y, z)
-        c, s = self.about_z
-        return [*_turned(c, -s, x, y), z]
-
-    def inwards(self, v):
-        """A vector from this link's coordinates to those of the link before."""
-        x, y, z = v
-        x, y = _turned(*self.about_z, x, y)
-        return [x, *_turned(*self.about_x, y, z)]
-
-    def second_inwards(self, S):
-        """R S Rᵀ of a symmetric S."""
-        xx, xy, yy = _turned_square(*self.about_z, S[0, 0], S[0, 1], S[1, 1])
-        xz, yz = _turned(*self.about_z, S[0, 2], S[1, 2])
-        yy, yz, zz = _turned_square(*self.about_x, yy, yz, S[2, 2])
-        xy, xz = _turned(*self.about_x, xy, xz)
-        return dict(zip(UPPER, (xx, xy, xz, yy, yz, zz), strict=True))
-
-    def axis_part(self, angular, linear):
-        """The joint's share of a velocity or a force: along z."""
-        return angular[2] if self.revolute else linear[2]
+from armdyn.derive.vectors import UPPER, MovingLink, cross, dot, plus
 
 
 class Recursion:
-    """The equation of motion of a chain, term by term."""
+    """The equation of motion of a chain in its new frames, as terms.
+
+    A wrench is (moment, force), the moment about the origin of the link it is given in. `momenta`,
+    `outward_masses` and the like are computed once and shared by what is asked for.
+    """
 
     def __init__(self, terms: Terms, found: Frames, q, qd):
         self.terms, self.found = terms, found
         joints = zip(found.joints, q, qd, strict=True)
-        self.links = [Link(terms, joint, x, v) for joint, x, v in joints]
+        self.links = [MovingLink(terms, joint, x, v) for joint, x, v in joints]
         self.n = len(self.links)
         self.zero = terms(0.0)
 
@@ -81,7 +29,7 @@ class Recursion:
         for k in reversed(range(self.n)):
             link = self.links[k]
             second = {at: second[at] + link.second[at] for at in UPPER}
-            first = _plus(first, link.first)
+            first = plus(first, link.first)
             mass = mass + link.mass
             found[k] = second, first, mass
             p, h = link.position, link.inwards(first)
@@ -137,8 +85,8 @@ class Recursion:
     def potential_energy(self) -> Term:
         """P."""
         link, (_, first, mass) = self.links[0], self.outward_masses[0]
-        carried = _dot(self.terms, first, self._pulls[0])
-        offset = _dot(self.terms, link.position, map(self.terms, self.found.gravity))
+        carried = dot(self.terms, first, self._pulls[0])
+        offset = dot(self.terms, link.position, map(self.terms, self.found.gravity))
         return self.terms.sum((self.terms(self.found.still), -carried, -(mass * offset)))
 
     @cached_property
@@ -168,7 +116,7 @@ class Recursion:
         before, wrenches = None, []
         for link, spin in zip(self.links, self.spins, strict=True):
             if before is not None:
-                push = _plus(push, [_dot(self.terms, row, link.position) for row in before])
+                push = plus(push, [dot(self.terms, row, link.position) for row in before])
             push, rate = link.outwards(push), link.outwards(rate)
             # ω × z q̇, which the axis adds.
             sideways = [spin[1] * link.qd, -(spin[0] * link.qd)]
@@ -186,7 +134,7 @@ class Recursion:
         x, y, z = (w * w for w in spin)
         add = self.terms.sum
         force = [
-            add((link.mass * a, _dot(self.terms, row, h))) for a, row in zip(push, U, strict=True)
+            add((link.mass * a, dot(self.terms, row, h))) for a, row in zip(push, U, strict=True)
         ]
         moment = [
             add(
@@ -217,13 +165,13 @@ class Recursion:
                 )
             ),
         ]
-        return _plus(moment, _cross(h, push)), force
+        return plus(moment, cross(h, push)), force
 
     def _axis_parts(self, wrenches):
         found: list = [None] * self.n
         moment, force = [self.zero] * 3, [self.zero] * 3
         for k in reversed(range(self.n)):
-            moment, force = _plus(moment, wrenches[k][0]), _plus(force, wrenches[k][1])
+            moment, force = plus(moment, wrenches[k][0]), plus(force, wrenches[k][1])
             found[k] = self.links[k].axis_part(moment, force)
             moment, force = self._wrench_inwards(k, moment, force)
         return found
@@ -232,7 +180,7 @@ class Recursion:
         """A moment about link k's origin, and a force, as those about the origin before."""
         link = self.links[k]
         force = link.inwards(force)
-        return _plus(link.inwards(moment), _cross(link.position, force)), force
+        return plus(link.inwards(moment), cross(link.position, force)), force
 
     def coriolis(self) -> list[list[Term]]:
         """C: for the axes i ≤ j as twists S, C_ij = S_iᵀ(I Ṡ_j + B S_j) and
@@ -253,7 +201,7 @@ class Recursion:
                 right = [self.zero] * 3, [self.zero] * 3
                 couple = [p[1], -p[0], self.zero]
             moment, force = self._momentum(j, *turning)
-            moment, force = _plus(moment, right[0]), _plus(force, right[1])
+            moment, force = plus(moment, right[0]), plus(force, right[1])
             C[j][j] = link.axis_part(moment, force)
             for i in reversed(range(j)):
                 moment, force = self._wrench_inwards(i + 1, moment, force)
@@ -292,7 +240,7 @@ class Recursion:
         """The velocity of each link's origin."""
         velocity, found, before = [self.zero] * 3, [], [self.zero] * 3
         for link, spin in zip(self.links, self.spins, strict=True):
-            velocity = link.outwards(_plus(velocity, _cross(before, link.position)))
+            velocity = link.outwards(plus(velocity, cross(before, link.position)))
             if not link.revolute:
                 velocity = [*velocity[:2], velocity[2] + link.qd]
             found.append(velocity)
@@ -308,19 +256,17 @@ class Recursion:
         for k in reversed(range(self.n)):
             link, spin, velocity = self.links[k], self.spins[k], self._velocities[k]
             h = link.first
-            p = _plus(p, [m * v for m, v in ((link.mass, v) for v in velocity)])
-            p = _plus(p, _cross(spin, h))
+            p = plus(p, [link.mass * v for v in velocity])
+            p = plus(p, cross(spin, h))
             for i in range(3):
                 row = [link.second[min(i, j), max(i, j)] for j in range(3)]
-                own = _plus([h[i] * v for v in velocity], _cross(spin, row))
-                Q[i] = _plus(Q[i], own)
+                own = plus([h[i] * v for v in velocity], cross(spin, row))
+                Q[i] = plus(Q[i], own)
             found[k] = [list(row) for row in Q], p
             p = link.inwards(p)
             turned = [link.inwards(row) for row in Q]
             columns = [link.inwards([row[j] for row in turned]) for j in range(3)]
-            Q = [
-                [columns[j][i] + link.position[i] * p[j] for j in range(3)] for i in range(3)
-            ]
+            Q = [[columns[j][i] + link.position[i] * p[j] for j in range(3)] for i in range(3)]
         return found
 
 
@@ -333,28 +279,3 @@ def _pull_of_turning(spin, rate):
         [xy + c, -(xx + zz), yz - a],
         [xz - b, yz + a, -(xx + yy)],
     ]
-
-
-def _turned(c, s, x, y):
-    return c * x - s * y, s * x + c * y
-
-
-def _turned_square(c, s, a, b, d):
-    """[[a, b], [b, d]] turned, as (a, b, d)."""
-    if s.is_zero or c.is_zero:
-        return (a, b, d) if s.is_zero else (d, -b, a)
-    u, w = c * a - s * b, c * b - s * d
-    first = c * u - s * w
-    return first, s * u + c * w, a + d - first
-
-
-def _plus(a, b):
-    return [x + y for x, y in zip(a, b, strict=True)]
-
-
-def _cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def _dot(terms, a, b):
-    return terms.sum([x * y for x, y in zip(a, b, strict=True)])

@@ -38,7 +38,8 @@ class Terms:
 
     def sum(self, terms: Iterable) -> "Term":
         """Σ terms as one node."""
-        number, addends = 0.0, {}
+        number = 0.0
+        addends: dict[sp.Expr, float] = {}
         for term in map(self, terms):
             if term.node is None:
                 number += term.factor

@@ -263,6 +263,12 @@ class SerialChain(Manipulator):
                 "so q̈ is not determined"
             )
 
+    def derivation(self, inertial_symbols: bool = False, tolerance: float = 1e-9):
+        """M, C, g, P and f in symbols, for `armdyn.codegen`: see `armdyn.derive.serial_chain`."""
+        from armdyn.derive import serial_chain  # the one door from models to derive
+
+        return serial_chain(self, inertial_symbols, tolerance)
+
     @cached_property
     def _inertias(self) -> np.ndarray:
         return np.stack(
