@@ -51,6 +51,7 @@ def forward_dynamics(derivation: Derivation) -> StraightLine:
             bias = [_fewest(_sum(products), n), lifted(derivation.g_vec[i])]
         else:
             bias = [lifted(derivation.bias[i])]
+        bias.append(lifted(derivation.f_vec[i]))
         torques.append(_sum([sp.Symbol(f"u_{i}"), *map(lifted.negative, bias)]))
     entries = [lifted(derivation.M[i, j]) for i, j in lower]
     steps, found = lifted.shared([*entries, *torques], "x_")
