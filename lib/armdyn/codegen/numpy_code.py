@@ -13,10 +13,10 @@ from sympy.printing.codeprinter import PrintMethodNotImplementedError
 from sympy.printing.numpy import NumPyPrinter
 from sympy.printing.precedence import PRECEDENCE
 
-from armdyn.codegen import graph, straight_line
+from armdyn.codegen import straight_line
 from armdyn.codegen.buffers import in_buffers
 from armdyn.codegen.program import ShortFloats, unknown_function
-from armdyn.derive import Derivation
+from armdyn.derive import Derivation, graph
 from armdyn.manipulator import Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
 

@@ -8,8 +8,8 @@ from sympy.core.function import AppliedUndef
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 from sympy.simplify.fu import TR8
 
-from armdyn.codegen import graph
 from armdyn.codegen.naming import TermNames, checked_name, identifiers, meaning
+from armdyn.derive import graph
 
 # Beyond this, combining products of sines would take seconds, so it is left out.
 COMBINED_UP_TO = 120

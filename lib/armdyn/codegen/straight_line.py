@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from armdyn.codegen import graph
-from armdyn.derive import Derivation
+from armdyn.derive import Derivation, graph
 
 
 @dataclass(frozen=True)

@@ -47,16 +47,17 @@ def serial_chain(chain, inertial_symbols: bool = False, tolerance: float = 1e-9)
         raise ValueError(f"tolerance = {tolerance}: needs a number from 0 to {LARGEST_TOLERANCE}")
     n = len(chain.links)
     q, qd = (sp.symbols(f"{name}1:{n + 1}", real=True) for name in ("q", "qd"))
-    parameters: list[sp.Symbol] = []
     terms = Terms()
-    masses = [_masses(link) for link in chain.links]
     if inertial_symbols:
-        for k in range(n):
-            named = sp.symbols([f"{name}{k + 1}" for name in INERTIAL], real=True)
-            masses[k] = _masses_of([terms(symbol) for symbol in named])
-            parameters += named
-    found = frames(chain.links, chain.gravity, masses, tolerance)
-    arm = Recursion(terms, found, q, qd)
+        names = [f"{name}{k}" for k in range(1, n + 1) for name in INERTIAL]
+        parameters = sp.symbols(names, real=True)
+        # Of all links' parameters, in each link's J its own ten.
+        masses = [_masses_of(np.eye(10, 10 * n, 10 * k)) for k in range(n)]
+    else:
+        parameters = []
+        masses = [_masses(link)[..., np.newaxis] for link in chain.links]
+    basis = [terms(symbol) for symbol in parameters] or [terms(1)]
+    arm = Recursion(terms, basis, frames(chain.links, chain.gravity, masses, tolerance), q, qd)
     M = arm.inertia()
     for k, motor in enumerate(chain.armature):
         M[k][k] = M[k][k] + motor
@@ -85,7 +86,8 @@ def _masses(link) -> np.ndarray:
 
 
 def _masses_of(parameters) -> np.ndarray:
-    """The same of m, m c and the inertia about the frame's origin, in the order of INERTIAL."""
+    """The same of m, m c and the inertia about the frame's origin, in the order of INERTIAL; (10, p)
+    gives (4, 4, p)."""
     m, x, y, z, xx, xy, yy, xz, yz, zz = parameters
     half = 0.5 * (xx + yy + zz)
     return np.array(

@@ -3,8 +3,11 @@
 import re
 from dataclasses import dataclass, field, replace
 
+import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
+
+from armdyn.derive import graph
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,27 @@ class Derivation:
         q = ", ".join(s.name for s in self.q)
         parameters = ", ".join(s.name for s in self.parameters) or "none"
         return f"<Derivation in {q}; parameters: {parameters}>"
+
+    def __getstate__(self):
+        state = dict(self.__dict__)
+        if self.bias is not None:
+            matrices = (self.M, self.C, self.g_vec, self.bias)
+            state["bias"] = graph.packed([self.P, *(e for m in matrices for e in m)])
+            for name in ("M", "C", "g_vec", "P"):
+                del state[name]
+        return state
+
+    def __setstate__(self, state):
+        if state["bias"] is not None:
+            P, *entries = graph.unpacked(state["bias"])
+            n = len(state["q"])
+            ends = np.cumsum([n * n, n * n, n])
+            state["P"] = P
+            for name, part in zip(
+                ("M", "C", "g_vec", "bias"), np.split(entries, ends), strict=True
+            ):
+                state[name] = sp.ImmutableMatrix(n, len(part) // n, list(part))
+        self.__dict__.update(state)
 
     @property
     def n(self) -> int:

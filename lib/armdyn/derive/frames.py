@@ -6,7 +6,8 @@ entries of the joints' rotations 0 or 1. What lies on a joint's axis does not fe
 to the link before, it leaves seven inertial numbers a revolute link instead of ten.
 
 The masses of a link are one symmetric (4, 4) matrix J = ∫ x xᵀ dm over the points x = [r; 1]: second
-moments Σ, first moments h and the mass m. Placed at T, they are T J Tᵀ.
+moments Σ, first moments h and the mass m. Placed at T, they are T J Tᵀ. Here its entries are
+coefficients, (4, 4, p), of p inertial parameters; of the number 1 where the masses are numbers.
 
 Sources: J. Denavit, R. S. Hartenberg (1955), A Kinematic Notation for Lower-Pair Mechanisms Based on
 Matrices; M. Gautier, W. Khalil (1990), Direct Calculation of Minimum Set of Inertial Parameters of
@@ -28,7 +29,7 @@ class Joint:
 
     revolute: it turns about z, by q + offset + quarters·π/2; otherwise it slides along z by q, and
     the same angle without q is fixed. One of offset and quarters is 0. cos, sin: of the angle about
-    x. position: (3,), at q = 0, m. J: (4, 4), the link's masses, floats or `Term`s.
+    x. position: (3,), at q = 0, m. J: (4, 4, p), the link's masses.
     """
 
     revolute: bool
@@ -52,37 +53,33 @@ class Frames:
     """The chain in new frames.
 
     gravity: (3,), in the frame that the first joint starts from, m/s². still: P less that of the
-    masses in the joints' J, with that frame's origin at height 0, J; a number or a `Term`.
+    masses in the joints' J, with that frame's origin at height 0, (p,), J.
     """
 
     joints: tuple[Joint, ...]
     gravity: np.ndarray
-    still: object
+    still: np.ndarray
 
 
 def frames(links, gravity, masses, tolerance: float) -> Frames:
     """The same chain in the frames described above.
 
     links: with joint, axis, rotation and translation each, as `armdyn.models.Link` has them. masses:
-    J of each link in its own frame, (4, 4), floats or `Term`s. What is at most `tolerance` times the
-    largest of its kind is taken for 0.
+    J of each link in its own frame, (4, 4, p). What is at most `tolerance` times the largest of its
+    kind is taken for 0.
     """
     length = max(float(np.max(np.abs(link.translation))) for link in links) or 1.0
     gravity = np.array(gravity, dtype=float)
     base, transforms, moved = _new_frames(links, gravity, tolerance, length)
     joints = []
     for link, transform, at, J in zip(links, transforms, moved, masses, strict=True):
-        back = np.linalg.inv(at)
-        back[:3, :3] = _axes_cleared(back[:3, :3], tolerance)
-        back[:3, 3] = _cleared(back[:3, 3], tolerance * length)
-        J = back.astype(J.dtype) @ J @ back.T.astype(J.dtype)
+        J = _carried(np.linalg.inv(at), J)
         joints.append(_joint(link.joint == "revolute", transform, J, tolerance, length))
     total = sum(J[3, 3] for J in masses)
     pull = base[:3, :3].T @ gravity
     pull = _cleared(pull, tolerance * np.linalg.norm(pull))
     regrouped, rest = _regrouped(joints, tolerance, length)
-    height = sum(rest[i, 3] * pull[i] for i in range(3)) + total * float(gravity @ base[:3, 3])
-    return Frames(tuple(regrouped), pull, -height)
+    return Frames(tuple(regrouped), pull, -(pull @ rest[:3, 3]) - total * (gravity @ base[:3, 3]))
 
 
 def _new_frames(links, gravity, tolerance, length):
@@ -164,22 +161,17 @@ def _joint(revolute, transform, J, tolerance, length):
 
 def _regrouped(joints, tolerance, length):
     """(joints, J of the base) with what a joint does not move counted to the link before it."""
-    J = [np.zeros_like(joints[0].J), *(joint.J.copy() for joint in joints)]
-    if J[0].dtype == object:
-        J[0] = J[0] + 0 * J[1]
-    numeric = J[0].dtype == float
-    size = [np.abs(entry) if numeric else np.zeros((4, 4)) for entry in J]
+    J = [np.zeros_like(joints[0].J), *(joint.J for joint in joints)]
+    size = [np.abs(entry) for entry in J]
     for k in reversed(range(len(joints))):
-        unmoved = np.zeros((4, 4), dtype=bool)
+        unmoved = np.zeros((4, 4, 1), dtype=bool)
         # On the axis of a turning link; the turning inertia of one that slides.
         unmoved[(slice(2, 4),) * 2 if joints[k].revolute else (slice(0, 3),) * 2] = True
         T = joints[k].transform
-        part = np.where(unmoved, J[k + 1], 0 * J[k + 1])
-        J[k + 1] = np.where(unmoved, 0 * J[k + 1], J[k + 1])
-        J[k] = J[k] + T.astype(J[k].dtype) @ part @ T.T.astype(J[k].dtype)
-        if numeric:
-            J[k + 1] = _significant(J[k + 1], size[k + 1], tolerance, length)
-            size[k] = size[k] + np.abs(T) @ np.where(unmoved, size[k + 1], 0) @ np.abs(T).T
+        J[k] = J[k] + _carried(T, np.where(unmoved, J[k + 1], 0))
+        size[k] = size[k] + _carried(np.abs(T), np.where(unmoved, size[k + 1], 0))
+        left = np.where(unmoved, 0, J[k + 1])
+        J[k + 1] = _significant(left, size[k + 1], tolerance, length)
     kept = [replace(joint, J=entry) for joint, entry in zip(joints, J[1:], strict=True)]
     return kept, J[0]
 
@@ -187,10 +179,16 @@ def _regrouped(joints, tolerance, length):
 def _significant(J, size, tolerance, length):
     """J without the entries that are rounding beside those they were computed from."""
     mass = size[3, 3]
-    floor = np.full((4, 4), max(np.max(size[:3, :3]), tolerance * mass * length**2))
-    floor[:3, 3] = floor[3, :3] = max(np.max(size[:3, 3]), mass * length)
-    floor[3, 3] = mass
-    return np.where(np.abs(J) <= tolerance * floor, 0.0, J)
+    largest = np.empty_like(J)
+    largest[:3, :3] = np.maximum(np.max(size[:3, :3], axis=(0, 1)), tolerance * mass * length**2)
+    largest[:3, 3] = largest[3, :3] = np.maximum(np.max(size[:3, 3], axis=0), mass * length)
+    largest[3, 3] = mass
+    return _cleared(J, tolerance * largest)
+
+
+def _carried(T, J):
+    """T J Tᵀ of each parameter."""
+    return np.einsum("ij,jkp,lk->ilp", T, J, T)
 
 
 def _cleared(values, least):

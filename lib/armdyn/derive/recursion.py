@@ -14,10 +14,10 @@ class Recursion:
     `outward_masses` and the like are computed once and shared by what is asked for.
     """
 
-    def __init__(self, terms: Terms, found: Frames, q, qd):
-        self.terms, self.found = terms, found
+    def __init__(self, terms: Terms, basis: list[Term], found: Frames, q, qd):
+        self.terms, self.basis, self.found = terms, basis, found
         joints = zip(found.joints, q, qd, strict=True)
-        self.links = [MovingLink(terms, joint, x, v) for joint, x, v in joints]
+        self.links = [MovingLink(terms, basis, joint, x, v) for joint, x, v in joints]
         self.n = len(self.links)
         self.zero = terms(0.0)
 
@@ -86,8 +86,9 @@ class Recursion:
         """P."""
         link, (_, first, mass) = self.links[0], self.outward_masses[0]
         carried = dot(self.terms, first, self._pulls[0])
-        offset = dot(self.terms, link.position, map(self.terms, self.found.gravity))
-        return self.terms.sum((self.terms(self.found.still), -carried, -(mass * offset)))
+        offset = dot(self.terms, link.position, [self.terms(g) for g in self.found.gravity])
+        still = dot(self.terms, self.found.still, self.basis)
+        return self.terms.sum((still, -carried, -(mass * offset)))
 
     @cached_property
     def _pulls(self):

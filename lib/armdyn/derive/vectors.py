@@ -8,15 +8,18 @@ import numpy as np
 import sympy as sp
 
 from armdyn.derive.frames import Joint
-from armdyn.derive.terms import Terms
+from armdyn.derive.terms import Term, Terms
 
 UPPER = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 
 class MovingLink:
-    """A link's own masses, and vectors carried to it and back over its joint."""
+    """A link's own masses, and vectors carried to it and back over its joint.
 
-    def __init__(self, terms: Terms, joint: Joint, q: sp.Symbol, qd: sp.Symbol):
+    basis: the inertial parameters, whose coefficients the joint has.
+    """
+
+    def __init__(self, terms: Terms, basis: list[Term], joint: Joint, q: sp.Symbol, qd: sp.Symbol):
         self.terms, self.revolute, self.qd = terms, joint.revolute, terms(qd)
         self.about_x = terms(joint.cos), terms(joint.sin)
         c, s = terms(np.cos(joint.offset)), terms(np.sin(joint.offset))
@@ -30,9 +33,9 @@ class MovingLink:
         if not joint.revolute:
             along = (0.0, -joint.sin, joint.cos)
             self.position = [x + a * terms(q) for x, a in zip(self.position, along, strict=True)]
-        self.second = {at: terms(joint.J[at]) for at in UPPER}
-        self.first = [terms(joint.J[i, 3]) for i in range(3)]
-        self.mass = terms(joint.J[3, 3])
+        self.second = {at: dot(terms, joint.J[at], basis) for at in UPPER}
+        self.first = [dot(terms, joint.J[i, 3], basis) for i in range(3)]
+        self.mass = dot(terms, joint.J[3, 3], basis)
 
     def outwards(self, v):
         """A vector from the coordinates of the link before to this link's."""
@@ -86,4 +89,4 @@ def cross(a, b):
 
 def dot(terms, a, b):
     """aᵀ b as one sum."""
-    return terms.sum([x * y for x, y in zip(a, b, strict=True)])
+    return terms.sum([terms(x) * y for x, y in zip(a, b, strict=True)])

@@ -9,6 +9,8 @@ from collections.abc import Iterator, Mapping
 
 import sympy as sp
 
+_KINDS = {"sum": sp.Add, "product": sp.Mul, "power": sp.Pow}
+
 
 def parts(expressions) -> Iterator[sp.Basic]:
     """Every part of the expressions once, each after its own parts."""
@@ -64,6 +66,32 @@ def shared(expressions, names) -> tuple[list, list]:
             steps.append((symbol, found[e]))
             found[e] = symbol
     return steps, [found[e] for e in expressions]
+
+
+def packed(expressions) -> list[tuple]:
+    """The graph as a table that `unpacked` reads: a row for each part, then the expressions' rows.
+
+    SymPy's own pickles evaluate every sum and product again. What is none, as a sine, is kept whole.
+    """
+    places: dict[sp.Basic, int] = {}
+    rows: list[tuple] = []
+    for e in parts(expressions):
+        places[e] = len(rows)
+        kind = next((name for name, of in _KINDS.items() if isinstance(e, of)), None)
+        rows.append((kind, tuple(places[a] for a in e.args)) if kind else (e,))
+    return [*rows, tuple(places[e] for e in expressions)]
+
+
+def unpacked(table: list[tuple]) -> list[sp.Expr]:
+    """The expressions of `packed`."""
+    found: list[sp.Basic] = []
+    for row in table[:-1]:
+        if len(row) == 1:
+            found.append(row[0])
+        else:
+            kind, places = row
+            found.append(_KINDS[kind](*(found[i] for i in places), evaluate=False))
+    return [found[i] for i in table[-1]]
 
 
 def _is_negative(e):
