@@ -68,7 +68,8 @@ def frames(links, gravity, masses, tolerance: float) -> Frames:
     J of each link in its own frame, (4, 4, p). What is at most `tolerance` times the largest of its
     kind is taken for 0.
     """
-    length = max(float(np.max(np.abs(link.translation))) for link in links) or 1.0
+    places = [place for link in links for place in (link.translation, link.com)]
+    length = float(np.max(np.abs(places))) or 1.0
     gravity = np.array(gravity, dtype=float)
     base, transforms, moved = _new_frames(links, gravity, tolerance, length)
     joints = []
