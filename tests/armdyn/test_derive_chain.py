@@ -213,6 +213,11 @@ def test_a_derivation_is_kept_and_shown():
     assert repr(derive.planar_chain(1)) == "<Derivation in q1; parameters: l1, lc1, m1, I1, g>"
 
 
+def test_a_bias_of_another_shape_is_named():
+    with pytest.raises(ValueError, match=r"bias = .*needs a matrix of shape \(7, 1\)"):
+        replace(panda().derivation(), bias=[0] * 7)
+
+
 @pytest.mark.parametrize("tolerance", [-1e-9, 0.1, np.nan, "1e-9", None])
 def test_a_tolerance_that_is_none_is_named(tolerance):
     with pytest.raises(ValueError, match=r"tolerance = .*(needs|must not be negative)"):

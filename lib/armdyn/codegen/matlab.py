@@ -87,12 +87,15 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
 def _head(model: Program, signature, summary):
     yield f"function {signature}"
     yield f"% {summary}"
+    arm = (
+        "arm: a struct with" if model.parameters else "arm: not read, as nothing is left to choose"
+    )
     coordinates = f"{model.n} x 1: {', '.join(s.name for s in model.q)}"
     if "(qd" in signature:
-        yield f"% qd: the velocities of q, {coordinates}. arm: a struct with"
+        yield f"% qd: the velocities of q, {coordinates}. {arm}"
     else:
         velocities = ", and qd, their velocities" if "qd" in signature else ""
-        yield f"% q, {coordinates}{velocities}. arm: a struct with"
+        yield f"% q, {coordinates}{velocities}. {arm}"
     yield from model.fields("%   {}", " ")
     yield "%"
     yield from (f"% {line}" for line in model.header())

@@ -19,7 +19,7 @@ class Derivation:
     g_vec: (n, 1), the gradient of P. f_vec: (n, 1), the friction, zero where not given. bias: (n, 1),
     C q̇ + g where that is known in fewer operations than C has, and None otherwise; code for q̈ is
     made of it. Units are whatever the parameters bring.
-    Raises ValueError for an f_vec of another shape, or one that depends on more than q̇ and
+    Raises ValueError for an f_vec or a bias of another shape, or one that depends on more than q̇ and
     parameters.
 
     Nothing is simplified: the expressions keep the structure in which subexpressions are shared,
@@ -39,6 +39,10 @@ class Derivation:
     def __post_init__(self):
         given = sp.zeros(self.n, 1) if self.f_vec is None else self.f_vec
         object.__setattr__(self, "f_vec", _friction(given, self.n, self.qd, self.parameters))
+        if self.bias is not None and getattr(self.bias, "shape", None) != (self.n, 1):
+            raise ValueError(
+                f"bias = {self.bias!r}: needs a matrix of shape ({self.n}, 1), or None"
+            )
 
     def __repr__(self):
         # Written out, M, C and g of a robot would fill a book.

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +19,9 @@ from armdyn.spatial import (
     rotation,
     swapped_cross,
 )
+
+if TYPE_CHECKING:
+    from armdyn.derive import Derivation
 
 
 @dataclass(frozen=True)
@@ -263,7 +267,7 @@ class SerialChain(Manipulator):
                 "so q̈ is not determined"
             )
 
-    def derivation(self, inertial_symbols: bool = False, tolerance: float = 1e-9):
+    def derivation(self, inertial_symbols: bool = False, tolerance: float = 1e-9) -> "Derivation":
         """M, C, g, P and f in symbols, for `armdyn.codegen`: see `armdyn.derive.serial_chain`."""
         from armdyn.derive import serial_chain  # the one door from models to derive
 
