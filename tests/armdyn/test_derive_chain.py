@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from armdyn import PlanarChain, SerialChain, codegen, derive, ports, regressor
 from armdyn.derive import graph
+from armdyn.derive.frames import frames
 from armdyn.spatial import rotation
 from tests.armdyn.arms import assert_close, vectors
 from tests.armdyn.chains import links, spatial, spatial_chains
@@ -170,37 +171,71 @@ def parts_of(*matrices):
     return len(list(graph.parts([entry for matrix in matrices for entry in matrix])))
 
 
+def sizes(*derivations):
+    """The parts of M and C. Not inside an assert: pytest would write out what it was called with."""
+    return [parts_of(d.M, d.C) for d in derivations]
+
+
 @pytest.mark.parametrize(("quarter", "tolerance"), [(1.5708, 1e-5), (1.57079632679, 1e-9)])
 def test_what_a_file_leaves_of_right_angles_is_cleared(quarter, tolerance):
     exact, written = panda(), panda(quarter)
-    derivation, untouched = written.derivation(tolerance=tolerance), written.derivation(tolerance=0)
-    count = parts_of(derivation.M, derivation.C)
-    assert count == parts_of(exact.derivation().M, exact.derivation().C)
-    assert parts_of(untouched.M, untouched.C) > 1.3 * count
-    assert_agrees(exact, derivation, {}, states(7), 10 * tolerance)
+    cleared, untouched = (written.derivation(tolerance=t) for t in (tolerance, 0))
+    right, found, more = sizes(exact.derivation(), cleared, untouched)
+    assert found == right
+    assert more > 1.3 * right
+    assert_agrees(exact, cleared, {}, states(7), 10 * tolerance)
+
+
+def test_what_a_file_leaves_of_moments_is_cleared():
+    def arm(noise):
+        links_ = [
+            replace(
+                body,
+                com=(noise, -noise, body.com[2]),
+                inertia=np.diag(np.diag(body.inertia)) + noise * (1 - np.eye(3)),
+            )
+            for body in panda().links
+        ]
+        return SerialChain(tuple(links_))
+
+    even, uneven = arm(0.0), arm(1e-13)
+    right, found, more = sizes(
+        even.derivation(), uneven.derivation(), uneven.derivation(tolerance=0)
+    )
+    assert found == right
+    assert more > 1.3 * right
+
+
+def test_seven_numbers_are_left_of_a_turning_link():
+    rng = np.random.default_rng(5)
+    masses = [np.cov(rng.normal(size=(4, 9)))[..., np.newaxis] for _ in range(7)]
+    found = frames(ARMS["Panda"].links, (0, 0, -9.81), masses, 1e-9)
+    left = [np.count_nonzero(np.triu(joint.J[..., 0])) for joint in found.joints]
+    assert left == [7] * 7
 
 
 def test_what_an_arm_does_not_feel_is_not_in_its_equation():
-    upright = panda().derivation()
+    upright, leaning = panda().derivation(), panda(gravity=(1, 0, -9)).derivation()
     q, qd = upright.q, upright.qd
-    assert graph.symbols(upright.M) == set(q[1:])
-    assert graph.symbols([*upright.C, *upright.bias]) == {*q[1:], *qd}
-    assert graph.symbols([*upright.g_vec, upright.P]) == set(q[1:])
+    in_M, in_g, in_P = (graph.symbols(e) for e in (upright.M, upright.g_vec, [upright.P]))
+    assert in_M == in_g == in_P == set(q[1:])
+    moving = graph.symbols([*upright.C, *upright.bias])
+    assert moving == {*q[1:], *qd}
     assert upright.g_vec[0] == 0
-    leaning = panda(gravity=(1, 0, -9)).derivation()
-    assert graph.symbols(leaning.M) == set(q[1:])
-    assert graph.symbols(leaning.g_vec) == set(q)
+    in_M, in_g = graph.symbols(leaning.M), graph.symbols(leaning.g_vec)
+    assert in_M == set(q[1:])
+    assert in_g == set(q)
 
 
 def test_a_plane_arm_in_space_is_as_short_as_in_the_plane():
     rng = np.random.default_rng(2)
-    l, lc, m, I, ly = rng.uniform(0.1, 1, size=(5, 4))
-    planar = PlanarChain(l, lc, m, I, ly=ly)
+    planar = PlanarChain(*rng.uniform(0.1, 1, size=(4, 4)), ly=rng.uniform(0.1, 1, size=4))
     derivation, other = spatial(planar).derivation(), derive.planar_chain(4, offsets=True)
-    assert parts_of(derivation.M) < 1.5 * parts_of(other.M)
-    assert parts_of(derivation.g_vec) < 1.5 * parts_of(other.g_vec)
-    symbols = graph.symbols([*derivation.M, *derivation.C])
-    assert symbols == {*derivation.q[1:], *derivation.qd}
+    for name in ("M", "g_vec"):
+        ours, theirs = (parts_of(getattr(d, name)) for d in (derivation, other))
+        assert ours < 1.5 * theirs
+    read = graph.symbols([*derivation.M, *derivation.C])
+    assert read == {*derivation.q[1:], *derivation.qd}
 
 
 def test_a_derivation_is_kept_and_shown():
