@@ -9,6 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from armdyn import PlanarChain, SerialChain, codegen, derive, ports, regressor
+from armdyn.codegen import straight_line
+from armdyn.codegen.vocabulary import writable
 from armdyn.derive import graph
 from armdyn.derive.frames import frames
 from armdyn.spatial import rotation
@@ -257,3 +259,13 @@ def test_a_bias_of_another_shape_is_named():
 def test_a_tolerance_that_is_none_is_named(tolerance):
     with pytest.raises(ValueError, match=r"tolerance = .*(needs|must not be negative)"):
         panda().derivation(tolerance=tolerance)
+
+
+def test_writing_keeps_what_is_shared():
+    derivation = panda().derivation()
+    right, found = sizes(derivation, writable(derivation, "Java"))
+    assert found == right
+    operations = sum(
+        term.count_ops() for _, term in straight_line.forward_dynamics(derivation).steps
+    )
+    assert operations < 1300

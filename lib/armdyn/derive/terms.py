@@ -56,7 +56,7 @@ class Terms:
         sign = -1.0 if addends[nodes[0]] < 0 else 1.0
         parts = [self._scaled(sign * addends[node], node) for node in nodes]
         if number != 0:
-            parts.append(sp.Float(sign * number))
+            parts.append(self._number(sign * number))
         return Term(self, sign, self.node(sp.Add(*parts, evaluate=False)))
 
     def product(self, a: "Term", b: "Term") -> "Term":
@@ -76,8 +76,11 @@ class Terms:
     def _scaled(self, factor, node):
         if factor == 1:
             return node
-        number = sp.S.NegativeOne if factor == -1 else sp.Float(factor)
-        return self.node(sp.Mul(number, node, evaluate=False))
+        return self.node(sp.Mul(self._number(factor), node, evaluate=False))
+
+    def _number(self, value):
+        """The one node for a number."""
+        return self.node(sp.Integer(value) if value in (-1, 0, 1) else sp.Float(value))
 
 
 class Term:
@@ -92,7 +95,7 @@ class Term:
     def expression(self) -> sp.Expr:
         """The term in SymPy."""
         if self.node is None:
-            return sp.Integer(self.factor) if self.factor in (-1, 0, 1) else sp.Float(self.factor)
+            return self.terms._number(self.factor)
         return self.terms._scaled(self.factor, self.node)
 
     @property
