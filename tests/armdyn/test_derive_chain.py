@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,7 +20,7 @@ from tests.armdyn.chains import links, spatial, spatial_chains
 from tests.armdyn.robots import panda
 
 # An example is a derivation, and code of it: tenths of a second.
-few = settings(deadline=None, max_examples=12)
+few = settings(deadline=None, max_examples=8)
 BATCH = (3,)
 QUARTER = np.pi / 2
 
@@ -248,6 +249,39 @@ def test_a_derivation_is_kept_and_shown():
         assert same, name
     assert repr(derivation) == "<Derivation in q1, q2, q3, q4, q5, q6, q7; parameters: none>"
     assert repr(derive.planar_chain(1)) == "<Derivation in q1; parameters: l1, lc1, m1, I1, g>"
+
+
+def test_christoffel_symbols_are_the_slopes_of_c():
+    arm = ARMS["three joints"]
+    derivation = arm.derivation()
+    h = list(derivation.christoffel())
+    compute = sp.lambdify(
+        derivation.q, h, cse=lambda e: graph.shared(e, sp.numbered_symbols("step"))
+    )
+    q, qd, _ = states(arm.n, batch=())
+    h = np.array(compute(*q), dtype=float).reshape([arm.n] * 3)
+    size = size_of(arm, qd)
+    assert_close(h @ qd, arm.C(q, qd), size, 1e-13)
+    assert_close(h, np.swapaxes(h, 1, 2), size, 1e-13)
+
+
+def test_slopes_are_those_of_sympy():
+    x, y = sp.symbols("x y", real=True)
+    shared = sp.Add(x, sp.Mul(-1, y, evaluate=False), evaluate=False)
+    product = sp.Mul(3, shared, sp.sin(shared), evaluate=False)
+    expressions = [
+        product,
+        sp.Mul(1, x, evaluate=False),
+        sp.Pow(product, -2, evaluate=False),
+        sp.atan2(y, shared),
+        y,
+        sp.pi,
+    ]
+    for e, row in zip(expressions, graph.slopes(expressions, (x, y)), strict=True):
+        for symbol, slope in zip((x, y), row, strict=True):
+            assert sp.simplify(slope.doit() - e.doit().diff(symbol)) == 0
+    with pytest.raises(ValueError, match="needs sums, products, powers and smooth functions"):
+        graph.slopes([sp.Piecewise((x, x > 0), (0, True))], (x,))
 
 
 def test_a_bias_of_another_shape_is_named():

@@ -78,7 +78,11 @@ class Derivation:
 
     def christoffel(self) -> sp.ImmutableDenseNDimArray:
         """h[i, j, k], (n, n, n), the Christoffel symbols of the first kind of M."""
-        return christoffel_symbols(self.M, self.q)
+        if self.bias is None:
+            return christoffel_symbols(self.M, self.q)
+        # C_ij = Σ_k h_ijk q̇_k.
+        rows = graph.slopes(list(self.C), self.qd)
+        return sp.ImmutableDenseNDimArray(rows, (self.n,) * 3)
 
     def equations(self, qdd, u) -> tuple[sp.Eq, ...]:
         """The n equations of motion (M q̈ + C q̇ + g + f)_i = u_i.

@@ -94,6 +94,53 @@ def unpacked(table: list[tuple]) -> list[sp.Expr]:
     return [found[i] for i in table[-1]]
 
 
+def slopes(expressions, symbols) -> list[list[sp.Expr]]:
+    """∂e/∂s for each expression e, in rows, and each symbol s, with shared parts as the expressions.
+
+    Raises ValueError for a Piecewise that depends on a symbol.
+    """
+    every = list(parts(expressions))
+    columns = [_slopes(every, symbol) for symbol in symbols]
+    return [[column[e] for column in columns] for e in expressions]
+
+
+def _slopes(every, symbol):
+    found: dict[sp.Basic, sp.Expr] = {}
+    for e in every:
+        moving = [i for i, a in enumerate(e.args) if found[a] != 0]
+        if not moving:
+            found[e] = sp.S.One if e == symbol else sp.S.Zero
+        elif e.is_Add:
+            found[e] = _sum([found[e.args[i]] for i in moving])
+        elif e.is_Mul:
+            found[e] = _sum(
+                [_product([*e.args[:i], found[e.args[i]], *e.args[i + 1 :]]) for i in moving]
+            )
+        elif isinstance(e, sp.Piecewise) or not isinstance(e, sp.Expr):
+            raise ValueError(f"{e}: needs sums, products, powers and smooth functions")
+        else:
+            stand_ins = [sp.Dummy(real=True) for _ in e.args]
+            back = dict(zip(stand_ins, e.args, strict=True))
+            outer = e.func(*stand_ins)
+            by_argument = replaced([outer.diff(stand_ins[i]) for i in moving], back)
+            found[e] = _sum(
+                [_product([a, found[e.args[i]]]) for a, i in zip(by_argument, moving, strict=True)]
+            )
+    return found
+
+
+def _sum(addends):
+    addends = [a for a in addends if a != 0]
+    return sp.Add(*addends, evaluate=False) if len(addends) > 1 else sum(addends, sp.S.Zero)
+
+
+def _product(factors):
+    number = sp.prod([f for f in factors if f.is_Number])
+    rest = [f for f in factors if not f.is_Number]
+    factors = rest if number == 1 else [number, *rest]
+    return sp.Mul(*factors, evaluate=False) if len(factors) > 1 else sp.prod(factors)
+
+
 def _is_negative(e):
     return e.is_Mul and len(e.args) == 2 and e.args[0] is sp.S.NegativeOne
 
