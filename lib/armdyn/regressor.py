@@ -3,7 +3,7 @@
 Y holds only geometry (lengths, joint axes, gravity), π only inertia: per link the mass, the first
 moment m c and the inertia about the joint frame. In these, and not in ℓc and an inertia about the
 centre of mass, the equation of motion is linear. Friction is no inertial parameter: it has columns
-of its own, `friction_columns`.
+of its own, `friction_columns`; so has the inertia of motors, `armature_columns`.
 
 π per link, in this order:
 

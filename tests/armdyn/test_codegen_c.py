@@ -7,7 +7,6 @@ import pytest
 import sympy as sp
 from hypothesis import given
 
-from armdyn import Planar2R
 from armdyn.codegen import (
     CompiledModel,
     NoCompilerError,
@@ -21,9 +20,7 @@ from armdyn.derive import from_energies, planar_2r, planar_chain
 from armdyn.manipulator import Manipulator
 from armdyn.simulate import simulate
 from tests.armdyn.arms import a_few, arms_and_states, assert_close, planar_arms
-from tests.armdyn.derivations import EXAMPLES, states, values
-
-NAMES = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "g")
+from tests.armdyn.derivations import EXAMPLES, hiding, parameters, states, values, with_friction
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -46,8 +43,7 @@ def arm(compiler):
 @given(arms_and_states(planar_arms()))
 def test_agrees_with_the_closed_form(arm_and_states):
     arm, q, qd, u = arm_and_states
-    chosen = {name: getattr(arm, name) for name in NAMES}
-    arm, model = Planar2R(**chosen), c_model(planar_2r(), chosen)
+    model = c_model(with_friction(planar_2r()), parameters(arm))
     needed = arm.dynamics(q, qd, u)
     spread = np.linalg.cond(arm.M(q)).max() * max(1.0, np.max(np.abs(needed)))
     assert_close(model.dynamics(q, qd, u), needed, spread, 1e-13)
@@ -141,6 +137,21 @@ def test_rk4_of_many_arms_is_that_of_each(arm, arms):
     assert arm.rk4(x0[:0], u[:0], 1e-3, 2).shape == (0, 3, 4)
 
 
+@pytest.mark.usefixtures("compiler")
+def test_rk4_has_the_friction(arm):
+    """It takes energy out at the rate q̇ᵀ f."""
+    d = with_friction(planar_2r())
+    model = c_model(
+        d, arm.values | {"viscous1": 0.3, "viscous2": 0.2, "coulomb1": 0.1, "coulomb2": 0}
+    )
+    x, dt = model.rk4([1.0, 0.5, 0.0, 0.0], [0.0, 0.0], 1e-3, 1000), 1e-3
+    q, qd = x[:, :2], x[:, 2:]
+    lost = np.trapezoid(np.vecdot(qd, model.f_vec(qd)), dx=dt)
+    energy = model.energy(q, qd)
+    assert lost > 0.01
+    assert energy[0] - energy[-1] == pytest.approx(lost, rel=1e-4)
+
+
 def test_rk4_keeps_the_energy(arm):
     x = arm.rk4([1.0, 0.5, 0.0, 0.0], [0.0, 0.0], 1e-3, 2000)
     energy = arm.energy(x[:, :2], x[:, 2:])
@@ -182,6 +193,24 @@ def test_what_is_not_finite_is_named(arm, which, bad):
         arm.dynamics(*one)
     with pytest.raises(ValueError, match=named):
         arm.dynamics_floats(*np.concatenate(one).tolist())
+
+
+@pytest.mark.usefixtures("compiler")
+@pytest.mark.parametrize("which", range(2))
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_what_is_not_finite_is_named_where_the_acceleration_is(which, bad):
+    model = c_model(hiding(), {})
+    for row in (0, 40):
+        many = np.zeros((3, 41, 1))
+        many[which, row] = bad
+        named = rf"{['q', 'qd'][which]}\[{row}, 0\] = {bad}"
+        for call in (model.dynamics, model.dynamics_many):
+            with pytest.raises(ValueError, match=named):
+                call(*many)
+    with pytest.raises(ValueError, match=rf"{['q', 'qd'][which]}\[0\] = {bad}"):
+        model.dynamics(*many[:, 40])
+    with pytest.raises(ValueError, match=rf"{['q', 'qd'][which]}\[0\] = {bad}"):
+        model.dynamics_floats(*many[:, 40, 0].tolist())
 
 
 def test_wrong_calls(arm):

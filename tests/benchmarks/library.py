@@ -15,7 +15,8 @@ import pinocchio as pin
 import sympy as sp
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
-from armdyn import Planar2R, codegen, derive
+from armdyn import Planar2R, SerialChain, codegen, derive
+from tests.armdyn.robots import panda
 from tests.benchmarks import report
 from tests.benchmarks.timing import Row, in_turn, table
 
@@ -83,6 +84,56 @@ def many_states(generated, compiled) -> list[Row]:
         peer = looped * STATES / LOOPED
         rows.append(Row(f"a million 2R states, {name}", ours, "looped aba", peer, 1 / goal))
     return rows
+
+
+def pinocchio_chain(chain: SerialChain):
+    """A chain of joints about z in Pinocchio, whose fastest joints they are."""
+    model = pin.Model()
+    model.gravity.linear = np.array(chain.gravity)
+    at = 0
+    for k, link in enumerate(chain.links):
+        place = pin.SE3(np.array(link.rotation), np.array(link.translation))
+        at = model.addJoint(at, pin.JointModelRZ(), place, f"joint{k}")
+        body = pin.Inertia(link.mass, np.array(link.com), np.array(link.inertia))
+        model.appendBodyToJoint(at, body, pin.SE3.Identity())
+    return model, model.createData()
+
+
+def panda_states(compiled) -> list[Row]:
+    """A published arm of seven joints, from its links to C."""
+    model, data = pinocchio_chain(panda())
+    q, qd, u = np.random.default_rng(2).uniform(-2, 2, size=(3, 1000, 7))
+    expected = [pin.aba(model, data, *state) for state in zip(q, qd, u, strict=True)]
+    np.testing.assert_allclose(compiled.dynamics_many(q, qd, u), expected, rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(compiled.dynamics(q[0], qd[0], u[0]), expected[0], rtol=1e-10)
+
+    def loop():
+        for k in range(1000):
+            pin.aba(model, data, q[k], qd[k], u[k])
+
+    first = q[0], qd[0], u[0]
+    one = in_turn(
+        lambda: compiled.dynamics(*first), lambda: pin.aba(model, data, *first), 2000, rounds=40
+    )
+    many = in_turn(lambda: compiled.dynamics_many(q, qd, u), loop, number=3, rounds=20)
+    what = "Panda forward dynamics, one state: generated C, arrays"
+    return [
+        Row(what, one[0], "Pinocchio aba", one[1], 1.0),
+        Row("a thousand Panda states, generated C", many[0], "looped aba", many[1], 1 / 5),
+    ]
+
+
+def panda_written() -> str:
+    """A sentence on how long a derivation, and source in the languages, take."""
+
+    def derived_and_written():
+        derivation = panda().derivation()
+        for write in (codegen.cpp, codegen.java, codegen.matlab, codegen.wolfram):
+            write(derivation)
+        codegen.c_code.source(codegen.straight_line.forward_dynamics(derivation), 7)
+
+    taken = seconds(derived_and_written)
+    return f"The Panda from links to source in five languages: {taken:.1f} s (goal: 10 s).\n"
 
 
 def lagranges_method(n: int):
@@ -229,6 +280,7 @@ def main(files: list[str]) -> None:
     rows = [
         *one_state(arm, compiled),
         *many_states(generated, compiled),
+        *panda_states(codegen.c_model(panda().derivation(), {})),
         *derivations(),
         *simulated,
     ]
@@ -238,7 +290,7 @@ def main(files: list[str]) -> None:
     counted = (
         f"Operations of M, C and g after cse, planar chain, n = 6: {operations} (goal: 700).\n"
     )
-    text = f"{HOW}{report.machine()}.\n\n{table(rows)}\n{drifted}{counted}"
+    text = f"{HOW}{report.machine()}.\n\n{table(rows)}\n{drifted}{counted}{panda_written()}"
     print(text)
     for file in files:
         report.put(Path(file), "The library", text, measured=("ours", "ratio"))

@@ -1,18 +1,9 @@
 """Writes a derivation as a Java record for EJML."""
 
-from sympy import E, pi
 from sympy.printing.c import C89CodePrinter
 
-from armdyn.codegen.program import (
-    ARGUMENTS,
-    FUNCTIONS,
-    Program,
-    ShortFloats,
-    code,
-    program,
-    rows,
-    wrapped,
-)
+from armdyn.codegen.printing import CFamily, code
+from armdyn.codegen.program import ARGUMENTS, FUNCTIONS, Program, program, rows, wrapped
 
 # fmt: off
 KEYWORDS = {
@@ -40,11 +31,11 @@ RESERVED = {*KEYWORDS, *METHODS, "Math", "SimpleMatrix", *FUNCTIONS, *ARGUMENTS}
 def java(derivation, name: str = "Arm") -> str:
     """The file `name`.java (Java 16, EJML): a record of the parameters, with the equation's functions.
 
-    M(q), C(q, qd), g_vec(q), potential_energy(q) and dynamics(q, qd, u) take and give SimpleMatrix
-    columns. A name that Java reserves gets `_` added; the file's first comment says so.
+    M(q), C(q, qd), g_vec(q), f_vec(qd), potential_energy(q) and dynamics(q, qd, u) take and give
+    SimpleMatrix columns. A name that Java reserves gets `_` added; the file's first comment says so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
-    model = program(derivation, name, RESERVED)
+    model = program(derivation, "Java", name, RESERVED)
     return "\n".join([*(f"// {line}" for line in model.header()), *_file(model), ""])
 
 
@@ -58,11 +49,14 @@ def _file(model: Program):
     yield from _function("SimpleMatrix C(SimpleMatrix q, SimpleMatrix qd)", model.C)
     yield "  /** The gravity vector, the gradient of the potential energy. */"
     yield from _function("SimpleMatrix g_vec(SimpleMatrix q)", model.g_vec)
+    yield "  /** The friction; it opposes the motion. */"
+    yield from _function("SimpleMatrix f_vec(SimpleMatrix qd)", model.f_vec)
     yield "  /** The potential energy, J. */"
     yield from _function("double potential_energy(SimpleMatrix q)", model.P)
     yield "  /** The accelerations qdd for the inputs u. */"
     yield "  public SimpleMatrix dynamics(SimpleMatrix q, SimpleMatrix qd, SimpleMatrix u) {"
-    yield "    return M(q).solve(u.minus(C(q, qd).mult(qd)).minus(g_vec(q)));"
+    yield "    SimpleMatrix force = u.minus(C(q, qd).mult(qd)).minus(g_vec(q)).minus(f_vec(qd));"
+    yield "    return M(q).solve(force);"
     yield from ("  }", "}")
 
 
@@ -83,8 +77,8 @@ def _function(head, routine):
     yield from ("  }", "")
 
 
-class _JavaPrinter(ShortFloats, C89CodePrinter):
-    """SymPy's C printer with the functions of java.lang.Math."""
+class _JavaPrinter(CFamily, C89CodePrinter):
+    """SymPy's C printer with the functions of java.lang.Math, which lacks three hyperbolic ones."""
 
     language = "Java"
     reserved_words: frozenset[str] = frozenset()  # what is reserved has another name by now
@@ -93,10 +87,29 @@ class _JavaPrinter(ShortFloats, C89CodePrinter):
         "Abs": "Math.abs",
         "ceiling": "Math.ceil",
     }
-    _print_Mod = C89CodePrinter._print_not_supported
 
     def __init__(self):
-        super().__init__({"strict": True, "math_macros": {pi: "Math.PI", E: "Math.E"}})
+        super().__init__({"strict": True, "math_macros": {}})
+
+    def _print_Pi(self, _):
+        return "Math.PI"
+
+    def _print_Exp1(self, _):
+        return "Math.E"
+
+    # log1p keeps the digits of small arguments.
+    def _print_asinh(self, expression):
+        x = f"({self._print(expression.args[0])})"
+        rest = f"{x}*{x}/(1 + Math.sqrt({x}*{x} + 1))"
+        return f"(Math.signum({x})*Math.log1p(Math.abs({x}) + {rest}))"
+
+    def _print_acosh(self, expression):
+        x = f"({self._print(expression.args[0])})"
+        return f"Math.log1p({x} - 1 + Math.sqrt(({x} - 1)*({x} + 1)))"
+
+    def _print_atanh(self, expression):
+        x = f"({self._print(expression.args[0])})"
+        return f"(0.5*Math.log1p(2*{x}/(1 - {x})))"
 
     def _print_sign(self, expression):
         return f"Math.signum({self._print(expression.args[0])})"
@@ -115,4 +128,4 @@ class _JavaPrinter(ShortFloats, C89CodePrinter):
 
 
 def _code(expression):
-    return code(_JavaPrinter(), expression, "Java")
+    return code(_JavaPrinter(), expression)

@@ -1,19 +1,13 @@
 """Writes a derivation as MATLAB functions, for Octave too."""
 
 import re
+from typing import ClassVar
 
+import sympy as sp
 from sympy.printing.octave import OctaveCodePrinter, known_fcns_src1, known_fcns_src2
 
-from armdyn.codegen.program import (
-    ARGUMENTS,
-    FUNCTIONS,
-    Program,
-    ShortFloats,
-    code,
-    program,
-    rows,
-    wrapped,
-)
+from armdyn.codegen.printing import Logic, ShortFloats, code
+from armdyn.codegen.program import ARGUMENTS, FUNCTIONS, Program, program, rows, wrapped
 
 # fmt: off
 KEYWORDS = {
@@ -38,12 +32,12 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
     """The files of a MATLAB package `name`, one function each: file name → source.
 
     With the folder that holds `+name` on the path, `name.M(q, arm)`, `name.C(q, qd, arm)`,
-    `name.g_vec(q, arm)`, `name.potential_energy(q, arm)` and `name.dynamics(q, qd, u, arm)` take
-    columns and a struct `arm` of the parameters. They run in Octave too. A name that MATLAB
-    reserves gets `_` added; the comments say so.
+    `name.g_vec(q, arm)`, `name.f_vec(qd, arm)`, `name.potential_energy(q, arm)` and
+    `name.dynamics(q, qd, u, arm)` take columns and a struct `arm` of the parameters. They run in
+    Octave too. A name that MATLAB reserves gets `_` added; the comments say so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
-    model = program(derivation, name, RESERVED)
+    model = program(derivation, "MATLAB", name, RESERVED, piecewise="steps")
     n = model.n
     called = f"{name}.{{}}".format
     sources = {
@@ -60,6 +54,12 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
             f"The gravity vector, {n} x 1, the gradient of the potential energy.",
             model.g_vec,
         ),
+        "f_vec": _function(
+            model,
+            "value = f_vec(qd, arm)",
+            f"The friction, {n} x 1; it opposes the motion.",
+            model.f_vec,
+        ),
         "potential_energy": _function(
             model, "value = potential_energy(q, arm)", "The potential energy, J.", model.P
         ),
@@ -69,7 +69,8 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
                 "qdd = dynamics(q, qd, u, arm)",
                 f"The accelerations, {n} x 1, for the inputs u, {n} x 1.",
             ),
-            f"  force = u - {called('C')}(q, qd, arm)*qd - {called('g_vec')}(q, arm);",
+            f"  force = u - {called('C')}(q, qd, arm)*qd - {called('g_vec')}(q, arm) ...",
+            f"      - {called('f_vec')}(qd, arm);",
             f"  qdd = {called('M')}(q, arm) \\ force;",
             "end",
         ],
@@ -80,8 +81,15 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
 def _head(model: Program, signature, summary):
     yield f"function {signature}"
     yield f"% {summary}"
-    velocities = ", and qd, their velocities" if "qd" in signature else ""
-    yield f"% q, {model.n} x 1: {', '.join(s.name for s in model.q)}{velocities}. arm: a struct with"
+    arm = (
+        "arm: a struct with" if model.parameters else "arm: not read, as nothing is left to choose"
+    )
+    coordinates = f"{model.n} x 1: {', '.join(s.name for s in model.q)}"
+    if "(qd" in signature:
+        yield f"% qd: the velocities of q, {coordinates}. {arm}"
+    else:
+        velocities = ", and qd, their velocities" if "qd" in signature else ""
+        yield f"% q, {coordinates}{velocities}. {arm}"
     yield from model.fields("%   {}", " ")
     yield "%"
     yield from (f"% {line}" for line in model.header())
@@ -95,7 +103,7 @@ def _function(model: Program, signature, summary, routine):
         for i, symbol in read:
             yield f"  {symbol.name} = {vector}({i + 1});"
     for symbol, term in routine.steps:
-        yield from wrapped(f"{symbol.name} = {_code(term)};", 2, " ...")
+        yield from _step(symbol.name, term)
     if hasattr(routine.result, "shape"):
         lines = rows(routine.result, _code)
         yield "  value = [" + f";\n{' ' * 11}".join(lines) + "];"
@@ -104,11 +112,31 @@ def _function(model: Program, signature, summary, routine):
     yield "end"
 
 
-class _OctavePrinter(ShortFloats, OctaveCodePrinter):
-    pass
+def _step(name, term):
+    if not isinstance(term, sp.Piecewise):
+        yield from wrapped(f"{name} = {_code(term)};", 2, " ...")
+        return
+    # As a sum of products with 0 and 1, a case that does not hold could give 0*Inf, which is NaN.
+    word = "if"
+    for value, condition in term.args:
+        yield from wrapped(
+            f"{word} {_code(condition)}" if condition != sp.true else "else", 2, " ..."
+        )
+        yield from wrapped(f"{name} = {_code(value)};", 4, " ...")
+        word = "elseif"
+    yield "  end"
+
+
+class _MatlabPrinter(ShortFloats, Logic, OctaveCodePrinter):
+    """SymPy's printer for Octave, with what MATLAB understands, too."""
+
+    _operators: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "not": "~"}
+
+    def _print_Relational(self, expression):
+        return super()._print_Relational(expression).replace(" != ", " ~= ")
 
 
 def _code(expression):
     # Everything is a scalar here, where .* and * are the same.
-    text = code(_OctavePrinter({"strict": True}), expression, "MATLAB")
+    text = code(_MatlabPrinter({"strict": True}), expression)
     return re.sub(r"\.([*/^])", r"\1", text)

@@ -58,7 +58,7 @@ class TermNames:
     def __init__(self, symbols, taken):
         self.symbols = set(symbols)
         self.taken = set(taken)
-        self.meaning = {}  # of each name given, in the model's own symbols
+        self.meaning = {}  # of each name given to a sum of the model's own symbols
         self.numbered = 0
 
     def give(self, term, preferred="") -> sp.Symbol:
@@ -70,7 +70,8 @@ class TermNames:
             name = f"t{self.numbered}"
         self.taken.add(name)
         symbol = sp.Symbol(name, real=True)
-        self.meaning[symbol] = meaning
+        if meaning.is_Add and self.symbols.issuperset(meaning.args):
+            self.meaning[symbol] = meaning
         return symbol
 
     def _suggested(self, term, meaning):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from armdyn.derive import Derivation
+from armdyn.derive import Derivation, graph
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class StraightLine:
 def terms(derivation: Derivation, expressions) -> StraightLine:
     """Code that computes the given expressions of the derivation's symbols."""
     lifted = _Lifting(derivation)
-    steps, outputs = _shared([lifted(e) for e in expressions], "x_")
+    steps, outputs = lifted.shared([lifted(e) for e in expressions], "x_")
     return lifted.finish(steps, outputs)
 
 
@@ -45,11 +45,15 @@ def forward_dynamics(derivation: Derivation) -> StraightLine:
     velocity = [lifted(v) for v in derivation.qd]
     torques = []
     for i in range(n):
-        products = [lifted(derivation.C[i, j]) * velocity[j] for j in range(n)]
-        bias = [_fewest(_sum(products), n), lifted(derivation.g_vec[i])]
-        torques.append(_sum([sp.Symbol(f"u_{i}"), *(-b for b in bias)]))
+        if derivation.bias is None:
+            products = [lifted(derivation.C[i, j]) * velocity[j] for j in range(n)]
+            bias = [_fewest(_sum(products), n), lifted(derivation.g_vec[i])]
+        else:
+            bias = [lifted(derivation.bias[i])]
+        bias.append(lifted(derivation.f_vec[i]))
+        torques.append(_sum([sp.Symbol(f"u_{i}"), *map(lifted.negative, bias)]))
     entries = [lifted(derivation.M[i, j]) for i, j in lower]
-    steps, found = _shared([*entries, *torques], "x_")
+    steps, found = lifted.shared([*entries, *torques], "x_")
     M = dict(zip(lower, found, strict=False))
     rest = found[len(lower) :]
 
@@ -94,7 +98,9 @@ class _Lifting:
     def __post_init__(self):
         for name, symbols in (("q", self.derivation.q), ("v", self.derivation.qd)):
             self.known.update({s: sp.Symbol(f"{name}_{i}") for i, s in enumerate(symbols)})
-        self.state = set(self.known)
+        self.fixed = dict.fromkeys(self.known, False)
+        # Then the parts are as they should be, and SymPy would flatten them.
+        self.by_recursion = self.derivation.bias is not None
 
     def __call__(self, expression):
         """The expression in fresh symbols."""
@@ -104,14 +110,28 @@ class _Lifting:
         """The program of these steps, with the constants and angles met on the way."""
         pairs, added = _angle_sums({angle: _pair(i) for angle, i in self.angles.items()})
         steps = [*_used(added, [*(e for _, e in steps), *outputs]), *steps]
-        angle_steps, arguments = _shared([angle for _, angle in pairs], "t_")
+        angle_steps, arguments = self.shared([angle for _, angle in pairs], "t_")
         angles = [(*pair, angle) for (pair, _), angle in zip(pairs, arguments, strict=True)]
         return StraightLine(
             tuple(self.constants), tuple(angle_steps), tuple(angles), tuple(steps), tuple(outputs)
         )
 
+    def shared(self, expressions, name):
+        """(steps, expressions) with common subexpressions as steps."""
+        symbols = sp.numbered_symbols(name, cls=sp.Symbol)
+        if self.by_recursion:
+            return graph.shared(expressions, symbols)
+        steps, reduced = sp.cse(expressions, symbols=symbols, order="none")
+        return list(steps), list(reduced)
+
+    def negative(self, e):
+        """−e."""
+        return sp.Mul(sp.S.NegativeOne, e, evaluate=not self.by_recursion)
+
     def _fixed(self, e):
-        return not (e.free_symbols & self.state)
+        if e not in self.fixed:
+            self.fixed[e] = all(map(self._fixed, e.args))
+        return self.fixed[e]
 
     def _constant(self, e):
         if not e.free_symbols:
@@ -140,7 +160,8 @@ class _Lifting:
             lead = [self._constant(e.func(*fixed))] if fixed else []
             if e.is_Add:
                 return _sum([*lead, *moving])
-            return sp.Mul(*([sign] if sign is not None else []), *lead, *moving)
+            factors = [*([sign] if sign is not None else []), *lead, *moving]
+            return sp.Mul(*factors, evaluate=not self.by_recursion)
         if isinstance(e, sp.sin | sp.cos) and not self._has_turned(moving[0]):
             # One angle, however the sum was written.
             place = self.angles.setdefault(
@@ -186,13 +207,6 @@ def _angle_sums(angles):
 def _used(steps, readers):
     read = set().union(*(e.free_symbols for e in readers))
     return [(symbol, e) for symbol, e in steps if symbol in read]
-
-
-def _shared(expressions, name):
-    """(steps, expressions) with common subexpressions as steps."""
-    symbols = sp.numbered_symbols(name, cls=sp.Symbol)
-    steps, reduced = sp.cse(expressions, symbols=symbols, order="none")
-    return list(steps), list(reduced)
 
 
 def _sum(addends):

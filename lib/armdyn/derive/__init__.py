@@ -1,5 +1,6 @@
-"""Derives M, C (Christoffel) and g in symbols, from energies or from links and joints."""
+"""Derives M, C (Christoffel) and g in symbols: from energies, from links, or of a `SerialChain`."""
 
+from armdyn.derive.chain import serial_chain
 from armdyn.derive.derivation import Derivation, christoffel_symbols
 from armdyn.derive.energies import from_energies, from_lagrangian
 from armdyn.derive.links import Link, from_links
@@ -16,5 +17,6 @@ __all__ = [
     "from_links",
     "planar_2r",
     "planar_chain",
+    "serial_chain",
     "slider_crank",
 ]

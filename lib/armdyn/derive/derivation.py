@@ -3,9 +3,11 @@
 import re
 from dataclasses import dataclass, field, replace
 
+import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from armdyn.derive import graph
 from armdyn.derive.names import refuse_shared
 
 
@@ -15,10 +17,11 @@ class Derivation:
 
     q, qd: the coordinates and velocities, n symbols each. parameters: all other symbols, those too
     that dropped out on the way (the length of the last link). M, C: (n, n), C in Christoffel form.
-    g_vec: (n, 1), the gradient of P. f_vec: (n, 1), the friction, zero where not given. Units are
-    whatever the parameters bring.
-    Raises ValueError for an f_vec of another shape, or one that depends on more than q̇ and
-    parameters, and for two symbols of one name.
+    g_vec: (n, 1), the gradient of P. f_vec: (n, 1), the friction, zero where not given. bias: (n, 1),
+    C q̇ + g where that is known in fewer operations than C has, and None otherwise; code for q̈ is
+    made of it. Units are whatever the parameters bring.
+    Raises ValueError for an f_vec or a bias of another shape, for an f_vec that depends on more than q̇
+    and parameters, and for two symbols of one name.
 
     Nothing is simplified: the expressions keep the structure in which subexpressions are shared,
     so that `sympy.cse` finds them. Where sums are nested to that end, `.doit()` flattens them.
@@ -32,11 +35,43 @@ class Derivation:
     g_vec: sp.ImmutableMatrix
     P: sp.Expr
     f_vec: sp.ImmutableMatrix = field(default=None)  # zero, set below
+    bias: sp.ImmutableMatrix | None = field(default=None)
 
     def __post_init__(self):
         refuse_shared((*self.q, *self.qd, *self.parameters), "q, qd, parameters")
         given = sp.zeros(self.n, 1) if self.f_vec is None else self.f_vec
         object.__setattr__(self, "f_vec", _friction(given, self.n, self.qd, self.parameters))
+        if self.bias is not None and getattr(self.bias, "shape", None) != (self.n, 1):
+            raise ValueError(
+                f"bias = {self.bias!r}: needs a matrix of shape ({self.n}, 1), or None"
+            )
+
+    def __repr__(self):
+        # Written out, M, C and g of a robot would fill a book.
+        q = ", ".join(s.name for s in self.q)
+        parameters = ", ".join(s.name for s in self.parameters) or "none"
+        return f"<Derivation in {q}; parameters: {parameters}>"
+
+    def __getstate__(self):
+        state = dict(self.__dict__)
+        if self.bias is not None:
+            matrices = (self.M, self.C, self.g_vec, self.bias)
+            state["bias"] = graph.packed([self.P, *(e for m in matrices for e in m)])
+            for name in ("M", "C", "g_vec", "P"):
+                del state[name]
+        return state
+
+    def __setstate__(self, state):
+        if state["bias"] is not None:
+            P, *entries = graph.unpacked(state["bias"])
+            n = len(state["q"])
+            ends = np.cumsum([n * n, n * n, n])
+            state["P"] = P
+            for name, part in zip(
+                ("M", "C", "g_vec", "bias"), np.split(entries, ends), strict=True
+            ):
+                state[name] = sp.ImmutableMatrix(n, len(part) // n, list(part))
+        self.__dict__.update(state)
 
     @property
     def n(self) -> int:
@@ -45,7 +80,11 @@ class Derivation:
 
     def christoffel(self) -> sp.ImmutableDenseNDimArray:
         """h[i, j, k], (n, n, n), the Christoffel symbols of the first kind of M."""
-        return christoffel_symbols(self.M, self.q)
+        if self.bias is None:
+            return christoffel_symbols(self.M, self.q)
+        # C_ij = Σ_k h_ijk q̇_k.
+        rows = graph.slopes(list(self.C), self.qd)
+        return sp.ImmutableDenseNDimArray(rows, (self.n,) * 3)
 
     def inverse_dynamics_slopes(self, qdd) -> tuple[sp.ImmutableMatrix, sp.ImmutableMatrix]:
         """∂u/∂q and ∂u/∂q̇ of u = M q̈ + C q̇ + g + f, (n, n) each; ∂u/∂q̈ is M.
@@ -54,12 +93,22 @@ class Derivation:
         Coulomb friction, counts as constant, as it is while the joint moves.
         """
         qdd = _listed("qdd", qdd, self.n)
-        left = self.M * sp.Matrix(qdd) + self.C * sp.Matrix(self.qd) + self.g_vec
+        rest = self.C * sp.Matrix(self.qd) + self.g_vec if self.bias is None else self.bias
+        left = self.M * sp.Matrix(qdd) + rest
         held = {jump: sp.Dummy() for jump in self.f_vec.atoms(sp.sign)}
         friction = self.f_vec.xreplace(held).jacobian(self.qd)
         friction = friction.xreplace({dummy: jump for jump, dummy in held.items()})
-        by_velocity = left.jacobian(self.qd) + friction
-        return left.jacobian(self.q).as_immutable(), by_velocity.as_immutable()
+        by_q, by_qd = (self.slopes(left, symbols) for symbols in (self.q, self.qd))
+        return by_q, (by_qd + friction).as_immutable()
+
+    def slopes(self, entries, symbols) -> sp.ImmutableMatrix:
+        """∂e_i/∂s_j of expressions of this derivation, one row each.
+
+        Part by part where they share their parts: written out, those of a robot are long.
+        """
+        if self.bias is None:
+            return sp.Matrix(entries).jacobian(symbols).as_immutable()
+        return sp.ImmutableMatrix(graph.slopes(list(entries), symbols))
 
     def equations(self, qdd, u) -> tuple[sp.Eq, ...]:
         """The n equations of motion (M q̈ + C q̇ + g + f)_i = u_i.

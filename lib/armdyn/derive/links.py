@@ -59,6 +59,8 @@ def from_links(links, gravity=None, q=None, qd=None) -> Derivation:
     links: a sequence of `Link`. gravity: the gravitational acceleration in the base frame, (3,),
     m/s²; (0, 0, −g) with the symbol g where not given. P = −Σ m gravityᵀ p. q, qd: the symbols to
     use, q1…qn and qd1…qdn where not given.
+    For a robot whose links are numbers, `serial_chain` is a thousand times faster: this is for lengths
+    and masses in symbols, and short chains.
     Raises ValueError for no links, what is not a Link, or another number of symbols; and, naming the
     symbol, for two symbols of one name, or one of a link with the name of a coordinate or of gravity.
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -21,6 +21,9 @@ from armdyn.spatial import (
     rotation,
     swapped_cross,
 )
+
+if TYPE_CHECKING:
+    from armdyn.derive import Derivation
 
 
 @dataclass(frozen=True)
@@ -331,6 +334,12 @@ class SerialChain(Manipulator):
                 f"M(q) is singular: the links from joint {k + 1} outwards do not resist its motion, "
                 "so q̈ is not determined"
             )
+
+    def derivation(self, inertial_symbols: bool = False, tolerance: float = 1e-9) -> "Derivation":
+        """M, C, g, P and f in symbols, for `armdyn.codegen`: see `armdyn.derive.serial_chain`."""
+        from armdyn.derive import serial_chain  # the one door from models to derive
+
+        return serial_chain(self, inertial_symbols, tolerance)
 
     @cached_property
     def _inertias(self) -> np.ndarray:
