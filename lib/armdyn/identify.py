@@ -10,10 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
-from armdyn.base_parameters import NEGLIGIBLE, BaseParameters, base_parameters
+from armdyn.base_parameters import BaseParameters, base_parameters
 from armdyn.consistency import Consistency, consistent_parameters
+from armdyn.geometry import reach
 from armdyn.parameters import state_vectors
-from armdyn.regressor import friction_columns, reach, regressor
+from armdyn.regressor import friction_columns, regressor
 
 # A singular value below this share of the largest, columns scaled to length 1, counts as 0.
 DEFICIENT = 1e-11
@@ -184,7 +185,7 @@ def _shortened(sum_: str) -> str:
 
 def _excitation(W, names) -> Excitation:
     size = np.linalg.norm(W, axis=0)
-    size = np.where(size > NEGLIGIBLE / 100 * np.max(size), size, np.inf)
+    size = np.where(size > 1e-14 * np.max(size), size, np.inf)
     triangle = np.linalg.qr(np.vstack([W / size, np.zeros((len(names), len(names)))]), mode="r")
     _, values, right = np.linalg.svd(triangle)
     shown = values > DEFICIENT * values[0]

@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 from armdyn import Link, Pendulum, Planar2R, PlanarChain, SerialChain
 from armdyn.base_parameters import base_parameters, on_link_axes
 from armdyn.consistency import consistent_parameters, pseudo_inertia
+from armdyn.geometry import reach
 from armdyn.identify import excitation, identify
-from armdyn.regressor import parameters, reach, regressor
+from armdyn.regressor import parameters, regressor
 from tests.armdyn.arms import a_few, arms, between
 from tests.armdyn.chains import links, spatial_chains
 

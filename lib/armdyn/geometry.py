@@ -1,0 +1,115 @@
+"""What a regressor takes from a model: how its links lie and where gravity points, and no mass."""
+
+from dataclasses import dataclass
+from functools import singledispatch
+
+import numpy as np
+
+from armdyn.models import Pendulum, Planar2R, PlanarChain, SerialChain
+
+PLANAR = ("m{0}", "m{0} cx{0}", "m{0} cy{0}", "J{0}")
+SPATIAL = (
+    *("m{0}", "m{0} cx{0}", "m{0} cy{0}", "m{0} cz{0}"),
+    *("Jxx{0}", "Jxy{0}", "Jyy{0}", "Jxz{0}", "Jyz{0}", "Jzz{0}"),
+)
+# In m and m/s²: what is shorter or weaker is not there, and is no unit to measure by.
+LEAST = 1e-9
+
+
+@dataclass(frozen=True)
+class PlanarGeometry:
+    """Link lengths (m) and the gravitational acceleration (m/s²) in the axes q1 is measured in."""
+
+    l: tuple[float, ...]
+    gravity: tuple[float, float]
+    # Where the potential energy is 0: at q = 0, or with all links at the height of joint 1.
+    hangs: bool = False
+
+    names = PLANAR
+
+    @property
+    def n(self) -> int:
+        return len(self.l)
+
+    @property
+    def length(self) -> float:
+        return sum(self.l)
+
+    @property
+    def revolute(self) -> np.ndarray:
+        return np.ones(self.n, dtype=bool)
+
+
+@dataclass(frozen=True)
+class SpatialGeometry:
+    chain: SerialChain
+
+    names = SPATIAL
+
+    @property
+    def n(self) -> int:
+        return self.chain.n
+
+    @property
+    def gravity(self) -> tuple[float, ...]:
+        return self.chain.gravity
+
+    @property
+    def length(self) -> float:
+        # Where the arm stands is no length of its own.
+        return float(sum(np.linalg.norm(link.translation) for link in self.chain.links[1:]))
+
+    @property
+    def revolute(self) -> np.ndarray:
+        return np.array([link.joint == "revolute" for link in self.chain.links])
+
+
+@singledispatch
+def geometry(model) -> PlanarGeometry | SpatialGeometry:
+    """The geometry of a model; ValueError for one without links that π belongs to."""
+    raise ValueError(
+        f"model: got {type(model).__name__}, needs a Pendulum, a Planar2R, a PlanarChain or a "
+        "SerialChain"
+    )
+
+
+@geometry.register
+def _(model: Pendulum):
+    return PlanarGeometry(l=(0.0,), gravity=(model.g, 0.0), hangs=True)
+
+
+@geometry.register
+def _(model: Planar2R):
+    return PlanarGeometry(l=(model.l1, model.l2), gravity=(0.0, -model.g))
+
+
+@geometry.register
+def _(model: PlanarChain):
+    return PlanarGeometry(l=model.l, gravity=(0.0, -model.g))
+
+
+@geometry.register
+def _(model: SerialChain):
+    return SpatialGeometry(model)
+
+
+def reach(model) -> float:
+    """A length of the arm's size, m: the sum of its links' lengths, 1 where they have none."""
+    length = geometry(model).length
+    return length if length > LEAST else 1.0
+
+
+def fall_time(model) -> float:
+    """The arm's own unit of time, s: √(reach / gravity), 1 without gravity."""
+    gravity = np.linalg.norm(geometry(model).gravity)
+    return float(np.sqrt(reach(model) / gravity)) if gravity > LEAST else 1.0
+
+
+def joint_units(model) -> np.ndarray:
+    """(n,): 1 rad for a revolute joint, the arm's reach in m for a prismatic one."""
+    return np.where(geometry(model).revolute, 1.0, reach(model))
+
+
+def powers_of_length(names) -> np.ndarray:
+    """Of each entry of π by its name: 0 for m (kg), 1 for m c (kg·m), 2 for J (kg·m²)."""
+    return np.array([2 if name.startswith("J") else 1 if " c" in name else 0 for name in names])
