@@ -17,7 +17,7 @@ from armdyn.regressor import parameter_names, regressor
 # Singular values as shares of the largest. Of the arms that people build, the smallest that is meant
 # is some 1e-2, while angles rounded to three digits give 1e-5 to 1e-4. Between these bounds the widest
 # gap is looked for; what lies above shows, what lies below does not.
-GAP = (1e-5, 1e-3)
+GAP = (1e-5, 3e-3)
 # What rounding leaves of 0.
 NOTHING = 1e-13
 # Kept and dropped singular values that are closer than this have no clear gap between them.
@@ -66,7 +66,7 @@ class BaseParameters:
         Left out is what changes the parameter by less than 1e-5, with masses moved by the arm's length.
         """
         return tuple(
-            " ".join([self.names[own], *_terms(row, spoken, self.names, own)])
+            _sum([f"+ {self.names[own]}", *_terms(row, spoken, self.names, own)])
             for own, row, spoken in zip(
                 self.independent, self.combination, self._spoken, strict=True
             )
@@ -84,7 +84,7 @@ class BaseParameters:
         sums = {
             self.names[j]: _terms(self.combination[:, j], self._spoken[:, j], kept) for j in rest
         }
-        return {name: " ".join(sum_).removeprefix("+ ") or "nothing" for name, sum_ in sums.items()}
+        return {name: _sum(terms) or "nothing" for name, terms in sums.items()}
 
     @property
     def gap(self) -> tuple[float, float]:
@@ -111,7 +111,7 @@ class BaseParameters:
         if hidden:
             return (
                 f"{hidden} more would show, by {dropped:.0e} of the largest or less: rounded angles or "
-                f"lengths do that, and the tolerance is {self.cut:.0e}"
+                f"lengths do that, and what is below {self.cut:.0e} does not count"
             )
         return ""
 
@@ -133,7 +133,7 @@ def base_parameters(model, columns=None, tolerance=None) -> BaseParameters:
     `on_link_axes(model)` gives those of a planar arm whose centres of mass lie on the links' axes.
     tolerance: singular values up to this share of the largest, 0 ≤ tolerance < 1, count as 0. It is how
     well the geometry is known: axes that are off by an angle of ε make singular values of up to about ε.
-    By default the widest gap between 1e-5 and 1e-3 is taken: angles of 1.5708 or 1.571 for π/2 then
+    By default the widest gap between 1e-5 and 3e-3 is taken: angles of 1.5708 or 1.571 for π/2 then
     change nothing. With 0 each digit of the geometry is believed.
 
     A column is dropped if it is a combination of the others, masses first, then first moments, inertias
@@ -247,3 +247,8 @@ def _terms(shares, spoken, names, own=None) -> list[str]:
             times = "" if np.isclose(size, 1, rtol=1e-9) else f"{size:.4g} "
             words.append(f"{'+' if shares[j] > 0 else '−'} {times}{names[j]}")
     return words
+
+
+def _sum(terms) -> str:
+    text = " ".join(terms).removeprefix("+ ")
+    return "−" + text[2:] if text.startswith("− ") else text

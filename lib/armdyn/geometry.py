@@ -12,6 +12,8 @@ SPATIAL = (
     *("m{0}", "m{0} cx{0}", "m{0} cy{0}", "m{0} cz{0}"),
     *("Jxx{0}", "Jxy{0}", "Jyy{0}", "Jxz{0}", "Jyz{0}", "Jzz{0}"),
 )
+# The entries of the inertia matrix in that order.
+INERTIA = ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))
 # In m and m/s²: what is shorter or weaker is not there, and is no unit to measure by.
 LEAST = 1e-9
 
@@ -38,6 +40,12 @@ class PlanarGeometry:
     @property
     def revolute(self) -> np.ndarray:
         return np.ones(self.n, dtype=bool)
+
+    def axes(self, q) -> tuple[np.ndarray, np.ndarray]:
+        """The links' x and y axes, (..., n, 2) each, for q of shape (..., n)."""
+        angle = np.cumsum(q, axis=-1)
+        x_axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        return x_axis, np.stack([-x_axis[..., 1], x_axis[..., 0]], axis=-1)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 Y holds only geometry (lengths, joint axes, gravity), π only inertia: per link the mass, the first
 moment m c and the inertia about the joint frame. In these, and not in ℓc and an inertia about the
 centre of mass, the equation of motion is linear. Friction is no inertial parameter: it has columns
-of its own, `friction_columns`.
+of its own, `friction_columns`. The rows of the energies are in `armdyn.energy_regressor`.
 
 π per link, in this order:
 
@@ -20,12 +20,9 @@ from functools import singledispatch
 
 import numpy as np
 
-from armdyn.geometry import PLANAR, SPATIAL, PlanarGeometry, geometry
+from armdyn.geometry import INERTIA, PLANAR, SPATIAL, PlanarGeometry, geometry
 from armdyn.models import Pendulum, Planar2R, PlanarChain, SerialChain
 from armdyn.parameters import state_vector, state_vectors
-
-# The entries of the inertia matrix in that order.
-INERTIA = ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))
 
 
 @singledispatch
@@ -119,10 +116,8 @@ def _planar_parameters(m, lc, ly, I) -> np.ndarray:
 
 def _planar_regressor(shape, q, qd, qdd, qd_ref) -> np.ndarray:
     """Each link's force and moment about its joint are linear in its π; carry them to the joints."""
-    angle = np.cumsum(q, axis=-1)
     rate, acceleration = np.cumsum(qd, axis=-1), np.cumsum(qdd, axis=-1)
-    x_axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    y_axis = np.stack([-x_axis[..., 1], x_axis[..., 0]], axis=-1)
+    x_axis, y_axis = shape.axes(q)
     spin, swing = (
         acceleration[..., np.newaxis],
         (rate * np.cumsum(qd_ref, axis=-1))[..., np.newaxis],
