@@ -23,8 +23,8 @@ NOTHING = 1e-13
 # Kept and dropped singular values that are closer than this have no clear gap between them.
 CLEAR = 10
 # In a combination, in units of the arm's length: rounding, and what is not worth a word.
-ROUNDING, UNSPOKEN = 1e-8, 1e-5
-# A vector of length 1 with a smaller entry than this is no good reason to drop the entry's column.
+ROUNDING, UNSPOKEN = 1e-10, 1e-5
+# An entry of a vector of length 1 that is below this is no good reason to drop the entry's column.
 FIRM = 1e-2
 
 
@@ -216,12 +216,13 @@ def _dropped(null, power) -> set[int]:
     entry there, and none at those that have gone.
     """
     gone: list[int] = []
-    order = sorted(range(len(null)), key=lambda j: (power[j], -j))
     while len(gone) < null.shape[1]:
         basis = np.linalg.qr(null[gone].T)[0]
         rest = np.linalg.norm(null - null @ basis @ basis.T, axis=1)
-        firm = [j for j in order if rest[j] > FIRM]
-        gone.append(firm[0] if firm else int(np.argmax(rest)))
+        # Masses before first moments before inertias, and of those that will do, later links first.
+        firm = rest > FIRM if np.any(rest > FIRM) else rest == np.max(rest)
+        first = np.flatnonzero(firm & (power == np.min(power[firm])))
+        gone.append(int(first[rest[first] > np.max(rest[first]) / 2][-1]))
     return set(gone)
 
 
