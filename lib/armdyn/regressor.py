@@ -24,6 +24,11 @@ from armdyn.geometry import INERTIA, PLANAR, SPATIAL, PlanarGeometry, geometry
 from armdyn.models import Pendulum, Planar2R, PlanarChain, SerialChain
 from armdyn.parameters import state_vector, state_vectors
 
+# Per entry of the inertia matrix: the matrix in which it is 1, and all others are 0.
+UNIT_INERTIAS = np.array(
+    [[[float({i, j} == {k, l}) for l in range(3)] for k in range(3)] for i, j in INERTIA]
+)
+
 
 @singledispatch
 def parameters(model) -> np.ndarray:
@@ -202,10 +207,9 @@ def _spatial_load(R, rates, spin, origin_dd) -> tuple[np.ndarray, np.ndarray]:
     force[..., 0, :] = origin_dd
     force[..., 1:4, :] = axes_dd
     moment[..., 1:4, :] = np.cross(axes, origin_dd[..., np.newaxis, :])
-    for column, (i, j) in enumerate(INERTIA, start=4):
-        unit = np.zeros((3, 3))
-        unit[i, j] = unit[j, i] = 1
-        J = R @ unit @ axes
-        gyration = np.cross(a, np.matvec(J, b)) + np.cross(b, np.matvec(J, a))
-        moment[..., column, :] = np.matvec(J, spin) + gyration / 2
+    # J ω per entry of J, in the link's own axes.
+    spin, a, b = (np.vecmat(w, R) for w in (spin, a, b))
+    Jspin, Ja, Jb = (np.einsum("pij,...j->...pi", UNIT_INERTIAS, w) for w in (spin, a, b))
+    gyration = np.cross(a[..., np.newaxis, :], Jb) + np.cross(b[..., np.newaxis, :], Ja)
+    moment[..., 4:, :] = (Jspin + gyration / 2) @ axes
     return force, moment

@@ -3,6 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from armdyn.base_parameters import base_parameters
+from armdyn.energy_regressor import kinetic_energy_regressor, potential_energy_regressor
 from armdyn.regressor import parameters, regressor
 from tests.armdyn.arms import a_few, assert_close, vectors
 from tests.armdyn.chains import spatial_chains
@@ -37,6 +38,28 @@ def test_regressor_and_parameters_are_those_of_pinocchio(chain, data):
     assert_close(regressor(chain, q, qd, qdd), theirs, tolerance=1e-12)
     pi = np.concatenate([body.toDynamicParameters() for body in list(model.inertias)[1:]])
     assert_close(parameters(chain), pi)
+
+
+@a_few
+@given(spatial_chains(most=7), st.data())
+def test_energy_regressors_are_those_of_pinocchio(chain, data):
+    pin, model = in_pinocchio(chain)
+    q, qd = (data.draw(vectors(chain.n)) for _ in range(2))
+    K = pin.computeKineticEnergyRegressor(model, model.createData(), q, qd)
+    P = pin.computePotentialEnergyRegressor(model, model.createData(), q)
+    assert_close(kinetic_energy_regressor(chain, q, qd), np.ravel(K), tolerance=1e-12)
+    assert_close(potential_energy_regressor(chain, q), np.ravel(P), tolerance=1e-12)
+
+
+@a_few
+@given(spatial_chains(most=7), st.data())
+def test_the_reference_velocity_is_behind_pinocchio_s_coriolis_matrix(chain, data):
+    pin, model = in_pinocchio(chain)
+    q, qd, qd_ref = (data.draw(vectors(chain.n)) for _ in range(3))
+    C = pin.computeCoriolisMatrix(model, model.createData(), q, qd)
+    still, pi = np.zeros(chain.n), parameters(chain)
+    Y = regressor(chain, q, qd, still, qd_ref) - regressor(chain, q, still, still)
+    assert_close(Y @ pi, C @ qd_ref, np.max(np.abs(Y) @ np.abs(pi)))
 
 
 @a_few
