@@ -29,7 +29,7 @@ def assert_linear(arm, q, qd, qdd):
     assert Y.shape == (*np.shape(q), len(pi))
     assert len(parameter_names(arm)) == len(pi)
     # The size of the terms, which may cancel.
-    size = np.max(np.abs(Y) @ np.abs(pi))
+    size = max(1, np.max(np.abs(Y) @ np.abs(pi)))
     assert_close(Y @ pi + arm.f_vec(qd), arm.inverse_dynamics(q, qd, qdd), size)
 
 
