@@ -94,7 +94,7 @@ def consistent_parameters(combination, estimate, columns, n, length=1.0) -> Cons
     K = combination[:, columns] * unit
     rows = np.linalg.norm(K, axis=1)
     K, target = K / rows[:, np.newaxis], np.asarray(estimate) / rows
-    size = np.max(np.abs(target))
+    size = np.max(np.abs(target), initial=0.0)
     size = size if size > 0 else 1.0
 
     def matrices(coordinates):
@@ -102,7 +102,7 @@ def consistent_parameters(combination, estimate, columns, n, length=1.0) -> Cons
         pi[..., columns] = coordinates
         return pseudo_inertia(pi.reshape(*coordinates.shape[:-1], n, per_link))
 
-    start, free = np.linalg.pinv(K) @ (target / size), null_space(K, rcond=1e-10)
+    start, free = np.linalg.pinv(K) @ (target / size), _free(K)
     # Bodies of the arm's own size first: without a bound the search prefers heavy ones.
     for largest in (MODEST_TRACE, LARGEST_TRACE):
         margin, step = _largest_margin(matrices(start), matrices(free.T), largest)
@@ -113,6 +113,11 @@ def consistent_parameters(combination, estimate, columns, n, length=1.0) -> Cons
     found = np.zeros(n * per_link)
     found[columns] = (start + free @ step) * size * unit
     return Consistency(margin, found)
+
+
+def _free(K) -> np.ndarray:
+    """All that K does not see, as columns."""
+    return null_space(K, rcond=1e-10) if len(K) else np.eye(K.shape[1])
 
 
 def _largest_margin(base, directions, largest_trace) -> tuple[float, np.ndarray | None]:

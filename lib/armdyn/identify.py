@@ -217,7 +217,7 @@ def _excitation(model, base, q, qd, qdd, friction, tolerance, noise):
         names += tuple(f"{kind}{i}" for kind in ("viscous", "coulomb") for i in joints)
         least = np.concatenate([least, np.zeros(2 * model.n)])
     deficient = DEFICIENT if tolerance is None else max(float(tolerance), ROUNDING)
-    W = (Y / noise[:, np.newaxis]).reshape(-1, len(names))
+    W = (Y / noise[:, np.newaxis]).reshape(q.size, len(names))
     if not names:
         return W, Excitation(names, 0, 1.0, (), base)
 
