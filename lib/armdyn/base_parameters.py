@@ -5,13 +5,12 @@ only to the digits that it writes: an angle of 1.5708 for π/2 makes axes that a
 parameters that show by a millionth. So the number is read off the singular values of Y, where they drop.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 
-from armdyn.geometry import fall_time, joint_units, powers_of_length, reach
-from armdyn.parameters import finite
+from armdyn.geometry import column_indices, fall_time, joint_units, powers_of_length, reach
 from armdyn.regressor import parameter_names, regressor
 
 # Singular values as shares of the largest. Of the arms that people build, the smallest that is meant
@@ -38,7 +37,7 @@ class BaseParameters:
 
     singular_values: (len(columns),), of Y at random states as shares of the largest, in units in which
     the arm's length and the gravitational acceleration are 1. cut: those above it are counted. length:
-    the arm's length, m.
+    the arm's, from its first joint to its last, m.
 
     condition: the ratio of the largest to the smallest singular value of the kept columns, in the same
     units: how many times better the torques of random motion show the most visible combination of base
@@ -147,8 +146,8 @@ def base_parameters(model, columns=None, tolerance=None) -> BaseParameters:
     columns to drop are read from the null space.
     """
     names = parameter_names(model)
-    columns = _column_indices(columns, len(names))
-    if tolerance is not None and not 0 <= finite("tolerance", tolerance, "1") < 1:
+    columns = column_indices(columns, len(names))
+    if tolerance is not None and not _below_one(tolerance):
         raise ValueError(f"tolerance = {tolerance!r}: needs a number from 0 to below 1, or None")
     W, unit = _random_rows(model)
     tried = W[:, columns]
@@ -226,17 +225,8 @@ def _dropped(null, power) -> set[int]:
     return set(gone)
 
 
-def _column_indices(columns, count) -> tuple[int, ...]:
-    if columns is None:
-        return tuple(range(count))
-    given = tuple(columns) if isinstance(columns, Iterable) else ()
-    valid = all(
-        isinstance(j, int | np.integer) and not isinstance(j, bool) and 0 <= j < count
-        for j in given
-    )
-    if not valid or len(set(given)) != len(given) or not given:
-        raise ValueError(f"columns = {columns!r}: needs distinct indices from 0 to {count - 1}")
-    return tuple(sorted(int(j) for j in given))
+def _below_one(value) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool) and 0 <= float(value) < 1
 
 
 def _terms(shares, spoken, names, own=None) -> list[str]:

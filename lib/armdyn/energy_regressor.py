@@ -10,7 +10,7 @@ Proceedings of the 27th IEEE Conference on Decision and Control.
 
 import numpy as np
 
-from armdyn.geometry import INERTIA, PlanarGeometry, geometry
+from armdyn.geometry import INERTIA, PlanarGeometry, geometry, sum_of_those_before
 from armdyn.parameters import state_vector, state_vectors
 
 
@@ -57,16 +57,15 @@ def potential_energy_regressor(model, q) -> np.ndarray:
 def _planar_kinetic(shape, q, qd) -> np.ndarray:
     rate = np.cumsum(qd, axis=-1)
     x_axis, y_axis = shape.axes(q)
-    steps = np.array(shape.l)[:, np.newaxis] * rate[..., np.newaxis] * y_axis
-    v = np.cumsum(steps, axis=-2) - steps  # of the joints
+    length = np.array(shape.l)[:, np.newaxis]
+    v = sum_of_those_before(length * rate[..., np.newaxis] * y_axis)  # of the joints
     across, along = np.vecdot(v, y_axis), np.vecdot(v, x_axis)
     return _joined(shape, np.vecdot(v, v) / 2, rate * across, -rate * along, rate**2 / 2)
 
 
 def _planar_potential(shape, q) -> np.ndarray:
     x_axis, y_axis = shape.axes(q)
-    steps = np.array(shape.l)[:, np.newaxis] * x_axis
-    joint = np.cumsum(steps, axis=-2) - steps
+    joint = sum_of_those_before(np.array(shape.l)[:, np.newaxis] * x_axis)
     up = -np.array(shape.gravity)
     heights = (np.vecdot(part, up) for part in (joint, x_axis, y_axis))
     row = _joined(shape, *heights, np.zeros(q.shape))

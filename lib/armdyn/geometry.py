@@ -1,5 +1,6 @@
 """What a regressor takes from a model: how its links lie and where gravity points, and no mass."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import singledispatch
 
@@ -35,7 +36,8 @@ class PlanarGeometry:
 
     @property
     def length(self) -> float:
-        return sum(self.l)
+        # How long the last link is does not enter Y.
+        return sum(self.l[:-1])
 
     @property
     def revolute(self) -> np.ndarray:
@@ -102,7 +104,7 @@ def _(model: SerialChain):
 
 
 def reach(model) -> float:
-    """A length of the arm's size, m: the sum of its links' lengths, 1 where they have none."""
+    """The arm's length from its first joint to its last, m; 1 where they are all at one place."""
     length = geometry(model).length
     return length if length > LEAST else 1.0
 
@@ -121,3 +123,23 @@ def joint_units(model) -> np.ndarray:
 def powers_of_length(names) -> np.ndarray:
     """Of each entry of π by its name: 0 for m (kg), 1 for m c (kg·m), 2 for J (kg·m²)."""
     return np.array([2 if name.startswith("J") else 1 if " c" in name else 0 for name in names])
+
+
+def sum_of_those_before(steps) -> np.ndarray:
+    """Σ over k < i of steps[..., k, :], for each i."""
+    sums = np.cumsum(steps[..., :-1, :], axis=-2)
+    return np.concatenate([np.zeros_like(steps[..., :1, :]), sums], axis=-2)
+
+
+def column_indices(columns, count) -> tuple[int, ...]:
+    """`columns`, sorted, all `count` of them for None; ValueError unless they are distinct indices."""
+    if columns is None:
+        return tuple(range(count))
+    given = tuple(columns) if isinstance(columns, Iterable) else ()
+    valid = all(
+        isinstance(j, int | np.integer) and not isinstance(j, bool) and 0 <= j < count
+        for j in given
+    )
+    if not valid or len(set(given)) != len(given) or not given:
+        raise ValueError(f"columns = {columns!r}: needs distinct indices from 0 to {count - 1}")
+    return tuple(sorted(int(j) for j in given))

@@ -111,14 +111,16 @@ class Identification:
         return "\n".join(filter(None, [*rows, self.base.remark, last]))
 
 
-def excitation(model, q, qd, qdd, friction=False, columns=None, tolerance=None) -> Excitation:
+def excitation(
+    model, q, qd, qdd, friction=False, columns=None, tolerance=None, noise=None
+) -> Excitation:
     """What a motion shows of the parameters, before any torque is measured.
 
     Arguments and errors are those of `identify`, except that too few samples show as a lower rank.
     """
     q, qd, qdd = _samples(model, q=q, qd=qd, qdd=qdd)
     base = base_parameters(model, columns, tolerance)
-    return _excitation(model, base, q, qd, qdd, friction, tolerance, _even_noise(model))[1]
+    return _excitation(model, base, q, qd, qdd, friction, tolerance, _noise(noise, model))[1]
 
 
 def identify(
@@ -145,7 +147,7 @@ def identify(
     """
     q, qd, qdd, u = _samples(model, q=q, qd=qd, qdd=qdd, u=u)
     base = base_parameters(model, columns, tolerance)
-    scale = _even_noise(model) if noise is None else _noise(noise, model.n)
+    scale = _noise(noise, model)
     W, shown = _excitation(model, base, q, qd, qdd, friction, tolerance, scale)
     equations, unknowns = W.shape
     if not unknowns:
@@ -186,16 +188,14 @@ def _samples(model, **named) -> tuple[np.ndarray, ...]:
     return arrays
 
 
-def _even_noise(model) -> np.ndarray:
-    return 1 / joint_units(model)
-
-
-def _noise(noise, n) -> np.ndarray:
-    scale = state_vector("noise", noise, n)
-    if scale.shape != (n,) or np.any(scale <= 0):
+def _noise(noise, model) -> np.ndarray:
+    if noise is None:
+        return 1 / joint_units(model)
+    scale = state_vector("noise", noise, model.n)
+    if scale.shape != (model.n,) or np.any(scale <= 0):
         raise ValueError(
-            f"noise = {scale.tolist()}: needs {n} numbers greater than 0, one per joint, in N·m (N for "
-            "a prismatic joint)"
+            f"noise = {scale.tolist()}: needs {model.n} numbers greater than 0, one per joint, in N·m "
+            "(N for a prismatic joint)"
         )
     return scale
 

@@ -20,7 +20,7 @@ from functools import singledispatch
 
 import numpy as np
 
-from armdyn.geometry import INERTIA, PLANAR, SPATIAL, PlanarGeometry, geometry
+from armdyn.geometry import INERTIA, PLANAR, SPATIAL, PlanarGeometry, geometry, sum_of_those_before
 from armdyn.models import Pendulum, Planar2R, PlanarChain, SerialChain
 from armdyn.parameters import state_vector, state_vectors
 
@@ -131,9 +131,9 @@ def _planar_regressor(shape, q, qd, qdd, qd_ref) -> np.ndarray:
     x_axis_dd, y_axis_dd = spin * y_axis - swing * x_axis, -spin * x_axis - swing * y_axis
 
     length = np.array(shape.l)[:, np.newaxis]
-    joint = _sum_of_those_before(length * x_axis)
+    joint = sum_of_those_before(length * x_axis)
     # Gravity acts as the base's acceleration the other way.
-    joint_dd = _sum_of_those_before(length * x_axis_dd) - np.array(shape.gravity)
+    joint_dd = sum_of_those_before(length * x_axis_dd) - np.array(shape.gravity)
 
     nothing = np.zeros_like(joint)
     force = np.stack([joint_dd, x_axis_dd, y_axis_dd, nothing], axis=-2)
@@ -148,11 +148,6 @@ def _planar_regressor(shape, q, qd, qdd, qd_ref) -> np.ndarray:
     # A link loads its own joint and those before it.
     torque = np.where(np.triu(np.ones((n, n), dtype=bool))[..., np.newaxis], torque, 0.0)
     return torque.reshape(*q.shape, n * len(PLANAR))
-
-
-def _sum_of_those_before(steps) -> np.ndarray:
-    """Σ over k < i of steps[..., k, :], for each i."""
-    return np.cumsum(steps, axis=-2) - steps
 
 
 def _cross(a, b) -> np.ndarray:

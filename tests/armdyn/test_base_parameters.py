@@ -235,6 +235,12 @@ def test_the_unit_of_length_does_not_enter(arm, factor):
     np.testing.assert_allclose(there.singular_values, here.singular_values, atol=1e-9)
 
 
+def test_how_long_the_last_link_is_does_not_enter():
+    here, there = (base_parameters(replace(ARM, l2=l2)) for l2 in (0.8, 1e6))
+    assert there.descriptions == here.descriptions
+    assert there.condition == here.condition
+
+
 def test_where_the_arm_stands_does_not_enter():
     first, *others = puma_560(4).links
     far = SerialChain((replace(first, translation=(1e4, -2e4, 3e3)), *others))

@@ -40,7 +40,7 @@ def test_energy_rises_by_the_power_of_the_joints(case):
         np.concatenate([qd, qdd], axis=-1),
     )
     Y = regressor(arm, q, qd, qdd)
-    size = np.max(np.abs(qd), initial=1) * np.max(np.abs(Y)) * 10
+    size = np.max(np.abs(qd), initial=1) * np.max(np.abs(Y), initial=1) * 10
     assert_close(E_dot, np.vecmat(qd, Y), size, 1e-8)
 
 

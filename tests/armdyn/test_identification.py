@@ -401,6 +401,32 @@ def test_pseudo_inertia_refuses_other_sizes(pi):
         pseudo_inertia(pi)
 
 
+def test_bad_arguments_of_consistency_are_named():
+    base = base_parameters(ARM)
+    good = {
+        "combination": base.combination,
+        "estimate": base.combination @ parameters(ARM),
+        "columns": base.columns,
+        "n": 2,
+        "length": 1.0,
+    }
+    assert consistent_parameters(**good).exists
+    for name, bad in {
+        "combination": np.eye(7),
+        "estimate": np.ones(5),
+        "columns": (0, 8),
+        "length": 0.0,
+    }.items():
+        with pytest.raises(ValueError, match=f"^{name}"):
+            consistent_parameters(**good | {name: bad})
+    with pytest.raises(ValueError, match=r"^combination: .* for n = 3 links"):
+        consistent_parameters(**good | {"n": 3})
+    with pytest.raises(ValueError, match=r"^pi\[2\] = nan"):
+        pseudo_inertia([1.0, 0.0, np.nan, 1.0])
+    with pytest.raises(ValueError, match=r"^pi = "):
+        pseudo_inertia("heavy")
+
+
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 @pytest.mark.parametrize("off", [-1e-3, 1e-3])
 def test_the_border_of_the_bodies_of_the_2r(size, off):
