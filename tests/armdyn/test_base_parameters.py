@@ -15,6 +15,7 @@ from tests.armdyn.arms import a_few, assert_close, between
 from tests.armdyn.chains import links, rotations
 from tests.armdyn.linked_arms import any_arm, planar_chains
 from tests.armdyn.puma import puma_560
+from tests.armdyn.urdf_files import Part, all_moving
 
 ARM = Planar2R(l1=1.3, l2=0.8, lc1=0.5, lc2=0.4, m1=2, m2=1.5, I1=0.2, I2=0.1)
 
@@ -182,6 +183,31 @@ def test_parallel_axes_of_a_scara_stay_parallel_when_angles_are_rounded(digits):
     assert exact.rank == rounded.rank == 8
     assert exact.independent == rounded.independent
     assert base_parameters(arm(10.0**-digits / 2), tolerance=0).rank > 8
+
+
+@st.composite
+def square_arms(draw, most=5):
+    """Joints as a file lists them, all at right angles, and gravity along one of the axes."""
+    quarters, lengths = st.integers(-2, 2), st.sampled_from([0.0, 0.1, -0.35])
+    return [
+        Part(
+            draw(st.sampled_from(["revolute", "revolute", "prismatic"])),
+            xyz=draw(st.tuples(*[lengths] * 3)),
+            rpy=tuple(np.pi / 2 * k for k in draw(st.tuples(*[quarters] * 3))),
+            axis=draw(st.sampled_from([(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)])),
+        )
+        for _ in range(draw(st.integers(1, most)))
+    ]
+
+
+@a_few
+@given(square_arms(), st.integers(4, 7))
+def test_right_angles_are_right_however_a_file_rounds_them(parts, digits):
+    rounded = [replace(p, rpy=tuple(round(angle, digits) for angle in p.rpy)) for p in parts]
+    exact, found = base_parameters(all_moving(parts)), base_parameters(all_moving(rounded))
+    assert found.independent == exact.independent
+    assert found.clear
+    np.testing.assert_allclose(found.combination, exact.combination, atol=1e-3)
 
 
 def test_a_number_of_base_parameters_that_is_in_doubt_is_said_to_be():
