@@ -120,7 +120,7 @@ def excitation(
     """
     q, qd, qdd = _samples(model, q=q, qd=qd, qdd=qdd)
     base = base_parameters(model, columns, tolerance)
-    return _excitation(model, base, q, qd, qdd, friction, tolerance, _noise(noise, model))[1]
+    return _excitation(base, *_columns(model, base, q, qd, qdd, friction, noise), tolerance)
 
 
 def identify(
@@ -147,8 +147,7 @@ def identify(
     """
     q, qd, qdd, u = _samples(model, q=q, qd=qd, qdd=qdd, u=u)
     base = base_parameters(model, columns, tolerance)
-    scale = _noise(noise, model)
-    W, shown = _excitation(model, base, q, qd, qdd, friction, tolerance, scale)
+    W, names, full = _columns(model, base, q, qd, qdd, friction, noise)
     equations, unknowns = W.shape
     if not unknowns:
         raise ValueError("columns: none of these parameters loads a joint; needs one that does")
@@ -157,13 +156,14 @@ def identify(
             f"q: {q.size // model.n} samples give {equations} equations; {unknowns} parameters and "
             f"their standard errors need at least {unknowns // model.n + 1} samples"
         )
+    shown = _excitation(base, W, names, full, tolerance)
     if not shown.sufficient:
         raise ValueError(
             f"q, qd, qdd: the motion {shown}; needs a motion that moves more of the arm, or a smaller "
             "tolerance if the geometry is exact"
         )
 
-    measured = (u / scale).ravel()
+    measured = (u / _noise(noise, model)).ravel()
     size = np.linalg.norm(W, axis=0)
     left, values, right = np.linalg.svd(W / size, full_matrices=False)
     estimate = right.T @ (left.T @ measured / values) / size
@@ -174,7 +174,7 @@ def identify(
         base.combination, estimate[: base.rank], base.columns, model.n, reach(model)
     )
     return Identification(
-        *(base, shown.names, estimate, standard_error, residual, shown, consistency),
+        *(base, names, estimate, standard_error, residual, shown, consistency),
         weighted=noise is not None,
     )
 
@@ -205,31 +205,36 @@ def _shortened(sum_: str) -> str:
     return sum_ if len(sum_) <= 48 else re.split(" [+−] ", sum_, maxsplit=1)[0] + " + …"
 
 
-def _excitation(model, base, q, qd, qdd, friction, tolerance, noise):
-    """The columns of the unknowns, one row per sample and joint, in units of the noise; and what
-    they show."""
+def _columns(
+    model, base, q, qd, qdd, friction, noise
+) -> tuple[np.ndarray, tuple[str, ...], np.ndarray]:
+    """The columns of the unknowns, one row per sample and joint, in units of the noise; their names;
+    and how large each would be if this motion loaded it in full."""
+    scale = _noise(noise, model)
     Y = regressor(model, q, qd, qdd)[..., list(base.independent)]
     names = tuple(map(_shortened, base.descriptions))
-    least = _least_effect(model, base, q, qd, qdd)
+    full = _full_effect(model, base, q, qd, qdd) * np.linalg.norm(1 / (scale * joint_units(model)))
     if friction:
         Y = np.concatenate([Y, friction_columns(qd)], axis=-1)
         joints = range(1, model.n + 1)
         names += tuple(f"{kind}{i}" for kind in ("viscous", "coulomb") for i in joints)
-        least = np.concatenate([least, np.zeros(2 * model.n)])
-    deficient = DEFICIENT if tolerance is None else max(float(tolerance), ROUNDING)
-    W = (Y / noise[:, np.newaxis]).reshape(q.size, len(names))
-    if not names:
-        return W, Excitation(names, 0, 1.0, (), base)
+        full = np.concatenate([full, np.zeros(2 * model.n)])
+    return (Y / scale[:, np.newaxis]).reshape(q.size, len(names)), names, full
 
+
+def _excitation(base, W, names, full, tolerance) -> Excitation:
+    if not names:
+        return Excitation(names, 0, 1.0, (), base)
+    deficient = DEFICIENT if tolerance is None else max(float(tolerance), ROUNDING)
     size = np.linalg.norm(W, axis=0)
-    least = deficient * least * np.linalg.norm(1 / (noise * joint_units(model)))
-    size = np.where(size > np.maximum(least, ROUNDING * np.max(size)), size, np.inf)
+    # Of a full column, rounded angles can leave their own share where there should be nothing.
+    size = np.where(size > np.maximum(deficient * full, ROUNDING * np.max(size)), size, np.inf)
     triangle = np.linalg.qr(np.vstack([W / size, np.zeros((len(names), len(names)))]), mode="r")
     _, values, right = np.linalg.svd(triangle)
     shown = values > deficient * values[0]
     rank = int(np.count_nonzero(shown))
     if rank == len(names):
-        return W, Excitation(names, rank, float(values[0] / values[-1]), (), base)
+        return Excitation(names, rank, float(values[0] / values[-1]), (), base)
     # Two parameters are confused when some motion-free change of π changes both: the projector on
     # the null space couples them.
     hidden = right[~shown].T @ right[~shown]
@@ -240,18 +245,14 @@ def _excitation(model, base, q, qd, qdd, friction, tolerance, noise):
         for group in groups
         if np.any(np.abs(hidden[group, group]) > COUPLED)
     )
-    return W, Excitation(names, rank, np.inf, confused, base)
+    return Excitation(names, rank, np.inf, confused, base)
 
 
-def _least_effect(model, base, q, qd, qdd) -> np.ndarray:
-    """How large each base parameter's column would be if this motion loaded it in full.
-
-    Of a full column, rounded angles in the geometry can leave their own share where there should be
-    nothing.
-    """
+def _full_effect(model, base, q, qd, qdd) -> np.ndarray:
+    """Per base parameter, over all samples: the torque of a unit of it, far out and straight across."""
     length, units = reach(model), joint_units(model)
     turning = np.sum(np.abs(qdd) / units, axis=-1) + np.sum(np.abs(qd) / units, axis=-1) ** 2
     moving = length * turning + np.linalg.norm(geometry(model).gravity)
-    # Of the torque that a mass at the arm's reach asks for, kg; of its first moment; of its inertia.
+    # N·m per kg, per kg·m and per kg·m².
     full = np.linalg.norm([(length * moving).ravel(), moving.ravel(), turning.ravel()], axis=1)
     return full[powers_of_length(base.names)[list(base.independent)]]

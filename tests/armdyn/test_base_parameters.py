@@ -261,6 +261,14 @@ def test_the_unit_of_length_does_not_enter(arm, factor):
     np.testing.assert_allclose(there.singular_values, here.singular_values, atol=1e-9)
 
 
+def test_the_parameters_that_are_kept_stand_for_the_others_well():
+    # About an axis askew, Jzz shows best: kept instead, Jyy would stand for 29 of it.
+    askew = Link("revolute", 1.0, axis=(0.0, 0.18, np.sqrt(1 - 0.18**2)))
+    base = base_parameters(SerialChain((askew, askew), gravity=(0.0, 0.0, 0.0)))
+    assert np.max(np.abs(base.combination)) < 1.5
+    assert any(words.startswith("Jzz1 ") for words in base.descriptions)
+
+
 def test_how_long_the_last_link_is_does_not_enter():
     here, there = (base_parameters(replace(ARM, l2=l2)) for l2 in (0.8, 1e6))
     assert there.descriptions == here.descriptions
