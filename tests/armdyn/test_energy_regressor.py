@@ -3,6 +3,7 @@ import pytest
 from hypothesis import given
 
 from armdyn import Pendulum, Planar2R
+from armdyn.base_parameters import base_parameters
 from armdyn.energy_regressor import (
     energy_regressor,
     kinetic_energy_regressor,
@@ -11,6 +12,7 @@ from armdyn.energy_regressor import (
 from armdyn.regressor import friction_columns, parameters, regressor
 from tests.armdyn.arms import a_few, arms_and_states, assert_close, rate
 from tests.armdyn.linked_arms import any_arm
+from tests.armdyn.puma import puma_560
 
 ARM = Planar2R(1.3, 0.8, 0.5, 0.4, 2, 1.5, 0.2, 0.1, viscous=(0.3, 0.2), coulomb=(0.1, 0.05))
 
@@ -55,6 +57,17 @@ def test_work_less_friction_is_the_rise_of_energy():
     row = energy_regressor(ARM, q[[0, -1]], qd[[0, -1]])
     rise = (row[1] - row[0]) @ parameters(ARM)
     assert np.trapezoid(power - lost, t[:, 0]) == pytest.approx(rise, rel=1e-5)
+
+
+@pytest.mark.parametrize("arm", [ARM, puma_560()], ids=["2r", "puma"])
+def test_differences_of_energy_show_what_torques_show(arm):
+    # The motors see a rise of E and never its zero.
+    q, qd = np.random.default_rng(1).normal(size=(2, 300, arm.n))
+    rows = energy_regressor(arm, q, qd)
+    base = base_parameters(arm)
+    assert np.linalg.matrix_rank(rows[1:] - rows[0], tol=1e-9) == base.rank
+    again = rows[:, list(base.independent)] @ base.combination
+    np.testing.assert_allclose(np.diff(again, axis=0), np.diff(rows, axis=0), atol=1e-9)
 
 
 def test_the_energy_of_a_pendulum_is_zero_at_rest():
