@@ -3,7 +3,7 @@
 Y holds only geometry (lengths, joint axes, gravity), π only inertia: per link the mass, the first
 moment m c and the inertia about the joint frame. In these, and not in ℓc and an inertia about the
 centre of mass, the equation of motion is linear. Friction is no inertial parameter: it has columns
-of its own, `friction_columns`. The rows of the energies are in `armdyn.energy_regressor`.
+of its own, `friction_columns`.
 
 π per link, in this order:
 
@@ -11,6 +11,8 @@ of its own, `friction_columns`. The rows of the energies are in `armdyn.energy_r
   across it, the origin at the link's joint.
 - spatial chains, 10: m, m cx, m cy, m cz, Jxx, Jxy, Jyy, Jxz, Jyz, Jzz, in the link's frame. J is the
   inertia matrix about the frame's origin, so that Jxy = −∫ x y dm.
+
+The rows of kinetic and potential energy, with the same π, are in `armdyn.energy_regressor`.
 
 Source: C. G. Atkeson, C. H. An, J. M. Hollerbach (1986), Estimation of Inertial Parameters of
 Manipulator Loads and Links.
