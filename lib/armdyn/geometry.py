@@ -74,31 +74,48 @@ class SpatialGeometry:
         return np.array([link.joint == "revolute" for link in self.chain.links])
 
 
-@singledispatch
 def geometry(model) -> PlanarGeometry | SpatialGeometry:
-    """The geometry of a model; ValueError for one without links that π belongs to."""
+    """The geometry of a model.
+
+    Raises ValueError for one without links that π belongs to, and for a subclass or an arm with an M,
+    C or g of its own, to which Y would not belong.
+    """
+    found = _geometry(model)
+    for known in (Pendulum, Planar2R, PlanarChain, SerialChain):
+        if isinstance(model, known):
+            for term in ("M", "C", "g_vec"):
+                if term in vars(model) or getattr(type(model), term) is not getattr(known, term):
+                    raise ValueError(
+                        f"model: this {type(model).__name__} has its own {term}, and the regressor "
+                        f"is that of a {known.__name__}; needs one whose M, C and g_vec are unchanged"
+                    )
+    return found
+
+
+@singledispatch
+def _geometry(model):
     raise ValueError(
         f"model: got {type(model).__name__}, needs a Pendulum, a Planar2R, a PlanarChain or a "
         "SerialChain"
     )
 
 
-@geometry.register
+@_geometry.register
 def _(model: Pendulum):
     return PlanarGeometry(l=(0.0,), gravity=(model.g, 0.0), hangs=True)
 
 
-@geometry.register
+@_geometry.register
 def _(model: Planar2R):
     return PlanarGeometry(l=(model.l1, model.l2), gravity=(0.0, -model.g))
 
 
-@geometry.register
+@_geometry.register
 def _(model: PlanarChain):
     return PlanarGeometry(l=model.l, gravity=(0.0, -model.g))
 
 
-@geometry.register
+@_geometry.register
 def _(model: SerialChain):
     return SpatialGeometry(model)
 

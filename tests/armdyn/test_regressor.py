@@ -173,3 +173,26 @@ def test_bad_arguments_are_named():
     for bad in (1.0, None, [np.inf, 0.0]):
         with pytest.raises(ValueError, match=r"^qd"):
             friction_columns(bad)
+
+
+class Geared(Planar2R):
+    """Motors add to M, and no column of Y says so."""
+
+    def M(self, q):
+        return super().M(q) + 0.3 * np.eye(2)
+
+
+class Sticky(Planar2R):
+    """Other friction, which is none of Y's business."""
+
+    def f_vec(self, qd):
+        return np.tanh(qd)
+
+
+def test_an_arm_with_an_m_of_its_own_is_refused_and_not_given_a_wrong_y():
+    state = [0.3, 0.4], [1.0, 2.0], [0.5, -0.7]
+    names = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2")
+    geared, sticky = (kind(*(getattr(ARM, name) for name in names)) for kind in (Geared, Sticky))
+    with pytest.raises(ValueError, match=r"^model: this Geared has its own M"):
+        regressor(geared, *state)
+    assert_linear(sticky, *(np.array(part) for part in state))
