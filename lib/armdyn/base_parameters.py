@@ -154,8 +154,10 @@ def base_parameters(model, columns=None, tolerance=None) -> BaseParameters:
     _, values, right = np.linalg.svd(tried, full_matrices=False)
     values = values / values[0] if values[0] > NOTHING * np.linalg.norm(W) else 0 * values
     cut = _widest_gap(values) if tolerance is None else max(float(tolerance), NOTHING)
-    null = right[np.count_nonzero(values > cut) :].T
-    drop = _dropped(null, powers_of_length(names)[list(columns)])
+    rank = np.count_nonzero(values > cut)
+    # Where the gap is narrow, the null space is no better known.
+    firm = max(FIRM, 3 * values[rank] / values[rank - 1]) if 0 < rank < len(values) else FIRM
+    drop = _dropped(right[rank:].T, powers_of_length(names)[list(columns)], firm)
     independent = [j for k, j in enumerate(columns) if k not in drop]
 
     combination = np.zeros((len(independent), len(names)))
@@ -208,18 +210,18 @@ def _widest_gap(values) -> float:
     return float(np.sqrt(edges[widest] * edges[widest + 1]))
 
 
-def _dropped(null, power) -> set[int]:
+def _dropped(null, power, least) -> set[int]:
     """As many columns as the null space has dimensions, so that the others are independent.
 
     null: (columns, dimensions), orthonormal. A column can go if some vector of the null space has an
-    entry there, and none at those that have gone.
+    entry there, of `least` or more, and none at those that have gone.
     """
     gone: list[int] = []
     while len(gone) < null.shape[1]:
         basis = np.linalg.qr(null[gone].T)[0]
         rest = np.linalg.norm(null - null @ basis @ basis.T, axis=1)
         # Masses before first moments before inertias, and of those that will do, later links first.
-        firm = rest > FIRM if np.any(rest > FIRM) else rest == np.max(rest)
+        firm = rest > least if np.any(rest > least) else rest == np.max(rest)
         first = np.flatnonzero(firm & (power == np.min(power[firm])))
         gone.append(int(first[rest[first] > np.max(rest[first]) / 2][-1]))
     return set(gone)

@@ -1,9 +1,9 @@
 """Computes the regressors of the energies: K = Y_K(q, q̇) π, P = Y_P(q) π and E = (Y_K + Y_P) π.
 
-π is that of `armdyn.regressor`, and as there, only geometry and gravity enter, and K is that of the
-links alone. Along a motion
-dE/dt = q̇ᵀ (u − f), so that the rise of E between two moments, which needs no accelerations, is the
-work done by the motors less that lost to friction: measured energies show the same base parameters.
+π is that of `armdyn.regressor`, and as there, only geometry and gravity enter; K is that of the links
+alone. Along a motion dE/dt = q̇ᵀ (u − f), so that the rise of E between two moments, which needs no
+accelerations, is the work done by the motors less that lost to friction: measured energies show the
+same base parameters.
 
 Source: M. Gautier, W. Khalil (1988), On the Identification of the Inertial Parameters of Robots,
 Proceedings of the 27th IEEE Conference on Decision and Control.
