@@ -1,15 +1,30 @@
-"""Finds the base parameters: the combinations of π that joint torques show."""
+"""Finds the base parameters: the combinations of π that joint torques show.
+
+How many there are depends on which axes are parallel, meet or point along gravity, and a file says that
+only to the digits that it writes: an angle of 1.5708 for π/2 makes axes that are not quite parallel, and
+parameters that show by a millionth. So the number is read off the singular values of Y, where they drop.
+"""
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 
+from armdyn.geometry import column_indices, fall_time, joint_units, powers_of_length, reach
 from armdyn.regressor import parameter_names, regressor
 
-# A column whose part outside the span of the others is below this share of it depends on them.
-DEPENDENT = 1e-8
-# A column below this share of the largest is 0, apart from rounding.
-NEGLIGIBLE = 1e-12
+# Singular values as shares of the largest. Of the arms that people build, the smallest that is meant
+# is some 1e-2, while angles rounded to three digits give 1e-5 to 1e-4. Between these bounds the widest
+# gap is looked for; what lies above shows, what lies below does not.
+GAP = (1e-5, 3e-3)
+# What rounding leaves of 0.
+NOTHING = 1e-13
+# Kept and dropped singular values that are closer than this have no clear gap between them.
+CLEAR = 10
+# In a combination, in units of the arm's length: rounding, and what is not worth a word.
+ROUNDING, UNSPOKEN = 1e-10, 1e-5
+# An entry of a vector of length 1 that is below this is no good reason to drop the entry's column.
+FIRM = 1e-2
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,12 +34,25 @@ class BaseParameters:
     independent: the columns of Y that are kept. combination: K, (rank, len(π)): row i is the parameter
     of column independent[i] with its shares of the dropped ones. columns: those that were tried.
     names: of all entries of π.
+
+    singular_values: (len(columns),), of Y at random states as shares of the largest, in units in which
+    the arm's length and the gravitational acceleration are 1. cut: those above it are counted. length:
+    the arm's, from its first joint to its last, m.
+
+    condition: the ratio of the largest to the smallest singular value of the kept columns, in the same
+    units: how many times better the torques of random motion show the most visible combination of base
+    parameters than the least visible one. It belongs to the arm; that of one motion is
+    `armdyn.identify.Excitation.condition`.
     """
 
     independent: tuple[int, ...]
     combination: np.ndarray
     columns: tuple[int, ...]
     names: tuple[str, ...]
+    singular_values: np.ndarray
+    cut: float
+    condition: float
+    length: float
 
     @property
     def rank(self) -> int:
@@ -32,43 +60,117 @@ class BaseParameters:
 
     @property
     def descriptions(self) -> tuple[str, ...]:
-        """Each base parameter in words, such as "J1 + 0.25 m2"."""
+        """Each base parameter in words, such as "J1 + 0.25 m2".
+
+        Left out is what changes the parameter by less than 1e-5, with masses moved by the arm's length.
+        """
         return tuple(
-            _as_sum(own, row, self.names)
-            for own, row in zip(self.independent, self.combination, strict=True)
+            _sum([f"+ {self.names[own]}", *_terms(row, spoken, self.names, own)])
+            for own, row, spoken in zip(
+                self.independent, self.combination, self._spoken, strict=True
+            )
         )
 
+    @property
+    def dropped(self) -> dict[str, str]:
+        """Of each parameter that is dropped, by name, what it acts like: "1.3 m1 cx1 + 1.69 J1".
+
+        1 kg of m2, say, loads the joints as 1.3 kg·m of m1 cx1 and 1.69 kg·m² of J1 do, and no torque
+        tells them apart. Where no torque shows it at all, "nothing".
+        """
+        kept = [self.names[j] for j in self.independent]
+        rest = [j for j in self.columns if j not in self.independent]
+        sums = {
+            self.names[j]: _terms(self.combination[:, j], self._spoken[:, j], kept) for j in rest
+        }
+        return {name: _sum(terms) or "nothing" for name, terms in sums.items()}
+
+    @property
+    def gap(self) -> tuple[float, float]:
+        """The smallest singular value that counts and the largest that does not, 0 if none is left."""
+        ends = np.concatenate([[np.inf], self.singular_values, [0.0]])
+        return float(ends[self.rank]), float(ends[self.rank + 1])
+
+    @property
+    def clear(self) -> bool:
+        """Whether the number of base parameters is: the two of `gap` are 10 times apart or more."""
+        kept, dropped = self.gap
+        return kept >= CLEAR * dropped
+
+    @property
+    def remark(self) -> str:
+        """What to know about the number of base parameters; empty where the geometry leaves no doubt."""
+        kept, dropped = self.gap
+        hidden = np.count_nonzero(self.singular_values[self.rank :] > NOTHING)
+        if not self.clear:
+            return (
+                f"no clear gap: the last singular value that counts is {kept:.1e} of the largest, the "
+                f"next {dropped:.1e}; the number of base parameters depends on the tolerance"
+            )
+        if hidden:
+            return (
+                f"{hidden} more would show, by {dropped:.0e} of the largest or less: rounded angles or "
+                f"lengths do that, and what is below {self.cut:.0e} does not count"
+            )
+        return ""
+
+    @property
+    def _spoken(self) -> np.ndarray:
+        """Which entries of K are worth a word, (rank, len(π)), bool."""
+        unit = self.length ** powers_of_length(self.names)
+        return np.abs(self.combination) * unit > UNSPOKEN * unit[list(self.independent), np.newaxis]
+
     def __str__(self):
-        return f"{self.rank} base parameters: " + "; ".join(self.descriptions)
+        lines = [f"{self.rank} base parameters: " + "; ".join(self.descriptions), self.remark]
+        return "\n".join(filter(None, lines))
 
 
-def base_parameters(model, columns=None) -> BaseParameters:
+def base_parameters(model, columns=None, tolerance=None) -> BaseParameters:
     """The base parameters of a model's geometry, numerically, from random states.
 
     columns: indices of the entries of π that may be other than 0, all of them by default;
     `on_link_axes(model)` gives those of a planar arm whose centres of mass lie on the links' axes.
-    A column is kept if it is not a combination of those kept before it, inertias tried first, then
-    first moments, masses last, so that masses move into the parameters of other links. The states
-    come from a fixed seed: the same geometry gives the same base.
+    tolerance: singular values up to this share of the largest, 0 ≤ tolerance < 1, count as 0. It is how
+    well the geometry is known: axes that are off by an angle of ε make singular values of up to about ε.
+    By default the widest gap between 1e-5 and 3e-3 is taken: angles of 1.5708 or 1.571 for π/2 then
+    change nothing. With 0 each digit of the geometry is believed.
 
-    Raises ValueError for columns that are not distinct indices of entries of π.
+    A column is dropped if it is a combination of the others, masses first, then first moments, inertias
+    last, so that masses move into the parameters of other links. The states come from a fixed seed: the
+    same geometry gives the same base.
 
-    Source: M. Gautier (1991), Numerical Calculation of the Base Inertial Parameters of Robots, for
-    the idea; here orthogonalisation stands for the QR decomposition.
+    Raises ValueError for columns that are not distinct indices of entries of π, and for a tolerance that
+    is not as described.
+
+    Source: M. Gautier (1991), Numerical Calculation of the Base Inertial Parameters of Robots; here the
+    columns to drop are read from the null space.
     """
     names = parameter_names(model)
-    columns = _column_indices(columns, len(names))
-    W = _random_rows(model)
-    size = np.linalg.norm(W, axis=0)
-    W = W / np.where(size > NEGLIGIBLE * np.max(size), size, np.inf)
-    independent = _independent(W, sorted(columns, key=lambda j: (_rank_of_wish(names[j]), j)))
-    shares = np.linalg.lstsq(W[:, independent], W, rcond=None)[0]
-    shares[np.abs(shares) < DEPENDENT] = 0
-    combination = shares * size / size[independent, np.newaxis]
-    dropped = np.setdiff1d(np.arange(len(names)), columns)
-    combination[:, dropped] = 0
-    combination[:, independent] = np.eye(len(independent))
-    return BaseParameters(tuple(independent), combination, columns, names)
+    columns = column_indices(columns, len(names))
+    if tolerance is not None and not _below_one(tolerance):
+        raise ValueError(f"tolerance = {tolerance!r}: needs a number from 0 to below 1, or None")
+    W, unit = _random_rows(model)
+    tried = W[:, columns]
+    _, values, right = np.linalg.svd(tried, full_matrices=False)
+    values = values / values[0] if values[0] > NOTHING * np.linalg.norm(W) else 0 * values
+    cut = _widest_gap(values) if tolerance is None else max(float(tolerance), NOTHING)
+    rank = np.count_nonzero(values > cut)
+    # Where the gap is narrow, the null space is no better known.
+    firm = max(FIRM, 3 * values[rank] / values[rank - 1]) if 0 < rank < len(values) else FIRM
+    drop = _dropped(right[rank:].T, powers_of_length(names)[list(columns)], firm)
+    independent = [j for k, j in enumerate(columns) if k not in drop]
+
+    combination = np.zeros((len(independent), len(names)))
+    condition = 1.0
+    if independent:
+        shares = np.linalg.lstsq(W[:, independent], tried, rcond=None)[0]
+        shares[np.abs(shares) < ROUNDING] = 0
+        combination[:, columns] = shares * unit[independent, np.newaxis] / unit[list(columns)]
+        combination[:, independent] = np.eye(len(independent))
+        condition = float(np.linalg.cond(W[:, independent]))
+    return BaseParameters(
+        tuple(independent), combination, columns, names, values, cut, condition, reach(model)
+    )
 
 
 def on_link_axes(model) -> tuple[int, ...]:
@@ -82,48 +184,64 @@ def on_link_axes(model) -> tuple[int, ...]:
     return tuple(j for j, name in enumerate(names) if " cy" not in name)
 
 
-def _random_rows(model) -> np.ndarray:
-    """Y at random states, stacked."""
+def _random_rows(model) -> tuple[np.ndarray, np.ndarray]:
+    """Y at random states, stacked, in the arm's units, and the unit of each entry of π.
+
+    In these units the arm's length is 1 and so is the gravitational acceleration, if there is any, so
+    that an arm a tenth as long has the same rows.
+    """
+    length, time, per_joint = reach(model), fall_time(model), joint_units(model)
     rng = np.random.default_rng(0)
     # Several times as many equations as there are columns, 4n or 10n.
-    q, qd, qdd = rng.uniform(-np.pi, np.pi, (3, 40, model.n))
-    Y = regressor(model, q, qd, qdd)
-    return Y.reshape(-1, Y.shape[-1])
+    q, qd, qdd = rng.uniform(-np.pi, np.pi, (3, 40, model.n)) * per_joint
+    Y = regressor(model, q, qd / time, qdd / time**2)
+    unit = length ** powers_of_length(parameter_names(model))
+    # Forces of prismatic joints are counted as torques at the arm's length.
+    W = Y * per_joint[:, np.newaxis] * (time / length) ** 2 * unit
+    return W.reshape(-1, Y.shape[-1]), unit
 
 
-def _independent(W, order) -> list[int]:
-    """The columns that do not lie in the span of those before them in this order; sorted."""
-    kept, basis = [], np.empty((len(W), 0))
-    for j in order:
-        rest = W[:, j]
-        for _ in range(2):  # once is not orthogonal to rounding
-            rest = rest - basis @ (basis.T @ rest)
-        length = np.linalg.norm(rest)
-        if length > DEPENDENT:
-            kept.append(j)
-            basis = np.column_stack([basis, rest / length])
-    return sorted(kept)
+def _widest_gap(values) -> float:
+    """Where to cut, between two singular values or at a bound, in the widest gap within the bounds."""
+    low, high = GAP
+    inside = values[(values > low) & (values < high)]
+    edges = np.concatenate([[high], inside, [low]])
+    widest = np.argmin(edges[1:] / edges[:-1])
+    return float(np.sqrt(edges[widest] * edges[widest + 1]))
 
 
-def _rank_of_wish(name: str) -> int:
-    return 0 if name.startswith("J") else 1 if " c" in name else 2
+def _dropped(null, power, least) -> set[int]:
+    """As many columns as the null space has dimensions, so that the others are independent.
+
+    null: (columns, dimensions), orthonormal. A column can go if some vector of the null space has an
+    entry there, of `least` or more, and none at those that have gone.
+    """
+    gone: list[int] = []
+    while len(gone) < null.shape[1]:
+        basis = np.linalg.qr(null[gone].T)[0]
+        rest = np.linalg.norm(null - null @ basis @ basis.T, axis=1)
+        # Masses before first moments before inertias, and of those that will do, later links first.
+        firm = rest > least if np.any(rest > least) else rest == np.max(rest)
+        first = np.flatnonzero(firm & (power == np.min(power[firm])))
+        gone.append(int(first[rest[first] > np.max(rest[first]) / 2][-1]))
+    return set(gone)
 
 
-def _column_indices(columns, count) -> tuple[int, ...]:
-    if columns is None:
-        return tuple(range(count))
-    given = tuple(columns)
-    valid = all(isinstance(j, int | np.integer) and 0 <= j < count for j in given)
-    if not valid or len(set(given)) != len(given) or not given:
-        raise ValueError(f"columns = {columns!r}: needs distinct indices from 0 to {count - 1}")
-    return tuple(sorted(int(j) for j in given))
+def _below_one(value) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool) and 0 <= float(value) < 1
 
 
-def _as_sum(own, row, names) -> str:
-    text = names[own]
-    for j in np.flatnonzero(row):
+def _terms(shares, spoken, names, own=None) -> list[str]:
+    """Words such as "+ 1.3 m2", for each share that is worth a word."""
+    words = []
+    for j in np.flatnonzero(spoken):
         if j != own:
-            share = abs(row[j])
-            times = "" if np.isclose(share, 1, rtol=1e-9) else f"{share:.4g} "
-            text += f" {'+' if row[j] > 0 else '−'} {times}{names[j]}"
-    return text
+            size = abs(shares[j])
+            times = "" if np.isclose(size, 1, rtol=1e-9) else f"{size:.4g} "
+            words.append(f"{'+' if shares[j] > 0 else '−'} {times}{names[j]}")
+    return words
+
+
+def _sum(terms) -> str:
+    text = " ".join(terms).removeprefix("+ ")
+    return "−" + text[2:] if text.startswith("− ") else text

@@ -15,6 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import null_space
 
+from armdyn.geometry import column_indices
+from armdyn.parameters import all_finite, positive, real_array, state_vector
+
 # In units of the arm's own size: what counts as 0, and the most that Σ of all traces may reach.
 TOLERANCE = 1e-9
 MODEST_TRACE, LARGEST_TRACE = 1e2, 1e6
@@ -26,7 +29,7 @@ def pseudo_inertia(pi) -> np.ndarray:
     pi: (..., 4) for a planar link, giving (..., 3, 3), or (..., 10) for a spatial one, giving
     (..., 4, 4); order as in `armdyn.regressor`. Raises ValueError for another size.
     """
-    pi = np.asarray(pi, dtype=float)
+    pi = all_finite("pi", real_array("pi", pi))
     size = pi.shape[-1] if pi.ndim else 0
     if size not in _ENTRIES:
         raise ValueError(f"pi: got shape {pi.shape}, needs (..., 4) or (..., 10)")
@@ -84,17 +87,28 @@ def consistent_parameters(combination, estimate, columns, n, length=1.0) -> Cons
     eigenvalue above −1e-9 counts as 0, so that a point mass passes, and masses are looked for up to
     1e6 times the arm's size.
 
+    Raises ValueError for arguments that are not as described.
+
     It is the first phase of an interior-point method: least s with all matrices + s·1 ⪰ 0.
     Source: S. Boyd, L. Vandenberghe (2004), Convex Optimization, section 11.4.
     """
-    columns = list(columns)
+    combination = all_finite("combination", real_array("combination", combination))
+    sizes = [n * per_link for per_link in _ENTRIES]
+    if combination.ndim != 2 or combination.shape[1] not in sizes:
+        raise ValueError(
+            f"combination: got shape {combination.shape}, needs (b, {sizes[0]}) or (b, {sizes[1]}) for "
+            f"n = {n} links"
+        )
+    estimate = state_vector("estimate", estimate, len(combination))
+    columns = list(column_indices(columns, combination.shape[1]))
+    length = positive("length", length, "m")
     per_link = combination.shape[1] // n
     powers = np.array([0, 1, 1, 2] if per_link == 4 else [0, 1, 1, 1] + [2] * 6)
-    unit = np.tile(float(length) ** powers, n)[columns]
+    unit = np.tile(length**powers, n)[columns]
     K = combination[:, columns] * unit
     rows = np.linalg.norm(K, axis=1)
-    K, target = K / rows[:, np.newaxis], np.asarray(estimate) / rows
-    size = np.max(np.abs(target))
+    K, target = K / rows[:, np.newaxis], estimate / rows
+    size = np.max(np.abs(target), initial=0.0)
     size = size if size > 0 else 1.0
 
     def matrices(coordinates):
@@ -102,7 +116,7 @@ def consistent_parameters(combination, estimate, columns, n, length=1.0) -> Cons
         pi[..., columns] = coordinates
         return pseudo_inertia(pi.reshape(*coordinates.shape[:-1], n, per_link))
 
-    start, free = np.linalg.pinv(K) @ (target / size), null_space(K, rcond=1e-10)
+    start, free = np.linalg.pinv(K) @ (target / size), _free(K)
     # Bodies of the arm's own size first: without a bound the search prefers heavy ones.
     for largest in (MODEST_TRACE, LARGEST_TRACE):
         margin, step = _largest_margin(matrices(start), matrices(free.T), largest)
@@ -113,6 +127,11 @@ def consistent_parameters(combination, estimate, columns, n, length=1.0) -> Cons
     found = np.zeros(n * per_link)
     found[columns] = (start + free @ step) * size * unit
     return Consistency(margin, found)
+
+
+def _free(K) -> np.ndarray:
+    """All that K does not see, as columns."""
+    return null_space(K, rcond=1e-10) if len(K) else np.eye(K.shape[1])
 
 
 def _largest_margin(base, directions, largest_trace) -> tuple[float, np.ndarray | None]:

@@ -10,13 +10,17 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
-from armdyn.base_parameters import NEGLIGIBLE, BaseParameters, base_parameters
+from armdyn.base_parameters import BaseParameters, base_parameters
 from armdyn.consistency import Consistency, consistent_parameters
-from armdyn.parameters import state_vectors
-from armdyn.regressor import friction_columns, reach, regressor
+from armdyn.geometry import geometry, joint_units, powers_of_length, reach
+from armdyn.parameters import state_vector, state_vectors
+from armdyn.regressor import friction_columns, regressor
 
-# A singular value below this share of the largest, columns scaled to length 1, counts as 0.
-DEFICIENT = 1e-11
+# A singular value below this share of the largest, columns scaled to length 1, counts as 0: geometry
+# with rounded angles, which are off by up to this much, shows no parameter better.
+DEFICIENT = 1e-5
+# What rounding in double precision alone can show; and how much of the null space couples two columns.
+ROUNDING, COUPLED = 1e-13, 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,13 +30,15 @@ class Excitation:
     names: of the base parameters, then of friction. rank: of the stacked regressor's columns, at
     most len(names). condition: the ratio of its singular values, each column scaled to length 1, so
     that units do not enter; infinite where the rank falls short. confused: groups of parameters
-    that the motion cannot tell apart; a group of one has no effect on the torques at all.
+    that the motion cannot tell apart; a group of one has no effect on the torques at all. What shows
+    below the tolerance (see `excitation`) does not count. base: the base parameters.
     """
 
     names: tuple[str, ...]
     rank: int
     condition: float
     confused: tuple[tuple[str, ...], ...]
+    base: BaseParameters
 
     @property
     def sufficient(self) -> bool:
@@ -55,8 +61,10 @@ class Identification:
     """What least squares found.
 
     names: of the estimates, the base parameters first, then with friction "viscous1" … and
-    "coulomb1" …. estimate, standard_error: (p,), in the units of π, N·m·s/rad and N·m. residual: the
-    standard deviation of u that is left, N·m, with the degrees of freedom taken off.
+    "coulomb1" …. estimate, standard_error: (p,), in the units of π, N·m·s/rad and N·m (N·s/m and N for
+    a prismatic joint). residual: the standard deviation of u that is left, with the degrees of freedom
+    taken off: in N·m, a force counted as its torque at the arm's reach; or where `noise` was given, as a
+    multiple of it.
 
     consistency: whether bodies exist that have exactly the estimated base parameters, and if so
     one full π of theirs. It judges the estimate, not its error bars: where noise alone has made a
@@ -70,6 +78,7 @@ class Identification:
     residual: float
     excitation: Excitation
     consistency: Consistency
+    weighted: bool
 
     @property
     def rank(self) -> int:
@@ -97,64 +106,77 @@ class Identification:
             )
         )
         bodies = "exist" if self.consistent else "do not exist"
-        return "\n".join(
-            [*rows, f"residual {self.residual:.3g} N·m; bodies with these parameters {bodies}"]
-        )
+        unit = "times the noise" if self.weighted else "N·m"
+        last = f"residual {self.residual:.3g} {unit}; bodies with these parameters {bodies}"
+        return "\n".join(filter(None, [*rows, self.base.remark, last]))
 
 
-def excitation(model, q, qd, qdd, friction=False, columns=None) -> Excitation:
+def excitation(
+    model, q, qd, qdd, friction=False, columns=None, tolerance=None, noise=None
+) -> Excitation:
     """What a motion shows of the parameters, before any torque is measured.
 
     Arguments and errors are those of `identify`, except that too few samples show as a lower rank.
     """
     q, qd, qdd = _samples(model, q=q, qd=qd, qdd=qdd)
-    base = base_parameters(model, columns)
-    W, names = _stacked(model, base, q, qd, qdd, friction)
-    return _excitation(W, names)
+    base = base_parameters(model, columns, tolerance)
+    return _excitation(base, *_columns(model, base, q, qd, qdd, friction, noise), tolerance)
 
 
-def identify(model, q, qd, qdd, u, friction=False, columns=None) -> Identification:
+def identify(
+    model, q, qd, qdd, u, friction=False, columns=None, tolerance=None, noise=None
+) -> Identification:
     """Base parameters, and with `friction` the friction of each joint, by least squares.
 
     model: gives the geometry and gravity; its masses, inertias and friction do not enter.
-    q, qd, qdd, u: samples of a motion, (..., n), rad, rad/s, rad/s², N·m. columns: as for
-    `base_parameters`.
+    q, qd, qdd, u: samples of a motion, (..., n), rad, rad/s, rad/s², N·m; for a prismatic joint m, m/s,
+    m/s², N. columns, tolerance: as for `base_parameters`. What the motion shows by less than the
+    tolerance, 1e-5 by default, counts as not shown: rounded angles in the geometry can do that alone.
+    noise: (n,), the standard deviation of each joint's u, N·m or N, or any numbers in proportion; by
+    default the same at all joints, with a force counted as its torque at the arm's reach.
 
-    The standard errors are those of ordinary least squares: u has independent noise of the same
-    variance at each sample and joint, and q, q̇, q̈ have none. Noise in q̈ biases the estimates
-    towards 0, and no error bar shows it.
+    The standard errors are those of ordinary least squares: u has independent noise at each sample and
+    joint, in proportion to `noise`, and q, q̇, q̈ have none. Noise in q̈ biases the estimates towards 0,
+    and no error bar shows it.
 
-    Raises ValueError for bad samples, for samples too few to leave a residual, and for a motion
-    that cannot tell the parameters apart, naming them.
+    Raises ValueError for bad arguments, for samples too few to leave a residual, for a motion that
+    cannot tell the parameters apart, naming them, and where nothing at all loads the joints.
 
     Source: C. G. Atkeson, C. H. An, J. M. Hollerbach (1986), Estimation of Inertial Parameters of
     Manipulator Loads and Links.
     """
     q, qd, qdd, u = _samples(model, q=q, qd=qd, qdd=qdd, u=u)
-    base = base_parameters(model, columns)
-    W, names = _stacked(model, base, q, qd, qdd, friction)
+    base = base_parameters(model, columns, tolerance)
+    W, names, full = _columns(model, base, q, qd, qdd, friction, noise)
     equations, unknowns = W.shape
+    if not unknowns:
+        raise ValueError("columns: none of these parameters loads a joint; needs one that does")
     if equations <= unknowns:
         raise ValueError(
             f"q: {q.size // model.n} samples give {equations} equations; {unknowns} parameters and "
             f"their standard errors need at least {unknowns // model.n + 1} samples"
         )
-    shown = _excitation(W, names)
+    shown = _excitation(base, W, names, full, tolerance)
     if not shown.sufficient:
         raise ValueError(
-            f"q, qd, qdd: the motion {shown}; needs a motion that moves more of the arm"
+            f"q, qd, qdd: the motion {shown}; needs a motion that moves more of the arm, or a smaller "
+            "tolerance if the geometry is exact"
         )
 
+    measured = (u / _noise(noise, model)).ravel()
     size = np.linalg.norm(W, axis=0)
     left, values, right = np.linalg.svd(W / size, full_matrices=False)
-    estimate = right.T @ (left.T @ u.ravel() / values) / size
-    rest = u.ravel() - W @ estimate
+    estimate = right.T @ (left.T @ measured / values) / size
+    rest = measured - W @ estimate
     residual = np.sqrt(rest @ rest / (equations - unknowns))
     standard_error = residual * np.linalg.norm(right.T / values, axis=1) / size
     consistency = consistent_parameters(
         base.combination, estimate[: base.rank], base.columns, model.n, reach(model)
     )
-    return Identification(base, names, estimate, standard_error, residual, shown, consistency)
+    return Identification(
+        *(base, names, estimate, standard_error, residual, shown, consistency),
+        weighted=noise is not None,
+    )
 
 
 def _samples(model, **named) -> tuple[np.ndarray, ...]:
@@ -166,15 +188,16 @@ def _samples(model, **named) -> tuple[np.ndarray, ...]:
     return arrays
 
 
-def _stacked(model, base, q, qd, qdd, friction) -> tuple[np.ndarray, tuple[str, ...]]:
-    """The columns of the unknowns, one row per sample and joint, and their names."""
-    Y = regressor(model, q, qd, qdd)[..., list(base.independent)]
-    names = tuple(map(_shortened, base.descriptions))
-    if friction:
-        Y = np.concatenate([Y, friction_columns(qd)], axis=-1)
-        joints = range(1, model.n + 1)
-        names += tuple(f"{kind}{i}" for kind in ("viscous", "coulomb") for i in joints)
-    return Y.reshape(-1, len(names)), names
+def _noise(noise, model) -> np.ndarray:
+    if noise is None:
+        return 1 / joint_units(model)
+    scale = state_vector("noise", noise, model.n)
+    if scale.shape != (model.n,) or np.any(scale <= 0):
+        raise ValueError(
+            f"noise = {scale.tolist()}: needs {model.n} numbers greater than 0, one per joint, in N·m "
+            "(N for a prismatic joint)"
+        )
+    return scale
 
 
 def _shortened(sum_: str) -> str:
@@ -182,23 +205,54 @@ def _shortened(sum_: str) -> str:
     return sum_ if len(sum_) <= 48 else re.split(" [+−] ", sum_, maxsplit=1)[0] + " + …"
 
 
-def _excitation(W, names) -> Excitation:
+def _columns(
+    model, base, q, qd, qdd, friction, noise
+) -> tuple[np.ndarray, tuple[str, ...], np.ndarray]:
+    """The columns of the unknowns, one row per sample and joint, in units of the noise; their names;
+    and how large each would be if this motion loaded it in full."""
+    scale = _noise(noise, model)
+    Y = regressor(model, q, qd, qdd)[..., list(base.independent)]
+    names = tuple(map(_shortened, base.descriptions))
+    full = _full_effect(model, base, q, qd, qdd) * np.linalg.norm(1 / (scale * joint_units(model)))
+    if friction:
+        Y = np.concatenate([Y, friction_columns(qd)], axis=-1)
+        joints = range(1, model.n + 1)
+        names += tuple(f"{kind}{i}" for kind in ("viscous", "coulomb") for i in joints)
+        full = np.concatenate([full, np.zeros(2 * model.n)])
+    return (Y / scale[:, np.newaxis]).reshape(q.size, len(names)), names, full
+
+
+def _excitation(base, W, names, full, tolerance) -> Excitation:
+    if not names:
+        return Excitation(names, 0, 1.0, (), base)
+    deficient = DEFICIENT if tolerance is None else max(float(tolerance), ROUNDING)
     size = np.linalg.norm(W, axis=0)
-    size = np.where(size > NEGLIGIBLE / 100 * np.max(size), size, np.inf)
+    # Of a full column, rounded angles can leave their own share where there should be nothing.
+    size = np.where(size > np.maximum(deficient * full, ROUNDING * np.max(size)), size, np.inf)
     triangle = np.linalg.qr(np.vstack([W / size, np.zeros((len(names), len(names)))]), mode="r")
     _, values, right = np.linalg.svd(triangle)
-    shown = values > DEFICIENT * values[0]
+    shown = values > deficient * values[0]
     rank = int(np.count_nonzero(shown))
     if rank == len(names):
-        return Excitation(names, rank, float(values[0] / values[-1]), ())
+        return Excitation(names, rank, float(values[0] / values[-1]), (), base)
     # Two parameters are confused when some motion-free change of π changes both: the projector on
     # the null space couples them.
     hidden = right[~shown].T @ right[~shown]
-    count, label = connected_components(np.abs(hidden) > 1e-6, directed=False)
+    count, label = connected_components(np.abs(hidden) > COUPLED, directed=False)
     groups = (np.flatnonzero(label == k) for k in range(count))
     confused = tuple(
         tuple(names[j] for j in group)
         for group in groups
-        if np.any(np.abs(hidden[group, group]) > 1e-6)
+        if np.any(np.abs(hidden[group, group]) > COUPLED)
     )
-    return Excitation(names, rank, np.inf, confused)
+    return Excitation(names, rank, np.inf, confused, base)
+
+
+def _full_effect(model, base, q, qd, qdd) -> np.ndarray:
+    """Per base parameter, over all samples: the torque of a unit of it, far out and straight across."""
+    length, units = reach(model), joint_units(model)
+    turning = np.sum(np.abs(qdd) / units, axis=-1) + np.sum(np.abs(qd) / units, axis=-1) ** 2
+    moving = length * turning + np.linalg.norm(geometry(model).gravity)
+    # N·m per kg, per kg·m and per kg·m².
+    full = np.linalg.norm([(length * moving).ravel(), moving.ravel(), turning.ravel()], axis=1)
+    return full[powers_of_length(base.names)[list(base.independent)]]

@@ -12,93 +12,24 @@ of its own, `friction_columns`; so has the inertia of motors, `armature_columns`
 - spatial chains, 10: m, m cx, m cy, m cz, Jxx, Jxy, Jyy, Jxz, Jyz, Jzz, in the link's frame. J is the
   inertia matrix about the frame's origin, so that Jxy = −∫ x y dm.
 
+The rows of kinetic and potential energy, with the same π, are in `armdyn.energy_regressor`.
+
 Source: C. G. Atkeson, C. H. An, J. M. Hollerbach (1986), Estimation of Inertial Parameters of
 Manipulator Loads and Links.
 """
 
-from dataclasses import dataclass
 from functools import singledispatch
 
 import numpy as np
 
+from armdyn.geometry import INERTIA, PLANAR, SPATIAL, PlanarGeometry, geometry, sum_of_those_before
 from armdyn.models import Pendulum, Planar2R, PlanarChain, SerialChain
 from armdyn.parameters import state_vector, state_vectors
 
-PLANAR = ("m{0}", "m{0} cx{0}", "m{0} cy{0}", "J{0}")
-SPATIAL = (
-    *("m{0}", "m{0} cx{0}", "m{0} cy{0}", "m{0} cz{0}"),
-    *("Jxx{0}", "Jxy{0}", "Jyy{0}", "Jxz{0}", "Jyz{0}", "Jzz{0}"),
+# Per entry of the inertia matrix: the matrix in which it is 1, and all others are 0.
+UNIT_INERTIAS = np.array(
+    [[[float({i, j} == {k, l}) for l in range(3)] for k in range(3)] for i, j in INERTIA]
 )
-# The entries of the inertia matrix in that order.
-INERTIA = ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))
-
-
-@dataclass(frozen=True)
-class _PlanarGeometry:
-    """Link lengths (m) and the gravitational acceleration (m/s²) in the axes q1 is measured in."""
-
-    l: tuple[float, ...]
-    gravity: tuple[float, float]
-
-    names = PLANAR
-
-    @property
-    def n(self) -> int:
-        return len(self.l)
-
-    @property
-    def length(self) -> float:
-        return sum(self.l) / self.n
-
-    def regressor(self, q, qd, qdd) -> np.ndarray:
-        return _planar_regressor(self, q, qd, qdd)
-
-
-@dataclass(frozen=True)
-class _SpatialGeometry:
-    chain: SerialChain
-
-    names = SPATIAL
-
-    @property
-    def n(self) -> int:
-        return self.chain.n
-
-    @property
-    def length(self) -> float:
-        lengths = [np.linalg.norm(link.translation) for link in self.chain.links]
-        return float(sum(lengths) / self.n)
-
-    def regressor(self, q, qd, qdd) -> np.ndarray:
-        return _spatial_regressor(self.chain, q, qd, qdd)
-
-
-@singledispatch
-def _geometry(model):
-    raise ValueError(
-        f"model: got {type(model).__name__}, needs a Pendulum, a Planar2R, a PlanarChain or a "
-        "SerialChain"
-    )
-
-
-@_geometry.register
-def _(model: Pendulum):
-    return _PlanarGeometry(l=(0.0,), gravity=(model.g, 0.0))
-
-
-@_geometry.register
-def _(model: Planar2R):
-    return _PlanarGeometry(l=(model.l1, model.l2), gravity=(0.0, -model.g))
-
-
-@_geometry.register
-def _(model: PlanarChain):
-    return _PlanarGeometry(l=model.l, gravity=(0.0, -model.g))
-
-
-@_geometry.register
-def _(model: SerialChain):
-    return _SpatialGeometry(model)
 
 
 @singledispatch
@@ -108,7 +39,7 @@ def parameters(model) -> np.ndarray:
     The order and units are the module's. Raises ValueError for a model that has no links to read
     them from.
     """
-    _geometry(model)
+    geometry(model)
     raise NotImplementedError(f"{type(model).__name__} has a geometry, but no parameters")
 
 
@@ -142,25 +73,34 @@ def _(model: SerialChain):
 
 def parameter_names(model) -> tuple[str, ...]:
     """The names of the entries of π; "J2" is the inertia of link 2 about its joint."""
-    geometry = _geometry(model)
-    return tuple(name.format(i + 1) for i in range(geometry.n) for name in geometry.names)
+    shape = geometry(model)
+    return tuple(name.format(i + 1) for i in range(shape.n) for name in shape.names)
 
 
-def regressor(model, q, qd, qdd) -> np.ndarray:
+def regressor(model, q, qd, qdd, qd_ref=None) -> np.ndarray:
     """Y with M q̈ + C q̇ + g = Y π, (..., n, 4n) for planar arms, (..., n, 10n) for spatial chains.
 
     q, qd, qdd: (..., n), rad, rad/s, rad/s² (m for a prismatic joint). Of the model only the geometry
-    and gravity enter, not its masses: another arm of the same geometry has the same Y. Raises
-    ValueError for states of the wrong shape or not finite, and for a model without links.
+    and gravity enter, not its masses: another arm of the same geometry has the same Y.
+
+    qd_ref: (..., n), a velocity q̇r that takes the place of q̇ behind C, and nowhere else:
+    M q̈ + C(q, q̇) q̇r + g = Y π, with C in Christoffel form. In an adaptive controller q̇r is the
+    reference velocity, and its rate the acceleration to give as `qdd`. Y is linear in q̇r, apart
+    from its value at q̇r = 0, and C(q, q̇) q̇r = C(q, q̇r) q̇.
+
+    Raises ValueError for states of the wrong shape or not finite, and for a model without links.
+
+    Source, for q̇r: J.-J. E. Slotine, W. Li (1987), On the Adaptive Control of Robot Manipulators,
+    International Journal of Robotics Research 6(3). Christoffel symbols are symmetric in the two
+    velocities, so C(q, q̇) q̇r is what each product of two velocities in Newton's and Euler's
+    equations becomes when it is shared out evenly: a b to (a b_r + a_r b)/2.
     """
-    geometry = _geometry(model)
-    q, qd, qdd = np.broadcast_arrays(*state_vectors(geometry.n, q=q, qd=qd, qdd=qdd))
-    return geometry.regressor(q, qd, qdd)
-
-
-def reach(model) -> float:
-    """A length of the arm's size, m: the mean length of its links, 1 where it has none."""
-    return _geometry(model).length or 1.0
+    shape = geometry(model)
+    named = {"q": q, "qd": qd, "qdd": qdd, "qd_ref": qd if qd_ref is None else qd_ref}
+    q, qd, qdd, qd_ref = np.broadcast_arrays(*state_vectors(shape.n, **named))
+    if isinstance(shape, PlanarGeometry):
+        return _planar_regressor(shape, q, qd, qdd, qd_ref)
+    return _spatial_regressor(shape.chain, q, qd, qdd, qd_ref)
 
 
 def armature_columns(qdd) -> np.ndarray:
@@ -196,27 +136,28 @@ def _planar_parameters(m, lc, ly, I) -> np.ndarray:
     return np.stack([m, m * lc, m * ly, I + m * (lc**2 + ly**2)], axis=-1).ravel()
 
 
-def _planar_regressor(geometry, q, qd, qdd) -> np.ndarray:
+def _planar_regressor(shape, q, qd, qdd, qd_ref) -> np.ndarray:
     """Each link's force and moment about its joint are linear in its π; carry them to the joints."""
-    angle = np.cumsum(q, axis=-1)
     rate, acceleration = np.cumsum(qd, axis=-1), np.cumsum(qdd, axis=-1)
-    x_axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    y_axis = np.stack([-x_axis[..., 1], x_axis[..., 0]], axis=-1)
-    spin, swing = acceleration[..., np.newaxis], rate[..., np.newaxis] ** 2
+    x_axis, y_axis = shape.axes(q)
+    spin, swing = (
+        acceleration[..., np.newaxis],
+        (rate * np.cumsum(qd_ref, axis=-1))[..., np.newaxis],
+    )
     # The second derivatives of the two axes, and with them of every point fixed in the link.
     x_axis_dd, y_axis_dd = spin * y_axis - swing * x_axis, -spin * x_axis - swing * y_axis
 
-    length = np.array(geometry.l)[:, np.newaxis]
-    joint = _sum_of_those_before(length * x_axis)
+    length = np.array(shape.l)[:, np.newaxis]
+    joint = sum_of_those_before(length * x_axis)
     # Gravity acts as the base's acceleration the other way.
-    joint_dd = _sum_of_those_before(length * x_axis_dd) - np.array(geometry.gravity)
+    joint_dd = sum_of_those_before(length * x_axis_dd) - np.array(shape.gravity)
 
     nothing = np.zeros_like(joint)
     force = np.stack([joint_dd, x_axis_dd, y_axis_dd, nothing], axis=-2)
     moment = np.stack(
         [nothing[..., 0], _cross(x_axis, joint_dd), _cross(y_axis, joint_dd), acceleration], axis=-1
     )
-    n = geometry.n
+    n = shape.n
     lever = joint[..., np.newaxis, :, :] - joint[..., :, np.newaxis, :]
     torque = moment[..., np.newaxis, :, :] + _cross(
         lever[..., np.newaxis, :], force[..., np.newaxis, :, :, :]
@@ -226,36 +167,33 @@ def _planar_regressor(geometry, q, qd, qdd) -> np.ndarray:
     return torque.reshape(*q.shape, n * len(PLANAR))
 
 
-def _sum_of_those_before(steps) -> np.ndarray:
-    """Σ over k < i of steps[..., k, :], for each i."""
-    return np.cumsum(steps, axis=-2) - steps
-
-
 def _cross(a, b) -> np.ndarray:
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
-def _spatial_regressor(chain, q, qd, qdd) -> np.ndarray:
+def _spatial_regressor(chain, q, qd, qdd, qd_ref) -> np.ndarray:
     """As in the plane, but the motion is carried outwards link by link, in the base's axes."""
     R, p = chain.link_placements(q)
     axis = np.matvec(R, np.array([link.axis for link in chain.links]))
     Y = np.zeros((*q.shape, chain.n, len(SPATIAL)))
-    rate = spin = origin = np.zeros((*q.shape[:-1], 3))  # ω, ω̇ and the link's origin
-    origin_dd = np.broadcast_to(-np.array(chain.gravity), origin.shape)
+    nothing = np.zeros((*q.shape[:-1], 3))
+    spin = origin = nothing  # ω̇ and the link's origin
+    rates = nothing, nothing  # ω, and ω with q̇r for q̇
+    origin_dd = np.broadcast_to(-np.array(chain.gravity), nothing.shape)
     for k, link in enumerate(chain.links):
         lever = p[..., k, :] - origin
         origin = p[..., k, :]
-        origin_dd = origin_dd + np.cross(spin, lever) + np.cross(rate, np.cross(rate, lever))
-        moved, moved_dd = (
-            axis[..., k, :] * qd[..., k : k + 1],
-            axis[..., k, :] * qdd[..., k : k + 1],
-        )
+        origin_dd = origin_dd + np.cross(spin, lever) + _swing(rates, lever)
+        along = axis[..., k, :]
+        steps = along * qd[..., k : k + 1], along * qd_ref[..., k : k + 1]
+        step_dd = along * qdd[..., k : k + 1]
+        turned = (np.cross(rates[0], steps[1]) + np.cross(rates[1], steps[0])) / 2
         if link.joint == "revolute":
-            spin = spin + moved_dd + np.cross(rate, moved)
-            rate = rate + moved
+            spin = spin + step_dd + turned
+            rates = rates[0] + steps[0], rates[1] + steps[1]
         else:
-            origin_dd = origin_dd + moved_dd + 2 * np.cross(rate, moved)
-        force, moment = _spatial_load(R[..., k, :, :], rate, spin, origin_dd)
+            origin_dd = origin_dd + step_dd + 2 * turned
+        force, moment = _spatial_load(R[..., k, :, :], rates, spin, origin_dd)
         for j in range(k + 1):
             arm = (p[..., k, :] - p[..., j, :])[..., np.newaxis, :]
             load = force
@@ -265,18 +203,25 @@ def _spatial_regressor(chain, q, qd, qdd) -> np.ndarray:
     return Y.reshape(*q.shape, -1)
 
 
-def _spatial_load(R, rate, spin, origin_dd) -> tuple[np.ndarray, np.ndarray]:
+def _swing(rates, lever) -> np.ndarray:
+    """ω × (ω × lever), shared out evenly between the two ω."""
+    a, b = rates
+    return (np.cross(a, np.cross(b, lever)) + np.cross(b, np.cross(a, lever))) / 2
+
+
+def _spatial_load(R, rates, spin, origin_dd) -> tuple[np.ndarray, np.ndarray]:
     """Force and moment about its origin that move a link, per entry of its π: (..., 10, 3) each."""
     axes = np.swapaxes(R, -1, -2)  # rows: the link's axes
-    rate_, spin_, origin_dd_ = (v[..., np.newaxis, :] for v in (rate, spin, origin_dd))
-    axes_dd = np.cross(spin_, axes) + np.cross(rate_, np.cross(rate_, axes))
+    a, b = rates
+    axes_dd = np.cross(spin[..., np.newaxis, :], axes)
+    axes_dd = axes_dd + _swing((a[..., np.newaxis, :], b[..., np.newaxis, :]), axes)
     force, moment = np.zeros((2, *R.shape[:-2], len(SPATIAL), 3))
     force[..., 0, :] = origin_dd
     force[..., 1:4, :] = axes_dd
-    moment[..., 1:4, :] = np.cross(axes, origin_dd_)
-    for column, (i, j) in enumerate(INERTIA, start=4):
-        unit = np.zeros((3, 3))
-        unit[i, j] = unit[j, i] = 1
-        J = R @ unit @ axes
-        moment[..., column, :] = np.matvec(J, spin) + np.cross(rate, np.matvec(J, rate))
+    moment[..., 1:4, :] = np.cross(axes, origin_dd[..., np.newaxis, :])
+    # J ω per entry of J, in the link's own axes.
+    spin, a, b = (np.vecmat(w, R) for w in (spin, a, b))
+    Jspin, Ja, Jb = (np.einsum("pij,...j->...pi", UNIT_INERTIAS, w) for w in (spin, a, b))
+    gyration = np.cross(a[..., np.newaxis, :], Jb) + np.cross(b[..., np.newaxis, :], Ja)
+    moment[..., 4:, :] = (Jspin + gyration / 2) @ axes
     return force, moment

@@ -2,11 +2,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
 from armdyn import Link, Manipulator, Pendulum, Planar2R, PlanarChain, SerialChain
-from armdyn.base_parameters import base_parameters, on_link_axes
+from armdyn.base_parameters import on_link_axes
 from armdyn.friction import joint_friction
 from armdyn.regressor import friction_columns, parameter_names, parameters, regressor
 from tests.armdyn.arms import (
@@ -15,28 +15,13 @@ from tests.armdyn.arms import (
     arms_and_states,
     assert_close,
     between,
-    inertias,
-    lengths,
-    masses,
-    offsets,
     vectors,
 )
-from tests.armdyn.chains import spatial, spatial_chains
+from tests.armdyn.chains import spatial
+from tests.armdyn.linked_arms import any_arm, planar_chains
 
 ARM_COLUMNS = ("m1", "m1 cx1", "m1 cy1", "J1", "m2", "m2 cx2", "m2 cy2", "J2")
 ARM = Planar2R(l1=1.3, l2=0.8, lc1=0.5, lc2=0.4, m1=2, m2=1.5, I1=0.2, I2=0.1)
-
-
-@st.composite
-def planar_chains(draw, most=5, least_g=0):
-    n = draw(st.integers(1, most))
-    l, lc, m, I, ly = (
-        draw(st.tuples(*[each] * n)) for each in (lengths, offsets, masses, inertias, offsets)
-    )
-    return PlanarChain(l, lc, m, I, g=draw(between(least_g, 20)), ly=ly)
-
-
-any_arm = arms() | planar_chains() | spatial_chains()
 
 
 def assert_linear(arm, q, qd, qdd):
@@ -44,7 +29,7 @@ def assert_linear(arm, q, qd, qdd):
     assert Y.shape == (*np.shape(q), len(pi))
     assert len(parameter_names(arm)) == len(pi)
     # The size of the terms, which may cancel.
-    size = np.max(np.abs(Y) @ np.abs(pi))
+    size = max(1, np.max(np.abs(Y) @ np.abs(pi)))
     assert_close(Y @ pi + arm.f_vec(qd), arm.inverse_dynamics(q, qd, qdd), size)
 
 
@@ -168,91 +153,6 @@ def test_linear_in_pi_and_not_in_lc():
     np.testing.assert_allclose(u[0] - 2 * u[1] + u[2], 0, atol=1e-12)
 
 
-def stacked(arm, count=60):
-    states = np.random.default_rng(4).uniform(-3, 3, (3, count, arm.n))
-    Y = regressor(arm, *states)
-    return Y.reshape(-1, Y.shape[-1])
-
-
-@pytest.mark.parametrize(
-    ("g", "on_axes", "rank"), [(9.81, True, 4), (9.81, False, 6), (0, True, 3), (0, False, 4)]
-)
-@pytest.mark.parametrize("l1", [1e-3, 1.3, 1e3])
-def test_base_parameters_of_the_2r(g, on_axes, rank, l1):
-    # Trap 6: these many while l1 is known.
-    arm = replace(ARM, g=g, l1=l1)
-    columns = on_link_axes(arm) if on_axes else None
-    assert base_parameters(arm, columns).rank == rank
-
-
-def test_five_parameters_only_while_l1_is_unknown():
-    # m2 cx2 enters the inertia times l1 and gravity alone: with l1 unknown, as two parameters.
-    with_gravity, without = stacked(ARM), stacked(replace(ARM, g=0))
-    base = [ARM_COLUMNS.index(name) for name in ("J1", "J2", "m1 cx1")]
-    inertial, gravitational = without[:, 5], (with_gravity - without)[:, 5]
-    lumped = np.column_stack([with_gravity[:, base], inertial, gravitational])
-    assert np.linalg.matrix_rank(lumped) == 5
-    known = np.column_stack([with_gravity[:, base], inertial + gravitational])
-    assert np.linalg.matrix_rank(known) == base_parameters(ARM, on_link_axes(ARM)).rank == 4
-
-
-def test_base_parameters_in_words():
-    assert base_parameters(ARM, on_link_axes(ARM)).descriptions == (
-        "m1 cx1 + 1.3 m2",
-        "J1 + 1.69 m2",
-        "m2 cx2",
-        "J2",
-    )
-    assert str(base_parameters(Pendulum(1, 0.5, 1))) == ("3 base parameters: m1 cx1; m1 cy1; J1")
-
-
-@a_few
-@given(planar_chains(least_g=1))
-def test_a_planar_chain_has_three_per_link(chain):
-    base = base_parameters(chain)
-    assert base.rank == 3 * chain.n
-    # Each mass moves into the links before; that of the first is seen by no joint.
-    assert {base.names[j] for j in base.independent} == {
-        name for name in base.names if name.startswith("J") or " c" in name
-    }
-    l = np.array(chain.l)
-    masses_in_J = base.combination[base.independent.index(3), 4::4]
-    np.testing.assert_allclose(masses_in_J, l[0] ** 2, rtol=1e-7)
-    assert not base.combination[:, 0].any()
-
-
-@a_few
-@given(any_arm)
-def test_base_parameters_are_all_that_the_torque_shows(arm):
-    base = base_parameters(arm)
-    Y = stacked(arm)
-    shown = np.linalg.svd(Y / np.maximum(np.linalg.norm(Y, axis=0), 1e-12), compute_uv=False)
-    # Of axes that are parallel but for rounding, nobody can say which parameters show.
-    assume(not np.any((shown > 1e-14 * shown[0]) & (shown < 1e-6 * shown[0])))
-    kept = Y[:, list(base.independent)]
-    assert_close(kept @ base.combination, Y, tolerance=1e-6)
-    # Independent: no base parameter can be changed without a trace.
-    size = np.linalg.norm(kept, axis=0)
-    assert np.linalg.svd(kept / size, compute_uv=False)[-1] > 1e-12
-    np.testing.assert_array_equal(base.combination[:, base.independent], np.eye(base.rank))
-
-
-def test_a_standing_chain_with_vertical_first_axis_shows_only_what_turns():
-    link = Link("revolute", 2.0, com=(0.1, 0.2, 0.3), inertia=np.eye(3))
-    assert base_parameters(SerialChain((link,))).descriptions == ("Jzz1",)
-    slide = Link("prismatic", 2.0, com=(0.1, 0.2, 0.3), inertia=np.eye(3))
-    assert base_parameters(SerialChain((slide,))).descriptions == ("m1",)
-    # A second slider in another direction carries, and is carried by, the first.
-    across = replace(slide, axis=(1.0, 0.0, 0.0))
-    assert base_parameters(SerialChain((slide, across))).descriptions == ("m1", "m2")
-
-
-@pytest.mark.parametrize("columns", [(), (0, 0), (8,), (-1,), (0.5,), "m1"])
-def test_bad_columns_are_refused(columns):
-    with pytest.raises(ValueError, match=r"^columns = .* needs distinct indices from 0 to 7"):
-        base_parameters(ARM, columns)
-
-
 def test_bad_arguments_are_named():
     class Other(Manipulator):
         n = 1
@@ -273,3 +173,26 @@ def test_bad_arguments_are_named():
     for bad in (1.0, None, [np.inf, 0.0]):
         with pytest.raises(ValueError, match=r"^qd"):
             friction_columns(bad)
+
+
+class Geared(Planar2R):
+    """Motors add to M, and no column of Y says so."""
+
+    def M(self, q):
+        return super().M(q) + 0.3 * np.eye(2)
+
+
+class Sticky(Planar2R):
+    """Other friction, which is none of Y's business."""
+
+    def f_vec(self, qd):
+        return np.tanh(qd)
+
+
+def test_an_arm_with_an_m_of_its_own_is_refused_and_not_given_a_wrong_y():
+    state = [0.3, 0.4], [1.0, 2.0], [0.5, -0.7]
+    names = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2")
+    geared, sticky = (kind(*(getattr(ARM, name) for name in names)) for kind in (Geared, Sticky))
+    with pytest.raises(ValueError, match=r"^model: this Geared has its own M"):
+        regressor(geared, *state)
+    assert_linear(sticky, *(np.array(part) for part in state))
