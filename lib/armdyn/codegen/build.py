@@ -19,7 +19,7 @@ FLAGS = {
     # Value-safe flags only: what they give up is errno and trapping on inexact results. The second
     # set is for compilers that know no "native" processor.
     "posix": (
-        ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math"),
+        ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math", "-fno-tree-slp-vectorize"),
         ("-O3", "-fno-math-errno"),
     ),
 }

@@ -12,7 +12,7 @@ from armdyn.codegen import build, c_code, c_module, straight_line
 from armdyn.codegen.numpy_code import SUSPECT, NumpyModel
 from armdyn.derive import Derivation
 from armdyn.manipulator import ROUNDING, Manipulator
-from armdyn.parameters import finite, state_vector, state_vectors
+from armdyn.parameters import finite, state_vector, vectors
 
 
 def c_model(derivation: Derivation, values: Mapping[str, float]) -> "CompiledModel":
@@ -49,7 +49,8 @@ class CompiledModel(NumpyModel):
 
         out: float64, C-contiguous, of the shape of the result; ValueError for another.
         """
-        states = state_vectors(self.n, q=q, qd=qd, u=u)
+        # C sees what is not finite as it reads it: a look ahead would read all of it twice.
+        states = vectors(self.n, q=q, qd=qd, u=u)
         shape = np.broadcast_shapes(*(s.shape for s in states))
         if out is None:
             out = np.empty(shape)
@@ -141,7 +142,7 @@ class CompiledModel(NumpyModel):
         return tuple(self._checked_dynamics(*states).tolist())
 
     def _checked_dynamics(self, q, qd, u):
-        states = state_vectors(self.n, q=q, qd=qd, u=u)
+        states = vectors(self.n, q=q, qd=qd, u=u)
         found = np.empty(np.broadcast_shapes(*(s.shape for s in states)))
         return found if self._run_many(states, found) else Manipulator.dynamics(self, *states)
 
