@@ -30,7 +30,7 @@ def trials(monkeypatch):
 
     def noted(file, flags):
         made.append(flags[-1])
-        return build._with_command(file, flags)
+        return build.shared_library(file, flags)
 
     return made, noted
 
@@ -46,7 +46,7 @@ def wide(monkeypatch):
 
 
 def chosen(cache, compile_file, machine="this one"):
-    return vector_width.flags(build._command(), compile_file, NATIVE, cache, machine)
+    return vector_width.flags(build.compiler(), compile_file, NATIVE, cache, machine)
 
 
 def test_the_numbers_are_the_same_in_each_width(monkeypatch):
@@ -67,7 +67,7 @@ def test_the_numbers_are_the_same_in_each_width(monkeypatch):
 
 
 def knows(flag):
-    command = [*build._command(), flag, "-E", "-x", "c", os.devnull]
+    command = [*build.compiler(), flag, "-E", "-x", "c", os.devnull]
     try:
         vector_width._printed(command)
     except vector_width.subprocess.SubprocessError:
@@ -94,7 +94,7 @@ def test_the_wide_one_has_to_be_clearly_faster(monkeypatch, wide, cache, times):
     if not all(knows(w) for w in vector_width.WIDTHS):
         pytest.skip("needs a compiler with -mprefer-vector-width")
     monkeypatch.setattr(vector_width, "_least_times", lambda trials: times)
-    assert chosen(cache, build._with_command) == (vector_width.WIDTHS[times[1] < 0.9],)
+    assert chosen(cache, build.shared_library) == (vector_width.WIDTHS[times[1] < 0.9],)
 
 
 def test_one_width_only_needs_no_trial(monkeypatch, trials, cache):

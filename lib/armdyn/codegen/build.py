@@ -89,7 +89,7 @@ def _compile(source, path):
     except OSError:
         path = _own_folder() / path.parent.name / path.name
         path.parent.mkdir(exist_ok=True)
-    build = _with_setuptools if os.name == "nt" else _with_command
+    build = _with_setuptools if os.name == "nt" else shared_library
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         file = Path(folder) / f"{MODULE}.c"
         file.write_text(source, encoding="utf-8")
@@ -115,17 +115,17 @@ def _own_folder():
 
 
 def _width(flags):
-    return vector_width.flags(_command(), _with_command, flags, cache_folder(), _machine())
+    return vector_width.flags(compiler(), shared_library, flags, cache_folder(), _machine())
 
 
-def _command():
-    """The C compiler's own command, $CC if that is set."""
+def compiler() -> list[str]:
+    """The C compiler's command, $CC if that is set."""
     return (os.environ.get("CC") or sysconfig.get_config_var("CC") or "cc").split()
 
 
-def _with_command(file, flags):
-    """The shared library of the C file, by the compiler's own command."""
-    command = _command()
+def shared_library(file: Path, flags: tuple[str, ...]) -> Path:
+    """The shared library of the C file, by the compiler's command; `NoCompilerError` if it fails."""
+    command = compiler()
     if shutil.which(command[0]) is None:
         raise NoCompilerError(f"{command[0]} was not found")
     made = file.with_suffix(".so")
