@@ -97,7 +97,8 @@ def vectors(size: int, **named) -> list[np.ndarray]:
     """Each value as by `vector`; ValueError if their batch axes do not broadcast."""
     arrays = [vector(name, value, size) for name, value in named.items()]
     try:
-        np.broadcast_shapes(*(array.shape for array in arrays))
+        if any(array.shape != arrays[0].shape for array in arrays):
+            np.broadcast_shapes(*(array.shape for array in arrays))
     except ValueError:
         shapes = ", ".join(
             f"{name} {array.shape}" for name, array in zip(named, arrays, strict=True)

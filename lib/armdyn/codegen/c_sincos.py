@@ -16,19 +16,17 @@ _HALF_PI = Decimal("1.57079632679489661923132169163975144209858469968755291")
 def source() -> str:
     """C99: `sines(count, t, s, c)` gives the sine and cosine of `count` angles, and `bits_of(x)`.
 
-    The angle less the nearest multiple of π/2, subtracted in parts whose products with the multiple
-    are exact (W. J. Cody, W. Waite (1980), Software Manual for the Elementary Functions), two where
-    the processor multiplies and adds with one rounding; then polynomials. The multiple modulo 4,
-    the low bits of the shifted angle, says which of them is which and its sign. Beyond 10⁶ rad the
-    C library's own.
+    The angle less the nearest multiple of π/2, subtracted in three parts (W. J. Cody, W. Waite
+    (1980), Software Manual for the Elementary Functions); then polynomials. The products of the
+    first two parts with the multiple are exact: by 33 bits and up to 20, or, where the processor
+    multiplies and adds with one rounding, by that. The multiple modulo 4, in the low bits of the
+    shifted angle, says which polynomial is the sine, and the signs. Beyond 10⁶ rad the C library's
+    own.
     """
     sine = _horner(_series([(-1) ** j / sp.factorial(2 * j + 1) for j in range(1, 13)]))
     cosine = _horner(_series([(-1) ** j / sp.factorial(2 * j) for j in range(2, 14)]))
-    first, second, third = _half_pi_parts()
-    whole = float(_HALF_PI)
-    with localcontext() as context:
-        context.prec = 60
-        rest = float(_HALF_PI - Decimal(whole))
+    first, second, third = _half_pi(33)
+    fused = [-part for part in _half_pi(53)]
     return f"""#include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -59,7 +57,8 @@ INLINE void sine_and_cosine(double t, double *restrict s, double *restrict c)
     const double shifted = t * {2 / math.pi!r} + {1.5 * 2**52!r};
     const double turns = shifted - {1.5 * 2**52!r};
 #if defined(FP_FAST_FMA)
-    const double r = fma(turns, -{rest!r}, fma(turns, -{whole!r}, t));
+    const double part = fma(turns, {fused[0]!r}, t);
+    const double r = fma(turns, {fused[2]!r}, fma(turns, {fused[1]!r}, part));
 #else
     const double r = ((t - turns * {first!r}) - turns * {second!r}) - turns * {third!r};
 #endif
@@ -112,15 +111,15 @@ def _horner(coefficients):
     return text
 
 
-def _half_pi_parts():
-    """π/2 as a sum of three floats, the first two of 33 bits: times 2²⁰ they are still exact."""
+def _half_pi(bits):
+    """π/2 as a sum of three floats, the first two of so many bits."""
     rest = _HALF_PI
     parts = []
     with localcontext() as context:
-        context.prec = 60
+        context.prec = 70
         for _ in range(2):
             mantissa, exponent = math.frexp(float(rest))
-            part = math.ldexp(math.floor(mantissa * 2**33), exponent - 33)
+            part = math.ldexp(math.floor(mantissa * 2**bits), exponent - bits)
             parts.append(part)
             rest -= Decimal(part)
     return (*parts, float(rest))

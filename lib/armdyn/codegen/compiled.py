@@ -181,4 +181,6 @@ def _rows(array, batch, width):
     """The array's rows, (N, width), contiguous; (1, width) where all rows are one."""
     if array.size == width:
         return np.ascontiguousarray(array).reshape(1, width)
-    return np.ascontiguousarray(np.broadcast_to(array, (*batch, width))).reshape(-1, width)
+    if array.shape[:-1] != batch:
+        array = np.broadcast_to(array, (*batch, width))
+    return np.ascontiguousarray(array).reshape(-1, width)
