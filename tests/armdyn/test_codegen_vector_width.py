@@ -120,6 +120,21 @@ def test_a_compiler_that_says_nothing_is_asked_nothing_more(trials, cache):
     assert made == []
 
 
+def test_a_model_is_made_with_all_the_flags_that_the_compiler_knows(monkeypatch):
+    if not all(map(knows, NATIVE)):
+        pytest.skip("needs a compiler that knows -march=native")
+    tried = []
+
+    def noted(file, flags):
+        tried.append((file.stem, flags[: len(NATIVE)]))
+        return shared_library(file, flags)
+
+    shared_library = build.shared_library
+    monkeypatch.setattr(build, "shared_library", noted)
+    c_model(planar_2r(), values(planar_2r()))
+    assert [flags for stem, flags in tried if stem == build.MODULE] == [NATIVE]
+
+
 def test_a_cache_that_nobody_can_write_to_is_no_error(monkeypatch, tmp_path):
     barred = tmp_path / "file"
     barred.write_text("")
