@@ -86,11 +86,11 @@ def evaluation_and_step(derivation) -> tuple[int, int]:
         text=True,
         check=True,
     ).stdout
-    angle, steps, update = (
+    reduction, sines, steps, update = (
         operations(body(source, name))
-        for name in ("sine_and_cosine", "state_to_acceleration", "rk4_block")
+        for name in ("reduce", "sine_and_cosine", "state_to_acceleration", "rk4_block")
     )
-    evaluation = len(program.angles) * angle + steps
+    evaluation = len(program.angles) * (reduction + sines) + steps
     return evaluation, 4 * evaluation + derivation.n * update
 
 

@@ -68,7 +68,7 @@ INLINE int forward(const int lanes, const double *restrict k, double least,
                    const double *restrict q, const double *restrict v, const double *restrict u,
                    double *restrict a)
 {{
-    double t[ANGLES * LANES], s[ANGLES * LANES], c[ANGLES * LANES];
+    ALIGNED double t[ANGLES * LANES], s[ANGLES * LANES], c[ANGLES * LANES];
     uint64_t wrong = 0;
     for (int l = 0; l < lanes; l++) {{
         {_lines(loads + angles, 8)}

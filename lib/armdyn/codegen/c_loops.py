@@ -10,10 +10,14 @@ INLINE void gather(int used, int width, const double *restrict rows, ptrdiff_t s
         for (int l = 0; l < LANES; l++)
             for (int i = 0; i < width; i++)
                 to[i * LANES + l] = rows[l * width + i];
-    else
-        for (int l = 0; l < LANES; l++)
+    else {
+        for (int l = 0; l < used; l++)
             for (int i = 0; i < width; i++)
-                to[i * LANES + l] = rows[(l < used ? l : used - 1) * step + i];
+                to[i * LANES + l] = rows[l * step + i];
+        for (int l = used; l < LANES; l++)
+            for (int i = 0; i < width; i++)
+                to[i * LANES + l] = rows[(used - 1) * step + i];
+    }
 }
 
 /* The first `used` lanes of x, back to rows. */
@@ -33,7 +37,7 @@ INLINE void scatter(int lanes, int used, int width, const double *restrict x, pt
 static ptrdiff_t many(const double *k, double least, ptrdiff_t count, const double *q, ptrdiff_t q_step,
                const double *v, ptrdiff_t v_step, const double *u, ptrdiff_t u_step, double *a)
 {
-    double state[3 * N * LANES], al[N * LANES];
+    ALIGNED double state[3 * N * LANES], al[N * LANES];
     double *ql = state, *vl = state + N * LANES, *ul = state + 2 * N * LANES;
     for (ptrdiff_t first = 0; first < count; first += LANES) {
         const int used = count - first < LANES ? (int)(count - first) : LANES;
@@ -58,7 +62,7 @@ INLINE ptrdiff_t rk4_block(const int lanes, int used, const double *k, double le
                            ptrdiff_t steps, int keep, double *restrict to)
 {
     enum { SIZE = N * LANES };
-    double q[SIZE], v[SIZE], a1[SIZE], a2[SIZE], a3[SIZE], a4[SIZE];
+    ALIGNED double q[SIZE], v[SIZE], a1[SIZE], a2[SIZE], a3[SIZE], a4[SIZE];
     const ptrdiff_t step = keep ? (steps + 1) * 2 * N : 2 * N;
     const int half = N * lanes;
     const double half_step = dt / 2, sixth = dt / 6;
@@ -98,7 +102,7 @@ INLINE ptrdiff_t rk4_block(const int lanes, int used, const double *k, double le
 static ptrdiff_t rk4(const double *k, double least, ptrdiff_t arms, const double *x0, ptrdiff_t x_step,
               const double *u, ptrdiff_t u_step, double dt, ptrdiff_t steps, int keep, double *x)
 {
-    double xl[2 * N * LANES], ul[N * LANES];
+    ALIGNED double xl[2 * N * LANES], ul[N * LANES];
     const ptrdiff_t row = keep ? (steps + 1) * 2 * N : 2 * N;
     for (ptrdiff_t first = 0; first < arms; first += LANES) {
         const int used = arms - first < LANES ? (int)(arms - first) : LANES;

@@ -19,9 +19,8 @@ def source() -> str:
     The angle less the nearest multiple of π/2, subtracted in three parts (W. J. Cody, W. Waite
     (1980), Software Manual for the Elementary Functions); then polynomials. The products of the
     first two parts with the multiple are exact: by 33 bits and up to 20, or, where the processor
-    multiplies and adds with one rounding, by that. The multiple modulo 4, in the low bits of the
-    shifted angle, says which polynomial is the sine, and the signs. Beyond 10⁶ rad the C library's
-    own.
+    multiplies and adds with one rounding, by that. The multiple modulo 4 says which polynomial is
+    the sine, and the signs. Beyond 10⁶ rad the C library's own.
     """
     sine = _horner(_series([(-1) ** j / sp.factorial(2 * j + 1) for j in range(1, 13)]))
     cosine = _horner(_series([(-1) ** j / sp.factorial(2 * j) for j in range(2, 14)]))
@@ -34,8 +33,10 @@ def source() -> str:
 #if defined(_MSC_VER)
 #define INLINE static __forceinline
 #define restrict __restrict
+#define ALIGNED
 #else
 #define INLINE static inline __attribute__((always_inline))
+#define ALIGNED __attribute__((aligned(64)))
 #endif
 
 INLINE uint64_t bits_of(double x)
@@ -52,7 +53,8 @@ INLINE double flipped(double x, uint64_t sign)
     return x;
 }}
 
-INLINE void sine_and_cosine(double t, double *restrict s, double *restrict c)
+/* The angle t as r, within pi/4, and a number whose low bits count the quarter turns taken off. */
+INLINE void reduce(double t, double *restrict remainder, double *restrict count)
 {{
     const double shifted = t * {2 / math.pi!r} + {1.5 * 2**52!r};
     const double turns = shifted - {1.5 * 2**52!r};
@@ -62,22 +64,31 @@ INLINE void sine_and_cosine(double t, double *restrict s, double *restrict c)
 #else
     const double r = ((t - turns * {first!r}) - turns * {second!r}) - turns * {third!r};
 #endif
+    *remainder = r;
+    *count = shifted;
+}}
+
+INLINE void sine_and_cosine(double r, double count, double *restrict s, double *restrict c)
+{{
     const double z = r * r;
     const double sine = r + r * z * {sine};
     const double cosine = 1 + z * (-0.5 + z * {cosine});
-    const uint64_t multiple = bits_of(shifted);
-    const double a = multiple & 1 ? cosine : sine, b = multiple & 1 ? sine : cosine;
-    *s = flipped(a, (multiple & 2) << 62);
-    *c = flipped(b, ((multiple + 1) & 2) << 62);
+    const uint64_t turns = bits_of(count);
+    const double a = turns & 1 ? cosine : sine, b = turns & 1 ? sine : cosine;
+    *s = flipped(a, (turns & 2) << 62);
+    *c = flipped(b, ((turns + 1) & 2) << 62);
 }}
 
 INLINE void sines(int count, const double *restrict t, double *restrict s, double *restrict c)
 {{
     uint64_t far = 0;
+    /* Two loops, as a processor looks only so far ahead for what does not wait for anything. */
     for (int i = 0; i < count; i++) {{
-        sine_and_cosine(t[i], s + i, c + i);
+        reduce(t[i], s + i, c + i);
         far |= fabs(t[i]) <= 1e6 ? 0 : 1;
     }}
+    for (int i = 0; i < count; i++)
+        sine_and_cosine(s[i], c[i], s + i, c + i);
     if (far)
         for (int i = 0; i < count; i++)
             if (!(fabs(t[i]) <= 1e6)) {{

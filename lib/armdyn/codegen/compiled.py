@@ -19,7 +19,9 @@ def c_model(derivation: Derivation, values: Mapping[str, float]) -> "CompiledMod
     """The derivation with numbers for its parameters, its dynamics compiled from C.
 
     The code depends on the derivation alone: other values use the same compiled module, which is
-    kept in the user's cache folder, or in $ARMDYN_CACHE if that is set.
+    kept in the user's cache folder, or in $ARMDYN_CACHE if that is set. Where the processor has
+    vectors of several widths, the first build tries which is fastest, in about 0.3 s, and keeps the
+    answer there too. The results do not depend on it.
     Raises `NoCompilerError`, saying what to install, if there is no C compiler, and ValueError as
     `numpy_model`.
     """
