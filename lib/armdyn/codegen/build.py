@@ -88,7 +88,7 @@ def _compile(source, path):
         tempfile.TemporaryFile(dir=path.parent).close()
     except OSError:
         path = _own_folder() / path.parent.name / path.name
-        path.parent.mkdir(exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
     build = _with_setuptools if os.name == "nt" else shared_library
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         file = Path(folder) / f"{MODULE}.c"
