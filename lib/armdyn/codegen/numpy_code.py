@@ -79,7 +79,7 @@ class NumpyModel(Manipulator):
     def dynamics(self, q, qd, u) -> np.ndarray:
         """q̈ = M⁻¹ (u − C q̇ − g), (n,), by M = L D Lᵀ written out; raises as `Manipulator`."""
         states = [q, qd, u]
-        # Plain arrays need no look before: what is not finite is seen as it is read.
+        # Plain arrays need no look before: what is not finite shows in q̈.
         if not all(_plain(s, self.n) for s in states):
             states = state_vectors(self.n, q=q, qd=qd, u=u)
         try:
@@ -159,30 +159,23 @@ class _Callable:
         buffers = np.empty((self.buffers, min(count, BLOCK)))
         for start in range(0, count, BLOCK):
             part = found[start : start + BLOCK]
-            given = [r[start : start + BLOCK] if len(r) == count else r for r in rows]
+            given = (r[start : start + BLOCK] if len(r) == count else r for r in rows)
             columns = (column for g in given for column in g.T)
             results = self.on_arrays(*columns, *buffers[:, : len(part)])
             for i in range(self.size):
                 part[:, i] = results[i]
-            # An input that no formula reads does not show in the results.
-            if self.judge and not (
-                all(np.isfinite(np.sum(g)) for g in given)
-                and self.judge(part, *results[self.size :])
-            ):
+            if self.judge and not self.judge(part, *results[self.size :]):
                 return None
         return found.reshape(*batch, *self.shape)
 
     def _one(self, states):
-        numbers = [x for s in states for x in s.tolist()]
         try:
-            results = self.on_floats(*numbers)
+            results = self.on_floats(*(x for s in states for x in s.tolist()))
         except (ArithmeticError, ValueError):
             # `math` raises an error where NumPy gives inf or NaN, or warns as the user has set it.
             return self._many(states, ())
         found = np.array(results[: self.size], dtype=float)
-        if self.judge and not (
-            math.isfinite(sum(numbers)) and self.judge(found, *results[self.size :])
-        ):
+        if self.judge and not self.judge(found, *results[self.size :]):
             return None
         return found.reshape(self.shape)
 
