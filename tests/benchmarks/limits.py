@@ -87,11 +87,13 @@ def evaluation_and_step(derivation) -> tuple[int, int]:
         check=True,
     ).stdout
     reduction, sines, steps, update = (
-        operations(body(source, name))
+        body(source, name)
         for name in ("reduce", "sine_and_cosine", "state_to_acceleration", "rk4_block")
     )
-    evaluation = len(program.angles) * (reduction + sines) + steps
-    return evaluation, 4 * evaluation + derivation.n * update
+    evaluation = len(program.angles) * operations(reduction + sines) + operations(steps)
+    stages = re.findall(r"^ +for \(int stage .*?^        }", update, re.DOTALL | re.MULTILINE)
+    updates = operations(update) + 2 * operations(stages[0])  # it runs three times
+    return evaluation, 4 * evaluation + derivation.n * updates
 
 
 def body(source: str, function: str) -> str:

@@ -62,29 +62,28 @@ INLINE ptrdiff_t rk4_block(const int lanes, int used, const double *k, double le
                            ptrdiff_t steps, int keep, double *restrict to)
 {
     enum { SIZE = N * LANES };
-    ALIGNED double q[SIZE], v[SIZE], a1[SIZE], a2[SIZE], a3[SIZE], a4[SIZE];
+    ALIGNED double q[SIZE], v[SIZE], a[4 * SIZE];
+    double *a1 = a, *a2 = a + SIZE, *a3 = a + 2 * SIZE, *a4 = a + 3 * SIZE;
     const ptrdiff_t step = keep ? (steps + 1) * 2 * N : 2 * N;
     const int half = N * lanes;
-    const double half_step = dt / 2, sixth = dt / 6;
+    const double sixth = dt / 6;
     if (keep)
         scatter(lanes, used, 2 * N, x, step, to);
     for (ptrdiff_t t = 0; t < steps; t++) {
         int regular = forward(lanes, k, least, x, x + half, u, a1);
         for (int i = 0; i < half; i++) {
-            q[i] = x[i] + half_step * x[half + i];
-            v[i] = x[half + i] + half_step * a1[i];
+            q[i] = x[i] + dt / 2 * x[half + i];
+            v[i] = x[half + i] + dt / 2 * a1[i];
         }
-        regular &= forward(lanes, k, least, q, v, u, a2);
-        for (int i = 0; i < half; i++) {
-            q[i] = x[i] + half_step * v[i];
-            v[i] = x[half + i] + half_step * a2[i];
+        for (int stage = 1; stage < 4; stage++) {
+            const double reach = stage == 1 ? dt / 2 : dt;
+            double *now = a + stage * SIZE;
+            regular &= forward(lanes, k, least, q, v, u, now);
+            for (int i = 0; i < half; i++) {
+                q[i] = x[i] + reach * v[i];
+                v[i] = x[half + i] + reach * now[i];
+            }
         }
-        regular &= forward(lanes, k, least, q, v, u, a3);
-        for (int i = 0; i < half; i++) {
-            q[i] = x[i] + dt * v[i];
-            v[i] = x[half + i] + dt * a3[i];
-        }
-        regular &= forward(lanes, k, least, q, v, u, a4);
         for (int i = 0; i < half; i++) {
             x[i] += dt * (x[half + i] + sixth * (a1[i] + a2[i] + a3[i]));
             x[half + i] += sixth * (a1[i] + a4[i] + 2 * (a2[i] + a3[i]));
