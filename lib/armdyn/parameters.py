@@ -87,23 +87,38 @@ def all_finite(name: str, array: np.ndarray) -> np.ndarray:
     return array
 
 
-def state_vector(name: str, value, size: int) -> np.ndarray:
-    """`value` as a float array of shape (..., size); otherwise a ValueError that names both shapes."""
+def vector(name: str, value, size: int) -> np.ndarray:
+    """`value` as a float array of shape (..., size); otherwise ValueError with both shapes.
+
+    NaN and infinity pass here; `all_finite` refuses them.
+    """
     needs = f"real numbers of shape (..., {size})"
     array = real_array(name, value, needs)
     if array.ndim == 0 or array.shape[-1] != size:
         raise ValueError(f"{name}: got shape {array.shape}, needs {needs}")
-    return all_finite(name, array)
+    return array
 
 
-def state_vectors(size: int, **named) -> list[np.ndarray]:
-    """Each value as by `state_vector`; ValueError if their batch axes do not broadcast."""
-    arrays = [state_vector(name, value, size) for name, value in named.items()]
+def state_vector(name: str, value, size: int) -> np.ndarray:
+    """The same, and finite; otherwise ValueError with both shapes or the first offending index."""
+    return all_finite(name, vector(name, value, size))
+
+
+def vectors(size: int, **named) -> list[np.ndarray]:
+    """Each value as by `vector`; ValueError if their batch axes do not broadcast."""
+    arrays = [vector(name, value, size) for name, value in named.items()]
     try:
-        np.broadcast_shapes(*(array.shape for array in arrays))
+        if any(array.shape != arrays[0].shape for array in arrays):
+            np.broadcast_shapes(*(array.shape for array in arrays))
     except ValueError:
         shapes = ", ".join(
             f"{name} {array.shape}" for name, array in zip(named, arrays, strict=True)
         )
         raise ValueError(f"{shapes}: needs batch axes that broadcast to one shape") from None
     return arrays
+
+
+def state_vectors(size: int, **named) -> list[np.ndarray]:
+    """The same, and finite; otherwise ValueError with the shapes or the first offending index."""
+    arrays = vectors(size, **named)
+    return [all_finite(name, array) for name, array in zip(named, arrays, strict=True)]

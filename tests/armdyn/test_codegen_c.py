@@ -373,3 +373,16 @@ def test_decimals_keep_their_precision():
     before = decimal.getcontext().prec
     c_model(planar_2r(), values(planar_2r(), 0))
     assert decimal.getcontext().prec == before
+
+
+@pytest.mark.usefixtures("compiler")
+@pytest.mark.parametrize("bad", [np.nan, -np.inf])
+def test_what_is_not_finite_is_named_where_no_formula_reads_it(bad):
+    """A pendulum's q̈ does not depend on its velocity."""
+    q, qd = sp.symbols("q qd", real=True)
+    model = c_model(from_energies(3 * qd**2 / 2, -sp.cos(q), [q], [qd]), {})
+    for batch in ((), (1,), (40,)):
+        with pytest.raises(ValueError, match=rf"qd\[(0, )?0\] = {bad}"):
+            model.dynamics(*(np.full((*batch, 1), value) for value in (0.3, bad, 0.1)))
+    with pytest.raises(ValueError, match=rf"qd\[0\] = {bad}"):
+        model.dynamics_floats(0.3, bad, 0.1)

@@ -1,5 +1,6 @@
 """Compiles the C source of a Python module once, and keeps the result under the source's hash."""
 
+import atexit
 import hashlib
 import importlib.util
 import os
@@ -9,17 +10,26 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
+
+from armdyn.codegen import vector_width
 
 FLAGS = {
     "nt": (("/O2", "/fp:precise"),),
     # Value-safe flags only: what they give up is errno and trapping on inexact results. The second
     # set is for compilers that know no "native" processor.
     "posix": (
-        ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math"),
+        (
+            "-O3",
+            "-march=native",
+            "-fno-math-errno",
+            "-fno-trapping-math",
+            "-fno-tree-slp-vectorize",
+        ),
         ("-O3", "-fno-math-errno"),
     ),
 }
@@ -55,13 +65,14 @@ def cache_folder() -> Path:
 def compiled(source: str):
     """The Python module armdyn_compiled from this C source, compiled now or taken from the cache.
 
-    Raises NoCompilerError if it has to be compiled and cannot be.
+    Where nobody may write to the cache, the module serves this process only. Raises NoCompilerError
+    if it has to be compiled and cannot be.
     """
     key = hashlib.sha256(repr((source, FLAGS, _machine())).encode()).hexdigest()[:32]
     if key not in _loaded:
         path = cache_folder() / key / f"{MODULE}{sysconfig.get_config_var('EXT_SUFFIX')}"
-        if not path.is_file():
-            _compile(source, path)
+        if not os.path.isfile(path):  # unlike Path's, silent where nobody may look
+            path = _compile(source, path)
         spec = importlib.util.spec_from_file_location(MODULE, path)
         if spec is None or spec.loader is None:
             raise ImportError(f"{path}: is no module that this Python can load")
@@ -71,14 +82,20 @@ def compiled(source: str):
 
 
 def _compile(source, path):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    build = _with_setuptools if os.name == "nt" else _with_command
+    """Where the compiled module is: at `path`, or in a folder of this process if that is barred."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=path.parent).close()
+    except OSError:
+        path = _own_folder() / path.parent.name / path.name
+        path.parent.mkdir(parents=True, exist_ok=True)
+    build = _with_setuptools if os.name == "nt" else shared_library
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         file = Path(folder) / f"{MODULE}.c"
         file.write_text(source, encoding="utf-8")
         for flags in FLAGS[os.name][:-1]:
             try:
-                made = build(file, flags)
+                made = build(file, (*flags, *_width(flags)))
                 break
             except NoCompilerError:
                 continue
@@ -86,11 +103,29 @@ def _compile(source, path):
             made = build(file, FLAGS[os.name][-1])
         # Renamed into place: another process never sees half a file.
         os.replace(made, path)
+    return path
 
 
-def _with_command(file, flags):
-    """The shared library of the C file, by the compiler's own command, $CC if that is set."""
-    command = (os.environ.get("CC") or sysconfig.get_config_var("CC") or "cc").split()
+@cache
+def _own_folder():
+    """A folder for this process."""
+    folder = tempfile.mkdtemp(prefix="armdyn-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder)
+
+
+def _width(flags):
+    return vector_width.flags(compiler(), shared_library, flags, cache_folder(), _machine())
+
+
+def compiler() -> list[str]:
+    """The C compiler's command, $CC if that is set."""
+    return (os.environ.get("CC") or sysconfig.get_config_var("CC") or "cc").split()
+
+
+def shared_library(file: Path, flags: tuple[str, ...]) -> Path:
+    """The shared library of the C file, by the compiler's command; `NoCompilerError` if it fails."""
+    command = compiler()
     if shutil.which(command[0]) is None:
         raise NoCompilerError(f"{command[0]} was not found")
     made = file.with_suffix(".so")

@@ -12,14 +12,16 @@ from armdyn.codegen import build, c_code, c_module, straight_line
 from armdyn.codegen.numpy_code import SUSPECT, NumpyModel, generated_terms
 from armdyn.derive import Derivation
 from armdyn.manipulator import ROUNDING, Manipulator
-from armdyn.parameters import finite, state_vector, state_vectors
+from armdyn.parameters import finite, state_vector, vectors
 
 
 def c_model(derivation: Derivation, values: Mapping[str, float]) -> "CompiledModel":
     """The derivation with numbers for its parameters, its dynamics compiled from C.
 
     The code depends on the derivation alone: other values use the same compiled module, which is
-    kept in the user's cache folder, or in $ARMDYN_CACHE if that is set.
+    kept in the user's cache folder, or in $ARMDYN_CACHE if that is set. Where the processor has
+    vectors of several widths, the first build tries which is fastest, in about 0.3 s, and keeps the
+    answer there too. The results do not depend on it.
     Raises `NoCompilerError`, saying what to install, if there is no C compiler, and ValueError as
     `numpy_model`.
     """
@@ -53,7 +55,8 @@ class CompiledModel(NumpyModel):
 
         out: float64, C-contiguous, of the shape of the result; ValueError for another.
         """
-        states = state_vectors(self.n, q=q, qd=qd, u=u)
+        # C sees what is not finite as it reads it: a look ahead would read all of it twice.
+        states = vectors(self.n, q=q, qd=qd, u=u)
         shape = np.broadcast_shapes(*(s.shape for s in states))
         if out is None:
             out = np.empty(shape)
@@ -173,7 +176,7 @@ class CompiledModel(NumpyModel):
         return tuple(found.tolist())
 
     def _checked_dynamics(self, q, qd, u):
-        states = state_vectors(self.n, q=q, qd=qd, u=u)
+        states = vectors(self.n, q=q, qd=qd, u=u)
         if not generated_terms(self):
             return Manipulator.dynamics(self, *states)
         found = np.empty(np.broadcast_shapes(*(s.shape for s in states)))
@@ -228,4 +231,6 @@ def _rows(array, batch, width):
     """The array's rows, (N, width), contiguous; (1, width) where all rows are one."""
     if array.size == width:
         return np.ascontiguousarray(array).reshape(1, width)
-    return np.ascontiguousarray(np.broadcast_to(array, (*batch, width))).reshape(-1, width)
+    if array.shape[:-1] != batch:
+        array = np.broadcast_to(array, (*batch, width))
+    return np.ascontiguousarray(array).reshape(-1, width)

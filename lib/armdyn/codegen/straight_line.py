@@ -33,11 +33,11 @@ def terms(derivation: Derivation, expressions) -> StraightLine:
 
 
 def forward_dynamics(derivation: Derivation) -> StraightLine:
-    """Code that computes q̈ from q, q̇, u: n outputs, then the smallest pivot and the trace of M.
+    """Code that computes q̈ from q, q̇, u: n outputs, then two numbers of a positive quotient.
 
     M = L D Lᵀ written out, without square roots and without pivoting, which a symmetric positive
     definite M does not need (G. H. Golub, C. F. Van Loan (1996), Matrix Computations, chapter 4).
-    A pivot of D that is tiny beside the trace tells of an M close to singular.
+    The quotient is the smallest pivot of D over the trace of M: tiny where M is close to singular.
     """
     n = derivation.n
     lifted = _Lifting(derivation)
@@ -69,21 +69,41 @@ def forward_dynamics(derivation: Derivation) -> StraightLine:
     W: dict = {}
     inverse, pivots = [], []
     M = {at: keep("M_{}_{}".format(*at), entry) for at, entry in M.items()}
-    for j in range(n):
-        pivots.append(keep(f"D_{j}", M[j, j] - _sum([L[j, k] * W[j, k] for k in range(j)])))
-        # The last is divided by once only.
-        inverse.append(keep(f"i_{j}", 1 / pivots[j]) if j < n - 1 else 1 / pivots[j])
+    block = max(n - 2, 0)
+
+    def left(i, j):
+        return M[i, j] - _sum([L[i, k] * W[j, k] for k in range(min(j, block))])
+
+    for j in range(block):
+        pivots.append(keep(f"D_{j}", left(j, j)))
+        inverse.append(keep(f"i_{j}", 1 / pivots[j]))
         for i in range(j + 1, n):
-            W[i, j] = keep(f"W_{i}_{j}", M[i, j] - _sum([L[i, k] * W[j, k] for k in range(j)]))
+            W[i, j] = keep(f"W_{i}_{j}", left(i, j))
             L[i, j] = keep(f"L_{i}_{j}", W[i, j] * inverse[j])
     for i in range(n):
-        rest[i] = keep(f"y_{i}", rest[i] - _sum([L[i, j] * rest[j] for j in range(i)]))
+        rest[i] = keep(f"y_{i}", rest[i] - _sum([L[i, j] * rest[j] for j in range(min(i, block))]))
     solution = [None] * n
-    for i in reversed(range(n)):
+    trace = _sum([M[i, i] for i in range(n)])
+    if n == 1:
+        return lifted.finish(steps, [keep("a_0", rest[0] / M[0, 0]), M[0, 0], trace])
+    # The last two by Cramer's rule: a division takes as long as a dozen multiplications, and here
+    # is one in place of two.
+    i, j = n - 2, n - 1
+    first, both, second = (
+        keep(f"{name}_{j}", left(*at)) for name, at in (("A", (i, i)), ("B", (j, i)), ("C", (j, j)))
+    )
+    det = keep("det", first * second - both**2)
+    whole = keep(f"i_{j}", 1 / det)
+    solution[j] = keep(f"a_{j}", (first * rest[j] - both * rest[i]) * whole)
+    solution[i] = keep(f"a_{i}", (second * rest[i] - both * rest[j]) * whole)
+    for i in reversed(range(block)):
         later = _sum([L[j, i] * solution[j] for j in range(i + 1, n)])
         solution[i] = keep(f"a_{i}", rest[i] * inverse[i] - later)
-    trace = _sum([M[i, i] for i in range(n)])
-    return lifted.finish(steps, [*solution, sp.Min(*pivots, evaluate=False), trace])
+    # The last pivot is det/first: all are compared with the trace as products with first.
+    size = keep("size", sp.Abs(first, evaluate=False))
+    smallest = sp.Min(*pivots, first, evaluate=False) if pivots else first
+    pivot = sp.Min(smallest * size, det, evaluate=False)
+    return lifted.finish(steps, [*solution, pivot, trace * size])
 
 
 @dataclass
