@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import pytest
 import sympy as sp
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
@@ -248,3 +250,63 @@ f, t = dynamicsymbols("q"), dynamicsymbols._t
 def test_refuses(call, complaint):
     with pytest.raises(ValueError, match=complaint):
         call()
+
+
+def test_friction_stands_on_the_left_beside_gravity():
+    arm = planar_2r()
+    d, k = sp.symbols("d1 d2"), sp.symbols("k1 k2")
+    rubbing = arm.with_friction(viscous=d, coulomb=k)
+    assert rubbing.parameters == (*arm.parameters, *d, *k)
+    assert rubbing.f_vec == sp.Matrix([d[i] * v + k[i] * sp.sign(v) for i, v in enumerate(arm.qd)])
+    qdd, u = sp.symbols("a1 a2"), sp.symbols("u1 u2")
+    for with_f, without, f in zip(
+        rubbing.equations(qdd, u), arm.equations(qdd, u), rubbing.f_vec, strict=True
+    ):
+        assert (with_f.lhs - without.lhs - f).expand() == 0
+    at_rest = rubbing.f_vec.subs(dict.fromkeys(arm.qd, 0))
+    assert at_rest.is_zero_matrix
+
+
+def test_frictions_add():
+    arm = planar_2r()
+    d, k = sp.symbols("d1 d2"), sp.symbols("k1 k2")
+    both = arm.with_friction(viscous=d).with_friction(coulomb=k)
+    assert both == arm.with_friction(viscous=d, coulomb=k)
+    assert arm.with_friction() == arm
+    assert arm.f_vec.is_zero_matrix
+    # A coefficient may be one that the model has, a number, or a function of q̇.
+    stribeck = arm.with_friction(coulomb=[arm.parameters[0] * sp.exp(-(arm.qd[0] ** 2)), 0.5])
+    assert stribeck.parameters == arm.parameters
+
+
+@pytest.mark.parametrize(
+    ("friction", "complaint"),
+    [
+        ({"viscous": [1]}, "viscous: got 1 entries, needs 2, one per coordinate"),
+        ({"coulomb": sp.symbols("a b c")}, "coulomb: got 3 entries"),
+        ({"viscous": sp.Symbol("d")}, "viscous = d: needs a sequence of 2"),
+        ({"coulomb": [0, sp.Symbol("q1", real=True)]}, r"coulomb\[1\] = q1: depends on q1"),
+        ({"viscous": [sp.Function("q1")(sp.Symbol("t")), 0]}, r"viscous\[0\] = .*depends on q1"),
+        ({"viscous": [sp.true, 0]}, r"viscous\[0\] = True: needs a symbol or an expression"),
+        ({"viscous": [sp.Symbol("l1"), 0]}, "l1 is not the model's own symbol l1"),
+        ({"viscous": [sp.Symbol("qd1"), 0]}, "qd1 is not the model's own symbol qd1"),
+    ],
+)
+def test_bad_friction_is_named(friction, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        planar_2r().with_friction(**friction)
+
+
+@pytest.mark.parametrize(
+    ("f", "complaint"),
+    [
+        ([[0]], r"f_vec = .*needs shape \(2, 1\)"),
+        (sp.zeros(1, 2), r"f_vec = .*needs shape \(2, 1\)"),
+        ("f", r"f_vec = 'f': needs shape \(2, 1\)"),
+        ([sp.Symbol("q1", real=True), 0], "f_vec depends on q1: friction is a function of q̇ and"),
+        ([sp.Symbol("mu"), 0], "f_vec depends on mu"),
+    ],
+)
+def test_friction_depends_on_velocities_and_parameters_alone(f, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        replace(planar_2r(), f_vec=f)

@@ -1,18 +1,22 @@
-"""Holds the result of a derivation: the terms of M q̈ + C q̇ + g = u as SymPy expressions."""
+"""Holds the result of a derivation: the terms of M q̈ + C q̇ + g + f = u as SymPy expressions."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 
 @dataclass(frozen=True)
 class Derivation:
-    """The equation of motion M(q) q̈ + C(q, q̇) q̇ + g(q) = u in symbols.
+    """The equation of motion M(q) q̈ + C(q, q̇) q̇ + g(q) + f(q̇) = u in symbols.
 
     q, qd: the coordinates and velocities, n symbols each. parameters: all other symbols, those too
     that dropped out on the way (the length of the last link). M, C: (n, n), C in Christoffel form.
-    g_vec: (n, 1), the gradient of P. Units are whatever the parameters bring.
+    g_vec: (n, 1), the gradient of P. f_vec: (n, 1), the friction, zero where not given. Units are
+    whatever the parameters bring.
+    Raises ValueError for an f_vec of another shape, or one that depends on more than q̇ and
+    parameters.
 
     Nothing is simplified: the expressions keep the structure in which subexpressions are shared,
     so that `sympy.cse` finds them. Where sums are nested to that end, `.doit()` flattens them.
@@ -25,6 +29,11 @@ class Derivation:
     C: sp.ImmutableMatrix
     g_vec: sp.ImmutableMatrix
     P: sp.Expr
+    f_vec: sp.ImmutableMatrix = field(default=None)  # zero, set below
+
+    def __post_init__(self):
+        given = sp.zeros(self.n, 1) if self.f_vec is None else self.f_vec
+        object.__setattr__(self, "f_vec", _friction(given, self.n, self.qd, self.parameters))
 
     @property
     def n(self) -> int:
@@ -36,13 +45,51 @@ class Derivation:
         return christoffel_symbols(self.M, self.q)
 
     def equations(self, qdd, u) -> tuple[sp.Eq, ...]:
-        """The n equations of motion (M q̈ + C q̇ + g)_i = u_i.
+        """The n equations of motion (M q̈ + C q̇ + g + f)_i = u_i.
 
         qdd, u: n symbols or expressions each. Raises ValueError for another number of them.
         """
         qdd, u = (_listed(name, value, self.n) for name, value in (("qdd", qdd), ("u", u)))
-        left = self.M * sp.Matrix(qdd) + self.C * sp.Matrix(self.qd) + self.g_vec
+        left = self.M * sp.Matrix(qdd) + self.C * sp.Matrix(self.qd) + self.g_vec + self.f_vec
         return tuple(sp.Eq(a, b, evaluate=False) for a, b in zip(left, u, strict=True))
+
+    def with_friction(self, viscous=None, coulomb=None) -> "Derivation":
+        """The same model with d_i q̇_i + k_i sign(q̇_i) added to f_i; at rest sign(0) = 0.
+
+        viscous d, coulomb k: n symbols or expressions each (N·m·s/rad and N·m at a revolute joint),
+        zero where not given. They may depend on q̇ and parameters; symbols that are new become
+        parameters, those of d first.
+        Raises ValueError, naming the argument, for another number of them, for one that is no
+        expression or depends on q, and for a new symbol with the name of another one.
+        """
+        zeros = [0] * self.n
+        d, k = (
+            _listed(name, zeros if given is None else given, self.n)
+            for name, given in (("viscous", viscous), ("coulomb", coulomb))
+        )
+        new: list[sp.Symbol] = []
+        for name, entries in (("viscous", d), ("coulomb", k)):
+            for i, entry in enumerate(entries):
+                if not isinstance(entry, sp.Expr) or entry.is_Matrix:
+                    raise ValueError(f"{name}[{i}] = {entry}: needs a symbol or an expression")
+                if on_q := (entry.free_symbols & set(self.q)) | entry.atoms(AppliedUndef):
+                    raise ValueError(
+                        f"{name}[{i}] = {entry}: depends on {min(on_q, key=str)}; friction is a "
+                        "function of q̇ and parameters alone"
+                    )
+                known = {*self.qd, *self.parameters, *new}
+                new += sorted(entry.free_symbols - known, key=_by_name)
+        names = [s.name for s in (*self.q, *self.qd, *self.parameters, *new)]
+        for symbol in new:
+            if names.count(symbol.name) > 1:
+                raise ValueError(
+                    f"viscous, coulomb: {symbol} is not the model's own symbol {symbol.name}; use "
+                    "that one, or another name"
+                )
+        f = [self.f_vec[i] + d[i] * v + k[i] * sp.sign(v) for i, v in enumerate(self.qd)]
+        return replace(
+            self, parameters=(*self.parameters, *new), f_vec=sp.ImmutableMatrix(self.n, 1, f)
+        )
 
 
 def christoffel_symbols(M, q) -> sp.ImmutableDenseNDimArray:
@@ -85,8 +132,30 @@ def _by_name(symbol):
     return [(int(p), "") if p.isdigit() else (-1, p) for p in parts]
 
 
+def _friction(given, n, qd, parameters):
+    """f_vec as a matrix of n rows; ValueError unless it is one, of q̇ and parameters alone."""
+    try:
+        f = sp.ImmutableMatrix(given)
+    except (TypeError, ValueError):
+        f = None
+    if f is None or f.shape != (n, 1):
+        raise ValueError(f"f_vec = {given!r}: needs shape ({n}, 1), an entry per coordinate")
+    others = (f.free_symbols - {*qd, *parameters}) | f.atoms(AppliedUndef)
+    if others:
+        raise ValueError(
+            f"f_vec depends on {', '.join(sorted(map(str, others)))}: friction is a function of q̇ "
+            "and parameters alone"
+        )
+    return f
+
+
 def _listed(name, value, n):
-    listed = list(value)
+    try:
+        listed = list(value)
+    except TypeError:
+        raise ValueError(
+            f"{name} = {value!r}: needs a sequence of {n}, one per coordinate"
+        ) from None
     if len(listed) != n:
         raise ValueError(f"{name}: got {len(listed)} entries, needs {n}, one per coordinate")
     return [sp.sympify(entry) for entry in listed]
