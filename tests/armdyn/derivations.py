@@ -1,5 +1,6 @@
 """Derivations by several routes, and numbers for their symbols."""
 
+from dataclasses import asdict
 from functools import cache
 
 import numpy as np
@@ -59,6 +60,22 @@ EXAMPLES = {
     "2R": planar_2r,
     "3 links, offsets": lambda: planar_chain(3, offsets=True),
 }
+
+
+def with_friction(derivation):
+    """Viscous and Coulomb friction at each joint, under the names of Planar2R."""
+    n = derivation.n
+    return derivation.with_friction(
+        *(sp.symbols(f"{kind}1:{n + 1}") for kind in ("viscous", "coulomb"))
+    )
+
+
+def parameters(arm):
+    """The numbers of a Planar2R for with_friction(planar_2r())."""
+    numbers = asdict(arm)
+    for kind in ("viscous", "coulomb"):
+        numbers |= {f"{kind}{i}": value for i, value in enumerate(numbers.pop(kind), 1)}
+    return numbers
 
 
 def values(derivation, seed=0):

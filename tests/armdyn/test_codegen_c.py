@@ -7,7 +7,6 @@ import pytest
 import sympy as sp
 from hypothesis import given
 
-from armdyn import Planar2R
 from armdyn.codegen import (
     CompiledModel,
     NoCompilerError,
@@ -20,9 +19,7 @@ from armdyn.codegen import (
 from armdyn.derive import from_energies, planar_2r, planar_chain
 from armdyn.manipulator import Manipulator
 from tests.armdyn.arms import a_few, arms_and_states, assert_close, planar_arms
-from tests.armdyn.derivations import EXAMPLES, states, values
-
-NAMES = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "g")
+from tests.armdyn.derivations import EXAMPLES, parameters, states, values, with_friction
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -45,8 +42,7 @@ def arm(compiler):
 @given(arms_and_states(planar_arms()))
 def test_agrees_with_the_closed_form(arm_and_states):
     arm, q, qd, u = arm_and_states
-    chosen = {name: getattr(arm, name) for name in NAMES}
-    arm, model = Planar2R(**chosen), c_model(planar_2r(), chosen)
+    model = c_model(with_friction(planar_2r()), parameters(arm))
     needed = arm.dynamics(q, qd, u)
     spread = np.linalg.cond(arm.M(q)).max() * max(1.0, np.max(np.abs(needed)))
     assert_close(model.dynamics(q, qd, u), needed, spread, 1e-13)
@@ -138,6 +134,21 @@ def test_rk4_of_many_arms_is_that_of_each(arm, arms):
     assert_close(shared[-1], arm.rk4(x0[0], u[-1], 1e-3, 5)[-1], tolerance=1e-14)
     assert arm.rk4(x0, u, 1e-3, 0).shape == (arms, 1, 4)
     assert arm.rk4(x0[:0], u[:0], 1e-3, 2).shape == (0, 3, 4)
+
+
+@pytest.mark.usefixtures("compiler")
+def test_rk4_has_the_friction(arm):
+    """It takes energy out at the rate q̇ᵀ f."""
+    d = with_friction(planar_2r())
+    model = c_model(
+        d, arm.values | {"viscous1": 0.3, "viscous2": 0.2, "coulomb1": 0.1, "coulomb2": 0}
+    )
+    x, dt = model.rk4([1.0, 0.5, 0.0, 0.0], [0.0, 0.0], 1e-3, 1000), 1e-3
+    q, qd = x[:, :2], x[:, 2:]
+    lost = np.trapezoid(np.vecdot(qd, model.f_vec(qd)), dx=dt)
+    energy = model.energy(q, qd)
+    assert lost > 0.01
+    assert energy[0] - energy[-1] == pytest.approx(lost, rel=1e-4)
 
 
 def test_rk4_keeps_the_energy(arm):

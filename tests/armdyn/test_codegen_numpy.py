@@ -5,17 +5,15 @@ import pytest
 import sympy as sp
 from hypothesis import given
 
-from armdyn import Planar2R
 from armdyn.codegen import numpy_model
 from armdyn.codegen.buffers import in_buffers
 from armdyn.codegen.numpy_code import BLOCK
 from armdyn.derive import Derivation, from_energies, planar_2r, planar_chain
 from armdyn.manipulator import Manipulator
 from tests.armdyn.arms import a_few, arms_and_states, assert_close, planar_arms
-from tests.armdyn.derivations import EXAMPLES, numbers, states, values
+from tests.armdyn.derivations import EXAMPLES, numbers, parameters, states, values, with_friction
 
-NAMES = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "g")
-DERIVED = {"textbook": planar_2r(), "chain": planar_chain(2)}
+DERIVED = {"textbook": with_friction(planar_2r()), "chain": with_friction(planar_chain(2))}
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -48,13 +46,13 @@ def test_dynamics_undoes_inverse_dynamics(name):
 @given(arms_and_states(planar_arms()))
 def test_agrees_with_the_closed_form(derived, arm_and_states):
     arm, q, qd, u = arm_and_states
-    arm = Planar2R(**{name: getattr(arm, name) for name in NAMES})
-    model = numpy_model(derived, {name: getattr(arm, name) for name in NAMES})
+    model = numpy_model(derived, parameters(arm))
     M, C = arm.M(q), arm.C(q, qd)
     assert_close(model.M(q), M, 0, 1e-13)
     assert_close(model.C(q, qd), C, np.max(np.abs(M)) * 30, 1e-13)
     weight = arm.g * (arm.m1 * abs(arm.lc1) + arm.m2 * (arm.l1 + abs(arm.lc2)))
     assert_close(model.g_vec(q), arm.g_vec(q), weight, 1e-13)
+    assert_close(model.f_vec(qd), arm.f_vec(qd), 0, 1e-13)
     assert_close(model.potential_energy(q), arm.potential_energy(q), weight, 1e-13)
     # What rounding of M, C q̇ and g may do to q̈, through the conditioning of M.
     spread = np.linalg.cond(M).max() * max(1.0, np.max(np.abs(arm.dynamics(q, qd, u))))

@@ -163,12 +163,12 @@ def wolfram_values(source):
                 name, term = step.args
                 local[name] = sp.sympify(term).subs(local)
             body = sequence.args[-1]
-            body = (sp.Matrix(body) if len(values) < 3 else body).subs(local)
+            body = (sp.Matrix(body) if len(values) < 4 else body).subs(local)
         arguments = [[pattern.args[0] for pattern in vector] for vector in head.args[:2]]
         values[head.func.__name__] = arguments, body
-        if len(values) == 4:
+        if len(values) == 5:
             return values
-    raise AssertionError(f"four definitions in {source}")
+    raise AssertionError(f"five definitions in {source}")
 
 
 @pytest.mark.parametrize("name", ["Planar2R", "Planar3R", "CartPole"])
@@ -182,6 +182,7 @@ def test_wolfram_says_the_derivation_exactly(name):
         "armM": ([q], derivation.M),
         "armC": ([q, qd], derivation.C),
         "armGVec": ([q], derivation.g_vec),
+        "armFVec": ([qd], derivation.f_vec),
         "armPotentialEnergy": ([q], sp.Matrix([derivation.P])),
     }
     assert list(values) == list(expected)
@@ -197,8 +198,8 @@ def test_wolfram_solves_for_the_accelerations():
     solve = definition.args[1]
     assert solve.func.__name__ == "LinearSolve"
     q, qd, u = sp.symbols("q qd u")
-    M, C, gravity, dot = sp.symbols("armM armC armGVec Dot", cls=sp.Function)
-    assert solve.args == (M(q), u - dot(C(q, qd), qd) - gravity(q))
+    M, C, gravity, friction, dot = sp.symbols("armM armC armGVec armFVec Dot", cls=sp.Function)
+    assert solve.args == (M(q), u - dot(C(q, qd), qd) - gravity(q) - friction(qd))
 
 
 @pytest.mark.parametrize(

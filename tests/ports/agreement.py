@@ -11,9 +11,10 @@ import sympy as sp
 from armdyn import Planar2R
 from armdyn.derive import planar_chain
 from armdyn.ports import Terms
+from armdyn.ports.calls import by_hand
 
 TOLERANCE = 1e-12
-PLANAR_2R, PLANAR_3R = planar_chain(2), planar_chain(3, offsets=True)
+PLANAR_2R, PLANAR_3R, RUBBING_2R = planar_chain(2), planar_chain(3, offsets=True), by_hand()
 RANGES = {
     "l": (0.1, 2),
     "lc": (-1, 2),
@@ -21,6 +22,8 @@ RANGES = {
     "m": (0.1, 10),
     "I": (0.01, 2),
     "g": (0, 20),
+    "viscous": (0, 3),
+    "coulomb": (0, 3),
 }
 
 
@@ -53,23 +56,23 @@ def closed_form(arms, states, u) -> Terms:
 
 
 class Evaluated:
-    """A derivation's M, C, g, P in NumPy at rows of parameters and states, and their terms' sizes."""
+    """A derivation's M, C, g, f, P in NumPy at rows of parameters and states; their terms' sizes."""
 
     def __init__(self, derivation):
         d = self.derivation = derivation
         symbols = (*d.parameters, *d.q, *d.qd)
-        entries = [*d.M, *d.C, *d.g_vec, d.P]
+        entries = [*d.M, *d.C, *d.g_vec, *d.f_vec, d.P]
         self._entries = sp.lambdify(symbols, entries, "numpy", cse=True)
         self._sizes = sp.lambdify(symbols, [_size(entry) for entry in entries], "numpy", cse=True)
 
     def terms(self, values, states, u) -> Terms:
-        M, C, g, P = self._split(self._entries, values, states)
+        M, C, g, f, P = self._split(self._entries, values, states)
         qd = states[:, self.derivation.n :]
-        qdd = np.linalg.solve(M, (u - np.einsum("kij,kj->ki", C, qd) - g)[..., np.newaxis])
-        return Terms(M, C, g, np.zeros_like(g), P, qdd[..., 0])
+        qdd = np.linalg.solve(M, (u - np.einsum("kij,kj->ki", C, qd) - g - f)[..., np.newaxis])
+        return Terms(M, C, g, f, P, qdd[..., 0])
 
     def sizes(self, values, states):
-        """(M, C, g, P), each entry the sum of the sizes of its terms."""
+        """(M, C, g, f, P), each entry the sum of the sizes of its terms."""
         return self._split(self._sizes, values, np.abs(states))
 
     def _split(self, function, values, states):
@@ -78,20 +81,22 @@ class Evaluated:
         found = np.stack(
             [np.broadcast_to(e, len(states)) for e in function(*columns, *states.T)], axis=-1
         )
-        M, C, g, P = np.split(found, np.cumsum([n * n, n * n, n]), axis=-1)
-        return M.reshape(-1, n, n), C.reshape(-1, n, n), g, P[:, 0]
+        M, C, g, f, P = np.split(found, np.cumsum([n * n, n * n, n, n]), axis=-1)
+        return M.reshape(-1, n, n), C.reshape(-1, n, n), g, f, P[:, 0]
 
 
 def _size(entry):
-    """The sum of the sizes of the entry's terms, with 1 for each sine and cosine."""
-    terms = sp.Add.make_args(sp.expand(entry.doit()))
-    return sum(sp.Abs(t.replace(lambda e: e.is_Function, lambda e: sp.S.One)) for t in terms)
+    """The sum of the sizes of the entry's terms, as they are nested; 1 for a function's value."""
+    if entry.is_Function:
+        return sp.S.One
+    if entry.is_Pow:
+        return _size(entry.base) ** entry.exp
+    return entry.func(*map(_size, entry.args)) if entry.args else sp.Abs(entry)
 
 
 def assert_agreement(found: Terms, right: Terms, sizes, states, u):
-    M, C, g, P = sizes
+    M, C, g, f, P = sizes
     qd = np.abs(states[:, g.shape[-1] :])
-    f = np.abs(right.f_vec)
     torques = np.einsum("kij,kj->ki", M, np.abs(right.qdd)) + np.einsum("kij,kj->ki", C, qd)
     torques += g + f + np.abs(u)
     qdd = np.einsum("kij,kj->ki", np.abs(np.linalg.inv(right.M)), torques)

@@ -7,7 +7,7 @@ from armdyn import Planar2R, ports
 from armdyn.derive import planar_chain
 from armdyn.ports import calls, program
 from armdyn.ports.toolchain import MissingToolError, Toolchain
-from tests.ports.agreement import PLANAR_2R
+from tests.ports.agreement import PLANAR_2R, RUBBING_2R
 
 ARM = Planar2R(1, 0.8, 0.5, 0.3, 2, 1.5, 0.2, 0.1, g=9.0, viscous=(2, 1.5), coulomb=(0.3, 0.2))
 FLAT = [1, 0.8, 0.5, 0.3, 2, 1.5, 0.2, 0.1, 9.0, 2, 1.5, 0.3, 0.2]
@@ -80,6 +80,13 @@ def test_generated_source_of_an_arm(recorded):
     ports.run("java", [FREE, FREE], np.zeros((2, 4)), generated=True)
     assert recorded.started[1] == PLANAR_2R
     assert recorded.requests[0][1:10].tolist() == [*FLAT[:8], 9.81]
+    # One of them has friction: the program of the arm with friction speaks for both.
+    ports.run("java", [FREE, ARM], np.zeros((2, 4)), generated=True)
+    assert recorded.started[1] == RUBBING_2R
+    assert recorded.requests[1][1:].reshape(2, -1)[:, :13].tolist() == [
+        [*FLAT[:8], 9.81, 0, 0, 0, 0],
+        FLAT,
+    ]
 
 
 def test_many_states_go_in_several_requests(recorded, monkeypatch):
@@ -116,7 +123,6 @@ def test_an_answer_of_another_size_is_an_error(recorded, monkeypatch):
         (("cpp", ARM, [0, 0, 0, np.nan]), {}, r"states\[3\] = nan: needs finite"),
         (("cpp", ARM, np.zeros(4), [1, 2, 3]), {}, r"u: got shape \(3,\)"),
         (("cpp", [ARM] * 3, np.zeros((2, 4))), {}, r"\(3, 13\), \(2, 4\), \(2,\) need batch axes"),
-        (("cpp", ARM, np.zeros(4)), {"generated": True}, "has friction; generated source has none"),
         (("cpp", ARM, np.zeros(4)), {"values": VALUES}, "values: only a Derivation takes them"),
         (("cpp", PLANAR_2R, np.zeros(4)), {}, "values = None: needs a mapping of names"),
         (

@@ -30,7 +30,7 @@ def c_model(derivation: Derivation, values: Mapping[str, float]) -> "CompiledMod
 class CompiledModel(NumpyModel):
     """A `NumpyModel` whose q̈ and RK4 loop run in C.
 
-    Raises `NoCompilerError` when made, if there is no C compiler. M, C, g and P stay NumPy's. Where
+    Raises `NoCompilerError` when made, if there is no C compiler. M, C, g, f and P stay NumPy's. Where
     M is close to singular, or an input not finite, the C code says so and `Manipulator.dynamics`
     decides: the answers and the errors are the same.
     """
@@ -40,7 +40,7 @@ class CompiledModel(NumpyModel):
         _ = self._compiled, self._k
 
     def dynamics(self, q, qd, u) -> np.ndarray:
-        """q̈ = M⁻¹ (u − C q̇ − g), (n,); raises as `Manipulator.dynamics`."""
+        """q̈ = M⁻¹ (u − C q̇ − g − f), (n,); raises as `Manipulator.dynamics`."""
         found = self._one(self._k, q, qd, u)
         return self._checked_dynamics(q, qd, u) if found is None else found
 

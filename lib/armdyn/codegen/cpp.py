@@ -25,8 +25,8 @@ RESERVED = {
 def cpp(derivation, name: str = "Arm") -> str:
     """A C++ header (C++11, Eigen 3) with a struct `name`: parameters, and the equation's functions.
 
-    M(q), C(q, qd), g_vec(q), potential_energy(q) and dynamics(q, qd, u), which solves for q̈ by
-    `ldlt`. A name that C++ reserves gets `_` added; the header's first comment says so.
+    M(q), C(q, qd), g_vec(q), f_vec(qd), potential_energy(q) and dynamics(q, qd, u), which solves
+    for q̈ by `ldlt`. A name that C++ reserves gets `_` added; the header's first comment says so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
     model = program(derivation, name, RESERVED)
@@ -42,26 +42,27 @@ def _file(model: Program):
     yield from model.fields("  double {};", "//")
     yield ""
     yield "  // The inertia matrix."
-    yield from _function("Matrix M", model.M, qd=False)
+    yield from _function("Matrix M", model.M, "q")
     yield "  // The Coriolis and centrifugal matrix, in Christoffel form."
-    yield from _function("Matrix C", model.C, qd=True)
+    yield from _function("Matrix C", model.C, "q", "qd")
     yield "  // The gravity vector, the gradient of the potential energy."
-    yield from _function("Vector g_vec", model.g_vec, qd=False)
+    yield from _function("Vector g_vec", model.g_vec, "q")
+    yield "  // The friction; it opposes the motion."
+    yield from _function("Vector f_vec", model.f_vec, "qd")
     yield "  // The potential energy, J."
-    yield from _function("double potential_energy", model.P, qd=False)
+    yield from _function("double potential_energy", model.P, "q")
     yield "  // The accelerations qdd for the inputs u; M(q) must be positive definite."
     yield "  Vector dynamics(const Vector& q, const Vector& qd, const Vector& u) const {"
-    yield "    return M(q).ldlt().solve(u - C(q, qd) * qd - g_vec(q));"
+    yield "    return M(q).ldlt().solve(u - C(q, qd) * qd - g_vec(q) - f_vec(qd));"
     yield "  }"
     yield "};"
 
 
-def _function(head, routine, qd):
-    q_name = "q" if routine.q else "/* q */"
-    qd_name = "qd" if routine.qd else "/* qd */"
-    arguments = f"const Vector& {q_name}" + (f", const Vector& {qd_name}" if qd else "")
-    yield f"  {head}({arguments}) const {{"
-    for vector, read in (("q", routine.q), ("qd", routine.qd)):
+def _function(head, routine, *vectors):
+    reads = {"q": routine.q, "qd": routine.qd}
+    arguments = [f"const Vector& {v if reads[v] else f'/* {v} */'}" for v in vectors]
+    yield f"  {head}({', '.join(arguments)}) const {{"
+    for vector, read in reads.items():
         if read:
             named = ", ".join(f"{symbol.name} = {vector}[{i}]" for i, symbol in read)
             yield from wrapped(f"const double {named};", 4)

@@ -40,8 +40,8 @@ RESERVED = {*KEYWORDS, *METHODS, "Math", "SimpleMatrix", *FUNCTIONS, *ARGUMENTS}
 def java(derivation, name: str = "Arm") -> str:
     """The file `name`.java (Java 16, EJML): a record of the parameters, with the equation's functions.
 
-    M(q), C(q, qd), g_vec(q), potential_energy(q) and dynamics(q, qd, u) take and give SimpleMatrix
-    columns. A name that Java reserves gets `_` added; the file's first comment says so.
+    M(q), C(q, qd), g_vec(q), f_vec(qd), potential_energy(q) and dynamics(q, qd, u) take and give
+    SimpleMatrix columns. A name that Java reserves gets `_` added; the file's first comment says so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
     model = program(derivation, name, RESERVED)
@@ -58,11 +58,14 @@ def _file(model: Program):
     yield from _function("SimpleMatrix C(SimpleMatrix q, SimpleMatrix qd)", model.C)
     yield "  /** The gravity vector, the gradient of the potential energy. */"
     yield from _function("SimpleMatrix g_vec(SimpleMatrix q)", model.g_vec)
+    yield "  /** The friction; it opposes the motion. */"
+    yield from _function("SimpleMatrix f_vec(SimpleMatrix qd)", model.f_vec)
     yield "  /** The potential energy, J. */"
     yield from _function("double potential_energy(SimpleMatrix q)", model.P)
     yield "  /** The accelerations qdd for the inputs u. */"
     yield "  public SimpleMatrix dynamics(SimpleMatrix q, SimpleMatrix qd, SimpleMatrix u) {"
-    yield "    return M(q).solve(u.minus(C(q, qd).mult(qd)).minus(g_vec(q)));"
+    yield "    SimpleMatrix force = u.minus(C(q, qd).mult(qd)).minus(g_vec(q)).minus(f_vec(qd));"
+    yield "    return M(q).solve(force);"
     yield from ("  }", "}")
 
 

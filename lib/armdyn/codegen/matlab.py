@@ -38,9 +38,9 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
     """The files of a MATLAB package `name`, one function each: file name → source.
 
     With the folder that holds `+name` on the path, `name.M(q, arm)`, `name.C(q, qd, arm)`,
-    `name.g_vec(q, arm)`, `name.potential_energy(q, arm)` and `name.dynamics(q, qd, u, arm)` take
-    columns and a struct `arm` of the parameters. They run in Octave too. A name that MATLAB
-    reserves gets `_` added; the comments say so.
+    `name.g_vec(q, arm)`, `name.f_vec(qd, arm)`, `name.potential_energy(q, arm)` and
+    `name.dynamics(q, qd, u, arm)` take columns and a struct `arm` of the parameters. They run in
+    Octave too. A name that MATLAB reserves gets `_` added; the comments say so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
     model = program(derivation, name, RESERVED)
@@ -60,6 +60,12 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
             f"The gravity vector, {n} x 1, the gradient of the potential energy.",
             model.g_vec,
         ),
+        "f_vec": _function(
+            model,
+            "value = f_vec(qd, arm)",
+            f"The friction, {n} x 1; it opposes the motion.",
+            model.f_vec,
+        ),
         "potential_energy": _function(
             model, "value = potential_energy(q, arm)", "The potential energy, J.", model.P
         ),
@@ -69,7 +75,8 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
                 "qdd = dynamics(q, qd, u, arm)",
                 f"The accelerations, {n} x 1, for the inputs u, {n} x 1.",
             ),
-            f"  force = u - {called('C')}(q, qd, arm)*qd - {called('g_vec')}(q, arm);",
+            f"  force = u - {called('C')}(q, qd, arm)*qd - {called('g_vec')}(q, arm) ...",
+            f"      - {called('f_vec')}(qd, arm);",
             f"  qdd = {called('M')}(q, arm) \\ force;",
             "end",
         ],
@@ -80,8 +87,12 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
 def _head(model: Program, signature, summary):
     yield f"function {signature}"
     yield f"% {summary}"
-    velocities = ", and qd, their velocities" if "qd" in signature else ""
-    yield f"% q, {model.n} x 1: {', '.join(s.name for s in model.q)}{velocities}. arm: a struct with"
+    coordinates = f"{model.n} x 1: {', '.join(s.name for s in model.q)}"
+    if "(qd" in signature:
+        yield f"% qd: the velocities of q, {coordinates}. arm: a struct with"
+    else:
+        velocities = ", and qd, their velocities" if "qd" in signature else ""
+        yield f"% q, {coordinates}{velocities}. arm: a struct with"
     yield from model.fields("%   {}", " ")
     yield "%"
     yield from (f"% {line}" for line in model.header())

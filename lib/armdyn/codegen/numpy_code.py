@@ -39,7 +39,7 @@ def numpy_model(derivation: Derivation, values: Mapping[str, float]) -> "NumpyMo
 
 @dataclass(frozen=True, eq=False)
 class NumpyModel(Manipulator):
-    """M, C, g, P and q̈ of a derivation, as generated NumPy code; without friction.
+    """M, C, g, f, P and q̈ of a derivation, as generated NumPy code.
 
     Every method takes leading batch axes, as those of `Manipulator`; a large batch is worked
     through in blocks that fit the cache.
@@ -72,12 +72,16 @@ class NumpyModel(Manipulator):
         """Gravity vector ∂P/∂q, (n,); q: (n,)."""
         return self._gravity(state_vector("q", q, self.n))
 
+    def f_vec(self, qd) -> np.ndarray:
+        """Friction f(q̇), (n,); qd: (n,)."""
+        return self._friction(state_vector("qd", qd, self.n))
+
     def potential_energy(self, q) -> np.ndarray:
         """Potential energy P, scalar, J; q: (n,)."""
         return self._potential(state_vector("q", q, self.n))[()]
 
     def dynamics(self, q, qd, u) -> np.ndarray:
-        """q̈ = M⁻¹ (u − C q̇ − g), (n,), by M = L D Lᵀ written out; raises as `Manipulator`."""
+        """q̈ = M⁻¹ (u − C q̇ − g − f), (n,), by M = L D Lᵀ written out; raises as `Manipulator`."""
         states = [q, qd, u]
         # Plain arrays need no look before: what is not finite shows in q̈.
         if not all(_plain(s, self.n) for s in states):
@@ -100,6 +104,10 @@ class NumpyModel(Manipulator):
     @cached_property
     def _gravity(self):
         return self._callable("q", list(self.derivation.g_vec))
+
+    @cached_property
+    def _friction(self):
+        return self._callable("v", list(self.derivation.f_vec))
 
     @cached_property
     def _potential(self):
@@ -225,7 +233,7 @@ def _checked(derivation, values):
 
 def _refuse_unknown(derivation):
     """ValueError for a function that has no code, now and not when it is first called."""
-    parts = [*derivation.M, *derivation.C, *derivation.g_vec, derivation.P]
+    parts = [*derivation.M, *derivation.C, *derivation.g_vec, *derivation.f_vec, derivation.P]
     functions = {type(f): f for part in parts for f in sp.sympify(part).atoms(sp.Function)}
     for function in functions.values():
         program = straight_line.terms(derivation, [function])

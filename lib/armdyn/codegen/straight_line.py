@@ -46,7 +46,11 @@ def forward_dynamics(derivation: Derivation) -> StraightLine:
     torques = []
     for i in range(n):
         products = [lifted(derivation.C[i, j]) * velocity[j] for j in range(n)]
-        bias = [_fewest(_sum(products), n), lifted(derivation.g_vec[i])]
+        bias = [
+            _fewest(_sum(products), n),
+            lifted(derivation.g_vec[i]),
+            lifted(derivation.f_vec[i]),
+        ]
         torques.append(_sum([sp.Symbol(f"u_{i}"), *(-b for b in bias)]))
     entries = [lifted(derivation.M[i, j]) for i, j in lower]
     steps, found = _shared([*entries, *torques], "x_")

@@ -4,9 +4,23 @@ from sympy.printing.mathematica import MCodePrinter, known_functions
 
 from armdyn.codegen.program import Program, Routine, code, program, rows, wrapped
 
+HEADS = {"Abs": "Abs", "sign": "Sign", "floor": "Floor", "ceiling": "Ceiling"}
 RESERVED = {
     *"CDEIKNO",  # symbols of the system, protected
-    *("Pi", "Module", "LinearSolve", "Dot", "List"),
+    *(
+        "Pi",
+        "Module",
+        "LinearSolve",
+        "Dot",
+        "List",
+        "Piecewise",
+        "True",
+        "False",
+        "And",
+        "Or",
+        "Not",
+    ),
+    *HEADS.values(),
     *(head for cases in known_functions.values() for _, head in cases),
 }
 
@@ -14,10 +28,10 @@ RESERVED = {
 def wolfram(derivation, name: str = "arm") -> str:
     """Wolfram Language source: definitions, symbolic in the parameters, whose names begin with `name`.
 
-    nameM[q], nameC[q, qd], nameGVec[q], namePotentialEnergy[q] and nameDynamics[q, qd, u] take
-    lists, of symbols or of numbers; parameters are given values with /. {l1 -> 1, …}. There are no
-    underscores in the language's names: l_1 becomes l1. A name that the system reserves gets
-    `Sym` added; the first comment says which.
+    nameM[q], nameC[q, qd], nameGVec[q], nameFVec[qd], namePotentialEnergy[q] and
+    nameDynamics[q, qd, u] take lists, of symbols or of numbers; parameters are given values with
+    /. {l1 -> 1, …}. There are no underscores in the language's names: l_1 becomes l1. A name that
+    the system reserves gets `Sym` added; the first comment says which.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
     model = program(derivation, name, RESERVED, mark="Sym", underscores=False)
@@ -36,11 +50,13 @@ def _file(model: Program):
     yield from _definition(f"{model.name}C[{{{q}}}, {{{qd}}}]", model.C)
     yield "\n(* The gravity vector, the gradient of the potential energy. *)"
     yield from _definition(f"{model.name}GVec[{{{q}}}]", model.g_vec)
+    yield "\n(* The friction; it opposes the motion. *)"
+    yield from _definition(f"{model.name}FVec[{{{qd}}}]", model.f_vec)
     yield "\n(* The potential energy, J. *)"
     yield from _definition(f"{model.name}PotentialEnergy[{{{q}}}]", model.P)
     yield "\n(* The accelerations qdd for the inputs u. *)"
     yield f"{model.name}Dynamics[q_, qd_, u_] := LinearSolve[{model.name}M[q],"
-    yield f"  u - {model.name}C[q, qd] . qd - {model.name}GVec[q]]"
+    yield f"  u - {model.name}C[q, qd] . qd - {model.name}GVec[q] - {model.name}FVec[qd]]"
 
 
 def _definition(head, routine: Routine):
@@ -86,4 +102,4 @@ class _WolframPrinter(MCodePrinter):
 
 
 def _code(expression):
-    return code(_WolframPrinter(), expression, "Wolfram")
+    return code(_WolframPrinter({"user_functions": dict(HEADS)}), expression, "Wolfram")

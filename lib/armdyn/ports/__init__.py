@@ -21,8 +21,6 @@ p = 13; generated: derivation.parameters) and n joints, all vectors in order, a 
   each row M and C by rows, g, f (n), the potential energy, and q̈ (n): 2n² + 3n + 1 numbers.
 * 1, then parameters (p), x0 = [q; q̇] (2n), u (n), dt, steps, stride. The answer has the states
   after 0, stride, 2 stride, … ≤ steps steps of RK4 with u held: 2n numbers each.
-
-Generated models have no friction: f is zero.
 """
 
 from armdyn.ports.calls import LANGUAGES, built, missing, run, simulate, start

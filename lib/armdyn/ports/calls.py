@@ -6,6 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
+import sympy as sp
 
 from armdyn.codegen.build import cache_folder
 from armdyn.derive import Derivation, planar_chain
@@ -63,9 +64,9 @@ def run(
     model: a Planar2R; a sequence of them, one for each row of states (k, 2n); or a Derivation,
     whose parameters `values` gives as a mapping of names to numbers, or a sequence of those.
     states: (..., 2n), [q; q̇]. u: (..., n), zero if None. generated: what codegen writes for the
-    arm instead of what is written by hand, as it always is for a Derivation; without friction.
+    arm instead of what is written by hand, as it always is for a Derivation.
     Raises ValueError, MissingToolError, BuildError and ProgramError, as `start` and
-    `Program.terms`, and where u, values or friction do not fit the model.
+    `Program.terms`, and where u or values do not fit the model.
     """
     derivation, parameters = _model(model, values, generated)
     with start(language, derivation, seconds=seconds) as program:
@@ -93,6 +94,12 @@ def simulate(
         return program.simulate(parameters, x0, u, t, substeps=substeps)
 
 
+def by_hand() -> Derivation:
+    """What the arm written by hand says, in symbols: planar_chain(2) with friction."""
+    coefficients = (sp.symbols(f"{name}1:3", real=True) for name in ("viscous", "coulomb"))
+    return planar_chain(2).with_friction(*coefficients)
+
+
 def _module(language):
     if language not in _MODULES:
         raise ValueError(f"language = {language!r}: needs one of {', '.join(_MODULES)}")
@@ -111,12 +118,12 @@ def _model(model, values, generated):
         return model, _listed(values, Mapping, "values", lambda v: _in_order(model, v))
     if values is not None:
         raise ValueError("values: only a Derivation takes them; an arm has its own")
-    if generated:
-        derivation = planar_chain(2)
-        return derivation, _listed(
-            model, Planar2R, "model", lambda arm: _in_order(derivation, _frictionless(arm))
-        )
-    return None, _listed(model, Planar2R, "model", _flat)
+    parameters = _listed(model, Planar2R, "model", _flat)
+    if not generated:
+        return None, parameters
+    frictionless = planar_chain(2)
+    inertial, friction = np.split(parameters, [len(frictionless.parameters)], axis=-1)
+    return (by_hand(), parameters) if friction.any() else (frictionless, inertial)
 
 
 def _listed(given, kind, name, numbers):
@@ -132,13 +139,6 @@ def _listed(given, kind, name, numbers):
 
 def _flat(arm):
     return np.hstack(dataclasses.astuple(arm))
-
-
-def _frictionless(arm):
-    values = dataclasses.asdict(arm)
-    if any((*values.pop("viscous"), *values.pop("coulomb"))):
-        raise ValueError("model: has friction; generated source has none")
-    return values
 
 
 def _in_order(derivation, values):

@@ -15,8 +15,6 @@ _MODEL = """#pragma once
 constexpr int parameters = {count};
 
 inline Arm arm_of(const double*{p}) {{ return {{{values}}}; }}
-
-inline Arm::Vector friction(const Arm&, const Arm::Vector&) {{ return Arm::Vector::Zero(); }}
 """
 
 

@@ -64,7 +64,7 @@ Numbers terms(const double* row, const double* end) {
     append(answer, arm.M(q));
     append(answer, arm.C(q, qd));
     append(answer, arm.g_vec(q));
-    append(answer, friction(arm, qd));
+    append(answer, arm.f_vec(qd));
     answer.push_back(arm.potential_energy(q));
     append(answer, arm.dynamics(q, qd, u));
   }

@@ -9,5 +9,3 @@ constexpr int parameters = 13;
 inline Arm arm_of(const double* p) {
   return {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], {p[9], p[10]}, {p[11], p[12]}};
 }
-
-inline Arm::Vector friction(const Arm& arm, const Arm::Vector& qd) { return arm.f_vec(qd); }

@@ -10,7 +10,7 @@ toolchain = TOOLCHAINS["java"]
 
 _MODEL = """import org.ejml.simple.SimpleMatrix;
 
-/** A generated model as the driver takes it: without friction, and with a solver of its own. */
+/** A generated model as the driver takes it, with a solver of its own. */
 record Model(Generated model) implements Arm {{
   static final int JOINTS = {n};
   static final int PARAMETERS = {count};
@@ -36,7 +36,7 @@ record Model(Generated model) implements Arm {{
 
   @Override
   public SimpleMatrix f_vec(SimpleMatrix qd) {{
-    return new SimpleMatrix(JOINTS, 1);
+    return model.f_vec(qd);
   }}
 
   @Override

@@ -25,7 +25,7 @@ _MODEL = """function value = model()
   value.M = @Arm.M;
   value.C = @Arm.C;
   value.g_vec = @Arm.g_vec;
-  value.f_vec = @(qd, arm) zeros({n}, 1);
+  value.f_vec = @Arm.f_vec;
   value.potential_energy = @Arm.potential_energy;
   value.dynamics = @Arm.dynamics;
 end

@@ -24,7 +24,8 @@ model`q = {{{q}}};
 model`qd = {{{qd}}};
 model`u = {{{u}}};
 model`terms := {{
-  armM[model`q], armC[model`q, model`qd], armGVec[model`q], {f}, armPotentialEnergy[model`q]}};
+  armM[model`q], armC[model`q, model`qd], armGVec[model`q], armFVec[model`qd],
+  armPotentialEnergy[model`q]}};
 model`dynamics := armDynamics[model`q, model`qd, model`u];
 
 SetAttributes[model`filledIn, HoldFirst];
@@ -57,7 +58,6 @@ def generated(derivation: Derivation) -> dict[str, str]:
         q=_listed(names[s] for s in derivation.q),
         qd=_listed(names[s] for s in derivation.qd),
         u=_listed(f"model`u{i + 1}" for i in range(derivation.n)),
-        f=f"{{{_listed(0 for _ in range(derivation.n))}}}",
     )
     return _files(*_DRIVER) | {"arm.wl": arm, "model.wl": model}
 

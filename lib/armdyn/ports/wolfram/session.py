@@ -4,9 +4,9 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.parsing.mathematica import parse_mathematica
 
-from armdyn.derive import Derivation, planar_chain
+from armdyn.derive import Derivation
 from armdyn.ports import wolfram
-from armdyn.ports.calls import built
+from armdyn.ports.calls import built, by_hand
 from armdyn.ports.program import Program
 from armdyn.ports.toolchain import Conversation, ProgramError
 
@@ -23,14 +23,11 @@ class Session:
     """
 
     def __init__(self, derivation: Derivation | None = None, *, seconds: float = 60):
-        model = planar_chain(2) if derivation is None else derivation
-        self._model = model
-        # By hand, the four coefficients of friction besides.
-        count = len(model.parameters) + (4 if derivation is None else 0)
+        model = self._model = by_hand() if derivation is None else derivation
         folder = built("wolfram", derivation)
         command = wolfram.toolchain().started_in(folder)
         self._conversation = Conversation(command, seconds=seconds)
-        self.program = Program(self._conversation, model.n, count)
+        self.program = Program(self._conversation, model.n, len(model.parameters))
 
     def evaluate(self, text: str) -> str:
         """The InputForm of the value of an expression in the Wolfram Language.
@@ -43,7 +40,7 @@ class Session:
     def read(self, text: str):
         """The value of an expression as SymPy reads it; lists become tuples.
 
-        Symbols are those of the derivation; by hand those of planar_chain(2), and of friction.
+        Symbols are those of the derivation; by hand those of `by_hand`.
         Raises ProgramError as `evaluate`, and where the value holds what is unknown to SymPy.
         """
         said = self.evaluate(text)
@@ -53,8 +50,8 @@ class Session:
         return value.xreplace(self._symbols())
 
     def derivation(self) -> Derivation:
-        """What Mathics3 has derived: M, C, g and P in symbols, without friction."""
-        M, C, g_vec, _, P = self.read("model`terms")
+        """What Mathics3 has derived: M, C, g, f and P in symbols."""
+        M, C, g_vec, f_vec, P = self.read("model`terms")
         model = self._model
         return Derivation(
             model.q,
@@ -64,6 +61,7 @@ class Session:
             sp.ImmutableMatrix(C),
             sp.ImmutableMatrix(g_vec),
             P,
+            sp.ImmutableMatrix(f_vec),
         )
 
     def __enter__(self):
