@@ -2,12 +2,12 @@
 
 import math
 from decimal import Decimal, localcontext
+from functools import partial
 
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
-from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
-from armdyn.codegen.program import ShortFloats, unknown_function
+from armdyn.codegen.printing import CFamily, code
 from armdyn.codegen.straight_line import StraightLine
 
 # States worked through side by side, one per lane of the processor's vector registers.
@@ -24,7 +24,7 @@ def source(program: StraightLine, n: int) -> str:
     (arms, steps + 1, 2n), or with keep = 0 the last, (arms, 2n); it returns −1, or
     arm·(steps + 1) + step where it stopped.
     """
-    text = _Printer().expression
+    text = partial(code, _Printer())
     reads = [f"double {name}_{i}" for name in "qvu" for i in range(n)]
     reads += [f"double {symbol}" for s, c, _ in program.angles for symbol in (s, c)]
     reads += [f"double *restrict o_{i}" for i in range(n + 2)]
@@ -82,10 +82,20 @@ INLINE int forward(const int lanes, const double *restrict k, double least,
     return regular;
 }}
 
+/* What is not finite may not show in a: a sign, a minimum, a condition can hide it. */
+INLINE int all_finite(int count, const double *x)
+{{
+    int finite = 1;
+    for (int i = 0; i < count; i++)
+        finite &= x[i] - x[i] == 0;
+    return finite;
+}}
+
 static int one(const double *k, double least, const double *q, const double *v, const double *u,
         double *a)
 {{
-    return forward(1, k, least, q, v, u, a);
+    return forward(1, k, least, q, v, u, a) & all_finite(N, q) & all_finite(N, v)
+           & all_finite(N, u);
 }}
 {_LOOPS}"""
 
@@ -110,7 +120,8 @@ static ptrdiff_t many(const double *k, double least, ptrdiff_t count, const doub
         gather(lanes, N, q + first * q_step, q_step, ql);
         gather(lanes, N, v + first * v_step, v_step, vl);
         gather(lanes, N, u + first * u_step, u_step, ul);
-        if (!forward(LANES, k, least, ql, vl, ul, al))
+        if (!(forward(LANES, k, least, ql, vl, ul, al) & all_finite(N * LANES, ql)
+              & all_finite(N * LANES, vl) & all_finite(N * LANES, ul)))
             for (int l = 0; l < lanes; l++) {
                 const ptrdiff_t row = first + l;
                 if (!one(k, least, q + row * q_step, v + row * v_step, u + row * u_step, al))
@@ -275,16 +286,11 @@ def _half_pi_parts():
     return (*parts, float(rest))
 
 
-class _Printer(ShortFloats, C99CodePrinter):
-    def __init__(self):
-        super().__init__({"strict": True})
+class _Printer(CFamily, C99CodePrinter):
+    double = "(double)"
 
-    def expression(self, e):
-        try:
-            return self.doprint(e)
-        except PrintMethodNotImplementedError as error:
-            name = unknown_function(error)
-            raise ValueError(f"derivation: contains {name}, which is not a function of C") from None
+    def __init__(self):
+        super().__init__({"strict": True, "math_macros": {}})
 
     def _print_Pow(self, expr):
         base, power = expr.as_base_exp()

@@ -121,7 +121,7 @@ class CompiledModel(NumpyModel):
 
     @cached_property
     def _program(self):
-        return straight_line.forward_dynamics(self.derivation)
+        return straight_line.forward_dynamics(self._written)
 
     @cached_property
     def _compiled(self):

@@ -1,22 +1,16 @@
 """Writes a derivation as a C++ header for Eigen."""
 
-from sympy.printing.c import C99CodePrinter
+from sympy.printing.c import C99CodePrinter, get_math_macros
 from sympy.printing.cxx import CXX17CodePrinter
 
-from armdyn.codegen.program import (
-    ARGUMENTS,
-    FUNCTIONS,
-    Program,
-    ShortFloats,
-    code,
-    program,
-    rows,
-    wrapped,
-)
+from armdyn.codegen.printing import CFamily, code
+from armdyn.codegen.program import ARGUMENTS, FUNCTIONS, Program, program, rows, wrapped
 
 RESERVED = {
     *CXX17CodePrinter.reserved_words,
     *("register", "std", "Eigen", "Vector", "Matrix", "value"),
+    # Macros of the headers that <cmath> may bring.
+    *("INFINITY", "NAN", "HUGE_VAL", "NULL", "errno", *get_math_macros().values()),
     *FUNCTIONS,
     *ARGUMENTS,
 }
@@ -29,7 +23,7 @@ def cpp(derivation, name: str = "Arm") -> str:
     for q̈ by `ldlt`. A name that C++ reserves gets `_` added; the header's first comment says so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
-    model = program(derivation, name, RESERVED)
+    model = program(derivation, "C++", name, RESERVED)
     return "\n".join([*(f"// {line}" for line in model.header()), *_file(model), ""])
 
 
@@ -79,11 +73,11 @@ def _function(head, routine, *vectors):
     yield ""
 
 
-class _CppPrinter(ShortFloats, CXX17CodePrinter):
+class _CppPrinter(CFamily, CXX17CodePrinter):
     # std::max would not take 0 and a double; fmax does.
     _print_Max = C99CodePrinter._print_Max
     _print_Min = C99CodePrinter._print_Min
 
 
 def _code(expression):
-    return code(_CppPrinter({"strict": True}), expression, "C++")
+    return code(_CppPrinter({"strict": True, "math_macros": {}}), expression)

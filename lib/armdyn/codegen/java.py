@@ -1,18 +1,9 @@
 """Writes a derivation as a Java record for EJML."""
 
-from sympy import E, pi
 from sympy.printing.c import C89CodePrinter
 
-from armdyn.codegen.program import (
-    ARGUMENTS,
-    FUNCTIONS,
-    Program,
-    ShortFloats,
-    code,
-    program,
-    rows,
-    wrapped,
-)
+from armdyn.codegen.printing import CFamily, code
+from armdyn.codegen.program import ARGUMENTS, FUNCTIONS, Program, program, rows, wrapped
 
 # fmt: off
 KEYWORDS = {
@@ -44,7 +35,7 @@ def java(derivation, name: str = "Arm") -> str:
     SimpleMatrix columns. A name that Java reserves gets `_` added; the file's first comment says so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
-    model = program(derivation, name, RESERVED)
+    model = program(derivation, "Java", name, RESERVED)
     return "\n".join([*(f"// {line}" for line in model.header()), *_file(model), ""])
 
 
@@ -86,8 +77,8 @@ def _function(head, routine):
     yield from ("  }", "")
 
 
-class _JavaPrinter(ShortFloats, C89CodePrinter):
-    """SymPy's C printer with the functions of java.lang.Math."""
+class _JavaPrinter(CFamily, C89CodePrinter):
+    """SymPy's C printer with the functions of java.lang.Math, which lacks three hyperbolic ones."""
 
     language = "Java"
     reserved_words: frozenset[str] = frozenset()  # what is reserved has another name by now
@@ -96,10 +87,29 @@ class _JavaPrinter(ShortFloats, C89CodePrinter):
         "Abs": "Math.abs",
         "ceiling": "Math.ceil",
     }
-    _print_Mod = C89CodePrinter._print_not_supported
 
     def __init__(self):
-        super().__init__({"strict": True, "math_macros": {pi: "Math.PI", E: "Math.E"}})
+        super().__init__({"strict": True, "math_macros": {}})
+
+    def _print_Pi(self, _):
+        return "Math.PI"
+
+    def _print_Exp1(self, _):
+        return "Math.E"
+
+    # log1p keeps the digits of small arguments.
+    def _print_asinh(self, expression):
+        x = f"({self._print(expression.args[0])})"
+        rest = f"{x}*{x}/(1 + Math.sqrt({x}*{x} + 1))"
+        return f"(Math.signum({x})*Math.log1p(Math.abs({x}) + {rest}))"
+
+    def _print_acosh(self, expression):
+        x = f"({self._print(expression.args[0])})"
+        return f"Math.log1p({x} - 1 + Math.sqrt(({x} - 1)*({x} + 1)))"
+
+    def _print_atanh(self, expression):
+        x = f"({self._print(expression.args[0])})"
+        return f"(0.5*Math.log1p(2*{x}/(1 - {x})))"
 
     def _print_sign(self, expression):
         return f"Math.signum({self._print(expression.args[0])})"
@@ -118,4 +128,4 @@ class _JavaPrinter(ShortFloats, C89CodePrinter):
 
 
 def _code(expression):
-    return code(_JavaPrinter(), expression, "Java")
+    return code(_JavaPrinter(), expression)

@@ -1,19 +1,13 @@
 """Writes a derivation as MATLAB functions, for Octave too."""
 
 import re
+from typing import ClassVar
 
+import sympy as sp
 from sympy.printing.octave import OctaveCodePrinter, known_fcns_src1, known_fcns_src2
 
-from armdyn.codegen.program import (
-    ARGUMENTS,
-    FUNCTIONS,
-    Program,
-    ShortFloats,
-    code,
-    program,
-    rows,
-    wrapped,
-)
+from armdyn.codegen.printing import Logic, ShortFloats, code
+from armdyn.codegen.program import ARGUMENTS, FUNCTIONS, Program, program, rows, wrapped
 
 # fmt: off
 KEYWORDS = {
@@ -43,7 +37,7 @@ def matlab(derivation, name: str = "Arm") -> dict[str, str]:
     Octave too. A name that MATLAB reserves gets `_` added; the comments say so.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
-    model = program(derivation, name, RESERVED)
+    model = program(derivation, "MATLAB", name, RESERVED, piecewise="steps")
     n = model.n
     called = f"{name}.{{}}".format
     sources = {
@@ -106,7 +100,7 @@ def _function(model: Program, signature, summary, routine):
         for i, symbol in read:
             yield f"  {symbol.name} = {vector}({i + 1});"
     for symbol, term in routine.steps:
-        yield from wrapped(f"{symbol.name} = {_code(term)};", 2, " ...")
+        yield from _step(symbol.name, term)
     if hasattr(routine.result, "shape"):
         lines = rows(routine.result, _code)
         yield "  value = [" + f";\n{' ' * 11}".join(lines) + "];"
@@ -115,11 +109,31 @@ def _function(model: Program, signature, summary, routine):
     yield "end"
 
 
-class _OctavePrinter(ShortFloats, OctaveCodePrinter):
-    pass
+def _step(name, term):
+    if not isinstance(term, sp.Piecewise):
+        yield from wrapped(f"{name} = {_code(term)};", 2, " ...")
+        return
+    # As a sum of products with 0 and 1, a case that does not hold could give 0*Inf, which is NaN.
+    word = "if"
+    for value, condition in term.args:
+        yield from wrapped(
+            f"{word} {_code(condition)}" if condition != sp.true else "else", 2, " ..."
+        )
+        yield from wrapped(f"{name} = {_code(value)};", 4, " ...")
+        word = "elseif"
+    yield "  end"
+
+
+class _MatlabPrinter(ShortFloats, Logic, OctaveCodePrinter):
+    """SymPy's printer for Octave, with what MATLAB understands, too."""
+
+    _operators: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "not": "~"}
+
+    def _print_Relational(self, expression):
+        return super()._print_Relational(expression).replace(" != ", " ~= ")
 
 
 def _code(expression):
     # Everything is a scalar here, where .* and * are the same.
-    text = code(_OctavePrinter({"strict": True}), expression, "MATLAB")
+    text = code(_MatlabPrinter({"strict": True}), expression)
     return re.sub(r"\.([*/^])", r"\1", text)

@@ -1,21 +1,19 @@
 """Makes NumPy callables of a derivation, with batch axes."""
 
-import builtins
 import math
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass, field
-from functools import cached_property
-from types import CodeType
+from functools import cached_property, partial
 
 import numpy as np
 import sympy as sp
-from sympy.printing.codeprinter import PrintMethodNotImplementedError
-from sympy.printing.numpy import NumPyPrinter
-from sympy.printing.precedence import PRECEDENCE
 
 from armdyn.codegen import straight_line
 from armdyn.codegen.buffers import in_buffers
-from armdyn.codegen.program import ShortFloats, unknown_function
+from armdyn.codegen.numpy_printer import ArrayPrinter, FloatPrinter
+from armdyn.codegen.printing import code
+from armdyn.codegen.vocabulary import writable
 from armdyn.derive import Derivation
 from armdyn.manipulator import Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
@@ -32,7 +30,7 @@ def numpy_model(derivation: Derivation, values: Mapping[str, float]) -> "NumpyMo
 
     values: a number for each of derivation.parameters, by name. Raises ValueError, naming the
     parameter, for a missing, unknown or non-finite one, or where a constant has no finite value,
-    and for a derivation with functions that are not given.
+    and for a derivation that cannot be written: see `writable`.
     """
     return NumpyModel(derivation, values)
 
@@ -50,7 +48,7 @@ class NumpyModel(Manipulator):
 
     def __post_init__(self):
         object.__setattr__(self, "values", _checked(self.derivation, self.values))
-        _refuse_unknown(self.derivation)
+        _ = self._written
 
     def __reduce__(self):
         return type(self), (self.derivation, self.values)
@@ -83,7 +81,7 @@ class NumpyModel(Manipulator):
     def dynamics(self, q, qd, u) -> np.ndarray:
         """q̈ = M⁻¹ (u − C q̇ − g − f), (n,), by M = L D Lᵀ written out; raises as `Manipulator`."""
         states = [q, qd, u]
-        # Plain arrays need no look before: what is not finite shows in q̈.
+        # Of plain arrays, what is not finite is left to `Manipulator` below, which names it.
         if not all(_plain(s, self.n) for s in states):
             states = state_vectors(self.n, q=q, qd=qd, u=u)
         try:
@@ -94,28 +92,32 @@ class NumpyModel(Manipulator):
         return super().dynamics(*states) if found is None else found
 
     @cached_property
+    def _written(self):
+        return writable(self.derivation, "NumPy")
+
+    @cached_property
     def _inertia(self):
-        return self._callable("q", self.derivation.M)
+        return self._callable("q", self._written.M)
 
     @cached_property
     def _coriolis(self):
-        return self._callable("qv", self.derivation.C)
+        return self._callable("qv", self._written.C)
 
     @cached_property
     def _gravity(self):
-        return self._callable("q", list(self.derivation.g_vec))
+        return self._callable("q", list(self._written.g_vec))
 
     @cached_property
     def _friction(self):
-        return self._callable("v", list(self.derivation.f_vec))
+        return self._callable("v", list(self._written.f_vec))
 
     @cached_property
     def _potential(self):
-        return self._callable("q", self.derivation.P)
+        return self._callable("q", self._written.P)
 
     @cached_property
     def _forward(self):
-        program = straight_line.forward_dynamics(self.derivation)
+        program = straight_line.forward_dynamics(self._written)
         return _Callable(program, self._constants(program), "qvu", self.n, (self.n,), _regular)
 
     def _callable(self, arguments, expressions):
@@ -125,7 +127,7 @@ class NumpyModel(Manipulator):
             shape = (len(expressions),)
         else:
             shape, expressions = (), [expressions]
-        program = straight_line.terms(self.derivation, expressions)
+        program = straight_line.terms(self._written, expressions)
         return _Callable(program, self._constants(program), arguments, self.n, shape)
 
     def _constants(self, program):
@@ -144,14 +146,20 @@ class _Callable:
         self.shape, self.n, self.judge = shape, n, judge
         self.size = math.prod(shape)
         given = [f"{name}_{i}" for name in arguments for i in range(n)]
-        self.on_floats = _compiled(_FLOATS, numbers, given, *_lines(program, _sincos_call))
-        statements, results, self.buffers = in_buffers(*_lines(program, _half_angle), given)
+        text = partial(code, FloatPrinter())
+        self.on_floats = _compiled(_FLOATS, numbers, given, *_lines(program, text, _sincos_call))
+        lines = _lines(program, partial(code, ArrayPrinter()), _half_angle)
+        statements, results, self.buffers = in_buffers(*lines, given)
+        # All cases of a Piecewise are computed, those too that are not defined there.
+        self.branches = any(e.has(sp.Piecewise) for _, e in program.steps)
+        self.branches |= any(e.has(sp.Piecewise) for e in program.outputs)
         given += [f"b_{i}" for i in range(self.buffers)]
         self.on_arrays = _compiled(vars(np), numbers, given, statements, results)
 
     def __call__(self, *states):
         batch = np.broadcast_shapes(*(s.shape[:-1] for s in states))
-        return self._many(states, batch) if batch else self._one(states)
+        with np.errstate(all="ignore") if self.branches else nullcontext():
+            return self._many(states, batch) if batch else self._one(states)
 
     def _many(self, states, batch):
         count = math.prod(batch)
@@ -167,7 +175,10 @@ class _Callable:
         buffers = np.empty((self.buffers, min(count, BLOCK)))
         for start in range(0, count, BLOCK):
             part = found[start : start + BLOCK]
-            given = (r[start : start + BLOCK] if len(r) == count else r for r in rows)
+            given = [r[start : start + BLOCK] if len(r) == count else r for r in rows]
+            # It may not show in q̈: a sign, a minimum, a condition can hide it.
+            if self.judge and not all(np.isfinite(g.sum()) for g in given):
+                return None
             columns = (column for g in given for column in g.T)
             results = self.on_arrays(*columns, *buffers[:, : len(part)])
             for i in range(self.size):
@@ -177,10 +188,13 @@ class _Callable:
         return found.reshape(*batch, *self.shape)
 
     def _one(self, states):
+        numbers = [x for s in states for x in s.tolist()]
+        if self.judge and not math.isfinite(sum(numbers)):
+            return None
         try:
-            results = self.on_floats(*(x for s in states for x in s.tolist()))
+            results = self.on_floats(*numbers)
         except (ArithmeticError, ValueError):
-            # `math` raises an error where NumPy gives inf or NaN, or warns as the user has set it.
+            # Python raises an error where NumPy gives inf or NaN, or warns as the user has set it.
             return self._many(states, ())
         found = np.array(results[: self.size], dtype=float)
         if self.judge and not self.judge(found, *results[self.size :]):
@@ -231,63 +245,8 @@ def _checked(derivation, values):
     }
 
 
-def _refuse_unknown(derivation):
-    """ValueError for a function that has no code, now and not when it is first called."""
-    parts = [*derivation.M, *derivation.C, *derivation.g_vec, *derivation.f_vec, derivation.P]
-    functions = {type(f): f for part in parts for f in sp.sympify(part).atoms(sp.Function)}
-    for function in functions.values():
-        program = straight_line.terms(derivation, [function])
-        given = [f"{name}_{i}" for name in "qv" for i in range(derivation.n)]
-        numbers = [0.0] * len(program.constants)
-        _compiled(_FLOATS, numbers, given, *_lines(program, _sincos_call))
-
-
-class _Printer(ShortFloats, NumPyPrinter):
-    def __init__(self):
-        super().__init__({"fully_qualified_modules": False, "strict": True})
-
-    def expression(self, e):
-        try:
-            return self.doprint(e)
-        except PrintMethodNotImplementedError as error:
-            name = unknown_function(error)
-            raise ValueError(f"derivation: contains {name}, which NumPy does not have") from None
-
-    def _print_Pow(self, expr, rational=False, **kwargs):
-        base, power = expr.as_base_exp()
-        if power in (-1, 2, 3):
-            text = f"({self._print(base)})"
-            product = "*".join([text] * abs(int(power)))
-            # In brackets, as it may come to stand below a fraction line.
-            return f"(1/{text})" if power == -1 else f"({product})"
-        return super()._print_Pow(expr, rational=rational)
-
-    def _print_Add(self, expr, order=None):
-        # A sum that opens with a minus costs one more pass over the arrays.
-        terms = sorted(expr.args, key=lambda term: term.could_extract_minus_sign())
-        text = self.parenthesize(terms[0], PRECEDENCE["Add"])
-        for term in terms[1:]:
-            sign = "-" if term.could_extract_minus_sign() else "+"
-            size = -term if sign == "-" else term
-            text += f" {sign} {self.parenthesize(size, PRECEDENCE['Mul'])}"
-        return text
-
-    def _print_Min(self, expr):
-        return self._nested("minimum", expr.args)
-
-    def _print_Max(self, expr):
-        return self._nested("maximum", expr.args)
-
-    def _nested(self, function, arguments):
-        text = self._print(arguments[0])
-        for argument in arguments[1:]:
-            text = f"{function}({text}, {self._print(argument)})"
-        return text
-
-
-def _lines(program, sincos) -> tuple[list[str], list[str]]:
+def _lines(program, text, sincos) -> tuple[list[str], list[str]]:
     """(statements, results) of the program, as Python expressions."""
-    text = _Printer().expression
     lines = [f"{s} = {text(e)}" for s, e in program.angle_steps]
     for s, c, angle in program.angles:
         lines += sincos(s, c, text(angle))
@@ -318,26 +277,22 @@ def _compiled(names, numbers, given, lines, results):
         f"    def compute({', '.join(given)}):\n{body}        return ({', '.join(results)},)\n"
         "    return compute\n"
     )
-    code = compile(source, "<armdyn.codegen>", "exec")
-    if unknown := sorted(_read(code) - names.keys() - vars(builtins).keys()):
-        raise ValueError(f"derivation: contains {', '.join(unknown)}, which NumPy does not have")
     space = dict(names)
-    exec(code, space)
+    exec(compile(source, "<armdyn.codegen>", "exec"), space)
     return space["with_constants"](*numbers)
-
-
-def _read(code) -> set[str]:
-    """The global names that the functions defined in this code read."""
-    inner = [constant for constant in code.co_consts if isinstance(constant, CodeType)]
-    names = {name for function in inner for name in function.co_names}
-    return names.union(*map(_read, inner))
 
 
 _FLOATS = {
     **vars(np),
-    **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan")},
-    **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh", "pi")},
+    **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "pow")},
+    **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh", "pi", "e")},
+    **{f"arc{name}": getattr(math, f"a{name}") for name in ("sin", "cos", "tan", "tan2")},
+    **{f"arc{name}h": getattr(math, f"a{name}h") for name in ("sin", "cos", "tan")},
+    "abs": abs,
     "minimum": min,
     "maximum": max,
+    "sign": lambda x: float((x > 0) - (x < 0)),
+    "floor": lambda x: float(math.floor(x)),
+    "ceil": lambda x: float(math.ceil(x)),
     "sincos": lambda x: (math.sin(x), math.cos(x)),
 }

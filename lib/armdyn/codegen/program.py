@@ -4,11 +4,11 @@ import re
 from dataclasses import dataclass
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
-from sympy.printing.codeprinter import PrintMethodNotImplementedError
+from sympy.logic.boolalg import Boolean
 from sympy.simplify.fu import TR8
 
 from armdyn.codegen.naming import TermNames, checked_name, identifiers, meaning
+from armdyn.codegen.vocabulary import writable
 
 # Beyond this, combining products of sines would take seconds, so it is left out.
 COMBINED_UP_TO = 120
@@ -71,19 +71,21 @@ class Program:
         ]
 
 
-def program(derivation, name: str, reserved, **spelling) -> Program:
+def program(
+    derivation, language: str, name: str, reserved, *, piecewise: str = "inline", **spelling
+) -> Program:
     """The derivation in the names and the routines of a source file.
 
-    reserved: names that the language or the file reserves; spelling: see `identifiers`.
-    Raises ValueError, naming it, for a symbol or a name that cannot be written, and for an
-    expression with functions that are not known.
+    language: see `writable`. reserved: names that the language or the file reserves; spelling: see
+    `identifiers`. piecewise: "inline", or "steps" if each Piecewise is to be a step of its own, or
+    "whole" if no part of one may be a step, since computing a case that does not hold is an error.
+    Raises ValueError, naming it, for a symbol or a name that cannot be written, and as `writable`.
     """
     checked_name(name, reserved)
+    derivation = writable(derivation, language)
     given = (*derivation.q, *derivation.qd, *derivation.parameters)
     parts = {"M": derivation.M, "C": derivation.C, "g": derivation.g_vec}
     parts |= {"f": derivation.f_vec, "P": derivation.P}
-    for part, expression in parts.items():
-        _check(part, expression, given)
     named = identifiers(given, {*reserved, name}, **spelling)
     q, qd, parameters = (
         tuple(named[s] for s in symbols)
@@ -91,7 +93,7 @@ def program(derivation, name: str, reserved, **spelling) -> Program:
     )
     taken = {*reserved, name, *(s.name for s in named.values())}
     routines = {
-        part: _routine(part, sp.sympify(e).xreplace(named), q, qd, parameters, taken)
+        part: _routine(part, e.xreplace(named), q, qd, parameters, taken, piecewise)
         for part, e in parts.items()
     }
     return Program(
@@ -108,19 +110,11 @@ def program(derivation, name: str, reserved, **spelling) -> Program:
     )
 
 
-def _check(part, expression, symbols):
-    unknown = expression.free_symbols - set(symbols)
-    if unknown:
-        raise ValueError(
-            f"{part} depends on {', '.join(sorted(s.name for s in unknown))}: "
-            "needs q, qd and parameters only"
-        )
-    for odd in expression.atoms(AppliedUndef, sp.Derivative, sp.Integral):
-        raise ValueError(f"{part} contains {odd}: needs functions whose values are known")
-
-
-def _routine(part, expression, q, qd, parameters, taken) -> Routine:
+def _routine(part, expression, q, qd, parameters, taken, piecewise) -> Routine:
     entries = list(expression) if isinstance(expression, sp.MatrixBase) else [expression]
+    hidden: dict = {}
+    if piecewise == "whole":
+        entries = [_hiding(entry, hidden) for entry in entries]
     places = _places(part, expression)
     shared, outs = min(
         (sp.cse(form, symbols=sp.numbered_symbols(cls=sp.Dummy)) for form in _forms(entries)),
@@ -133,8 +127,11 @@ def _routine(part, expression, q, qd, parameters, taken) -> Routine:
     names = TermNames((*q, *qd, *parameters), taken)
     new: dict = {}
     steps = []
-    for dummy, term in shared:
+    for dummy, term in [*((dummy, e) for e, dummy in hidden.items()), *shared]:
         term = term.xreplace(new)
+        if isinstance(term, Boolean):  # no number that a variable could hold
+            new[dummy] = term
+            continue
         new[dummy] = names.give(term, wanted.get(dummy, ""))
         steps.append((new[dummy], term))
     matrix = isinstance(expression, sp.MatrixBase)
@@ -144,6 +141,8 @@ def _routine(part, expression, q, qd, parameters, taken) -> Routine:
             new[out] = names.give(term, place)
             steps.append((new[out], term))
     result = [new[out] if out in new else out.xreplace(new) for out in outs]
+    if piecewise == "steps":
+        steps, result = _with_branches(steps, result, names)
 
     read = set().union(*(term.free_symbols for _, term in steps), *(r.free_symbols for r in result))
     return Routine(
@@ -153,6 +152,33 @@ def _routine(part, expression, q, qd, parameters, taken) -> Routine:
         steps=tuple(steps),
         result=sp.ImmutableMatrix(*expression.shape, result) if matrix else result[0],
     )
+
+
+def _hiding(e, hidden):
+    """The expression with a dummy in the place of each Piecewise."""
+    if isinstance(e, sp.Piecewise):
+        return hidden.setdefault(e, sp.Dummy("t0", real=True))
+    return e.func(*(_hiding(a, hidden) for a in e.args)) if e.has(sp.Piecewise) else e
+
+
+def _with_branches(steps, results, names):
+    """The same steps and results, each Piecewise within a term being a step before it."""
+    apart = []
+
+    def taken_apart(e, whole):
+        if not e.has(sp.Piecewise):
+            return e
+        e = e.func(*(taken_apart(a, whole=False) for a in e.args))
+        if whole or not isinstance(e, sp.Piecewise):
+            return e
+        apart.append((names.give(e), e))
+        return apart[-1][0]
+
+    for symbol, term in steps:
+        term = taken_apart(term, whole=True)
+        apart.append((symbol, term))
+    results = [taken_apart(result, whole=False) for result in results]
+    return apart, results
 
 
 def _places(part, expression):
@@ -185,34 +211,6 @@ def _combined(expression):
 def _operations(shared_and_outs):
     shared, outs = shared_and_outs
     return sum(term.count_ops() for term in (*(term for _, term in shared), *outs))
-
-
-class ShortFloats:
-    """For a printer of SymPy's: the shortest decimal that reads as the same double."""
-
-    def _print_Float(self, expression):
-        return repr(float(expression))
-
-    def _print_Integer(self, expression):
-        # As an integer it would be beyond what the language's integers hold.
-        value = int(expression)
-        return str(value) if abs(value) < 2**31 else repr(float(value))
-
-
-def unknown_function(error) -> str:
-    """What a strict printer of SymPy's has no code for."""
-    return str(error).splitlines()[0].rpartition(": ")[2]
-
-
-def code(printer, expression, language: str) -> str:
-    """The expression on one line; ValueError for a function that the language does not have."""
-    try:
-        text = printer.doprint(expression)
-    except PrintMethodNotImplementedError as error:
-        raise ValueError(
-            f"{expression} cannot be written in {language}: it has no {unknown_function(error)}"
-        ) from None
-    return re.sub(r"\s+", " ", text.replace("...\n", " ")).strip()
 
 
 def wrapped(statement: str, indent: int, onward: str = "") -> list[str]:

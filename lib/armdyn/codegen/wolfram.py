@@ -2,7 +2,8 @@
 
 from sympy.printing.mathematica import MCodePrinter, known_functions
 
-from armdyn.codegen.program import Program, Routine, code, program, rows, wrapped
+from armdyn.codegen.printing import Logic, code
+from armdyn.codegen.program import Program, Routine, program, rows, wrapped
 
 HEADS = {"Abs": "Abs", "sign": "Sign", "floor": "Floor", "ceiling": "Ceiling"}
 RESERVED = {
@@ -34,7 +35,8 @@ def wolfram(derivation, name: str = "arm") -> str:
     the system reserves gets `Sym` added; the first comment says which.
     Raises ValueError for names and expressions that cannot be written: see `program`.
     """
-    model = program(derivation, name, RESERVED, mark="Sym", underscores=False)
+    spelling = {"mark": "Sym", "underscores": False}
+    model = program(derivation, "Wolfram", name, RESERVED, piecewise="whole", **spelling)
     return "\n".join([*(f"(* {line} *)" for line in model.header()), *_file(model), ""])
 
 
@@ -49,9 +51,9 @@ def _file(model: Program):
     yield "\n(* The Coriolis and centrifugal matrix, in Christoffel form. *)"
     yield from _definition(f"{model.name}C[{{{q}}}, {{{qd}}}]", model.C)
     yield "\n(* The gravity vector, the gradient of the potential energy. *)"
-    yield from _definition(f"{model.name}GVec[{{{q}}}]", model.g_vec)
+    yield from _definition(f"{model.name}GVec[{{{q}}}]", model.g_vec, vector=True)
     yield "\n(* The friction; it opposes the motion. *)"
-    yield from _definition(f"{model.name}FVec[{{{qd}}}]", model.f_vec)
+    yield from _definition(f"{model.name}FVec[{{{qd}}}]", model.f_vec, vector=True)
     yield "\n(* The potential energy, J. *)"
     yield from _definition(f"{model.name}PotentialEnergy[{{{q}}}]", model.P)
     yield "\n(* The accelerations qdd for the inputs u. *)"
@@ -59,27 +61,27 @@ def _file(model: Program):
     yield f"  u - {model.name}C[q, qd] . qd - {model.name}GVec[q] - {model.name}FVec[qd]]"
 
 
-def _definition(head, routine: Routine):
+def _definition(head, routine: Routine, vector=False):
     if not routine.steps:
-        yield from (f"{head} :=", *_result(routine.result))
+        yield from (f"{head} :=", *_result(routine.result, vector))
         return
     local = ", ".join(symbol.name for symbol, _ in routine.steps)
     yield from wrapped(f"{head} := Module[{{{local}}},", 0)
     for symbol, term in routine.steps:
         yield from wrapped(f"{symbol.name} = {_code(term)};", 2)
-    *lines, last = _result(routine.result)
+    *lines, last = _result(routine.result, vector)
     yield from (*lines, f"{last}]")
 
 
-def _result(result):
+def _result(result, vector):
     if not hasattr(result, "shape"):
         return wrapped(_code(result), 2)
-    if result.cols == 1:
+    if vector:
         return wrapped(f"{{{', '.join(map(_code, result))}}}", 2)
     return ["  {" + ",\n   ".join(f"{{{row}}}" for row in rows(result, _code)) + "}"]
 
 
-class _WolframPrinter(MCodePrinter):
+class _WolframPrinter(Logic, MCodePrinter):
     """SymPy's printer, with numbers that Wolfram reads as the same double, and with Piecewise."""
 
     def _print_Piecewise(self, expression):
@@ -102,4 +104,4 @@ class _WolframPrinter(MCodePrinter):
 
 
 def _code(expression):
-    return code(_WolframPrinter({"user_functions": dict(HEADS)}), expression, "Wolfram")
+    return code(_WolframPrinter({"user_functions": dict(HEADS)}), expression)

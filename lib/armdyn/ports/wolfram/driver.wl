@@ -3,13 +3,14 @@
 Get["model.wl"];
 
 (* Block gives variables values for as long as something is evaluated; in Mathics3 that is quicker
-   than rules. With writes the variables into Block, which would not look them up. *)
+   than rules. With writes the variables into Block, which would not look them up. N is for what
+   holds exact numbers alone, such as Sqrt[2]. *)
 With[{variables = Join[model`parameters, model`q, model`qd, model`u]},
   driver`terms[row_] := Block[variables, variables = row;
-    model`filledIn[Flatten[{model`terms, model`dynamics}]]]];
+    model`filledIn[N[Flatten[{model`terms, model`dynamics}]]]]];
 
 With[{variables = Join[model`q, model`qd], rates = model`qd},
-  driver`rate[x_] := Block[variables, variables = x; Join[rates, model`dynamics]]];
+  driver`rate[x_] := Block[variables, variables = x; N[Join[rates, model`dynamics]]]];
 
 (* A step of the classical Runge-Kutta method: W. Kutta (1901), Beitrag zur naeherungsweisen
    Integration totaler Differentialgleichungen. *)
