@@ -70,6 +70,13 @@ def with_friction(derivation):
     )
 
 
+def hiding():
+    """Where a state may be infinite and q̈ is not: in a sign, a minimum, a condition."""
+    q, qd = sp.symbols("q qd", real=True)
+    P = sp.Piecewise((q, q < 1), (1 + sp.tanh(q), True)) + sp.Min(q, 2)
+    return from_energies(qd**2 / 2, P, [q], [qd]).with_friction(coulomb=[2])
+
+
 def parameters(arm):
     """The numbers of a Planar2R for with_friction(planar_2r())."""
     numbers = asdict(arm)

@@ -19,7 +19,7 @@ from armdyn.codegen import (
 from armdyn.derive import from_energies, planar_2r, planar_chain
 from armdyn.manipulator import Manipulator
 from tests.armdyn.arms import a_few, arms_and_states, assert_close, planar_arms
-from tests.armdyn.derivations import EXAMPLES, parameters, states, values, with_friction
+from tests.armdyn.derivations import EXAMPLES, hiding, parameters, states, values, with_friction
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -192,6 +192,24 @@ def test_what_is_not_finite_is_named(arm, which, bad):
         arm.dynamics(*one)
     with pytest.raises(ValueError, match=named):
         arm.dynamics_floats(*np.concatenate(one).tolist())
+
+
+@pytest.mark.usefixtures("compiler")
+@pytest.mark.parametrize("which", range(2))
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_what_is_not_finite_is_named_where_the_acceleration_is(which, bad):
+    model = c_model(hiding(), {})
+    for row in (0, 40):
+        many = np.zeros((3, 41, 1))
+        many[which, row] = bad
+        named = rf"{['q', 'qd'][which]}\[{row}, 0\] = {bad}"
+        for call in (model.dynamics, model.dynamics_many):
+            with pytest.raises(ValueError, match=named):
+                call(*many)
+    with pytest.raises(ValueError, match=rf"{['q', 'qd'][which]}\[0\] = {bad}"):
+        model.dynamics(*many[:, 40])
+    with pytest.raises(ValueError, match=rf"{['q', 'qd'][which]}\[0\] = {bad}"):
+        model.dynamics_floats(*many[:, 40, 0].tolist())
 
 
 def test_wrong_calls(arm):

@@ -11,7 +11,15 @@ from armdyn.codegen.numpy_code import BLOCK
 from armdyn.derive import Derivation, from_energies, planar_2r, planar_chain
 from armdyn.manipulator import Manipulator
 from tests.armdyn.arms import a_few, arms_and_states, assert_close, planar_arms
-from tests.armdyn.derivations import EXAMPLES, numbers, parameters, states, values, with_friction
+from tests.armdyn.derivations import (
+    EXAMPLES,
+    hiding,
+    numbers,
+    parameters,
+    states,
+    values,
+    with_friction,
+)
 
 DERIVED = {"textbook": with_friction(planar_2r()), "chain": with_friction(planar_chain(2))}
 
@@ -155,6 +163,18 @@ def test_what_is_not_finite_is_named(bad, which, batch):
     given_states = list(states(2, batch=batch))
     given_states[which][..., 1] = bad
     with pytest.raises(ValueError, match=rf"{['q', 'qd', 'u'][which]}\[.*needs finite numbers"):
+        model.dynamics(*given_states)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("which", range(2))
+@pytest.mark.parametrize("batch", [(), (3,)])
+def test_what_is_not_finite_is_named_where_the_acceleration_is(bad, which, batch):
+    model = numpy_model(hiding(), {})
+    given_states = [np.zeros((*batch, 1)) for _ in range(3)]
+    assert np.isfinite(model.dynamics(*given_states)).all()
+    given_states[which][..., 0] = bad
+    with pytest.raises(ValueError, match=rf"{['q', 'qd'][which]}\[.*needs finite numbers"):
         model.dynamics(*given_states)
 
 
