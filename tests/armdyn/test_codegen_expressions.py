@@ -42,9 +42,9 @@ ISSUES = [
     sp.sqrt(sp.Integer(10) ** 21 * sp.Abs(X) + 1) / sp.sqrt(sp.Integer(10) ** 21 + 1),
     sp.Max(X, A, B) + sp.Min(X, A, B),
     # Integers by themselves: C, C++ and Java would drop the remainder, or run over.
-    sp.Mul(2, sp.Pow(3, -1, evaluate=False), evaluate=False) * X,
-    sp.sign(X) / (2 + sp.sign(A)),
-    sp.Piecewise((1, X > A), (2, True)) / sp.Piecewise((3, X > A), (4, True)),
+    sp.Add(X, sp.Mul(2, sp.Pow(3, -1, evaluate=False), evaluate=False), evaluate=False),
+    sp.sign(X) / (2 + sp.sign(A - X)),
+    (2 + sp.Piecewise((1, X > A), (2, True))) / (3 + sp.Piecewise((3, X > B), (4, True))),
     sp.Mul(2 * 10**9, sp.Integer(2), X, evaluate=False),
     sp.zeta(3) * X,
 ]

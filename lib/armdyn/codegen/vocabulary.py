@@ -111,9 +111,9 @@ class _Writing:
             return self._number(e)
         if isinstance(e, sp.Piecewise):
             return self._piecewise(e)
-        if isinstance(e, sp.Add | sp.Mul):
-            return self._folded(e, [self._value(a) for a in e.args])
-        if isinstance(e, sp.Pow) or type(e) in COMMON | MORE.get(self.language, set()):
+        if isinstance(e, sp.Add):
+            return self._sum(e, [self._value(a) for a in e.args])
+        if isinstance(e, sp.Mul | sp.Pow) or type(e) in COMMON | MORE.get(self.language, set()):
             return self._rebuilt(e, [self._value(a) for a in e.args])
         if isinstance(e, sp.Derivative | sp.Subs):
             # That of re(x), say, which SymPy leaves open while x might be complex.
@@ -138,17 +138,9 @@ class _Writing:
         rebuilt = e.func(*arguments)
         return rebuilt if isinstance(rebuilt, type(e)) else self._value(rebuilt)
 
-    def _folded(self, e, arguments):
-        """A sum or product with one number in it at most: two integers C would add as integers."""
-        numbers = [a for a in arguments if a.is_Rational]
-        if len(numbers) < 2:
-            if _same(arguments, e.args):
-                return e
-        else:
-            rest = [a for a in arguments if not a.is_Rational]
-            arguments = [self._number(e.func(*numbers)), *rest]
-        if e.is_Mul:
-            return sp.Mul(*arguments)
+    def _sum(self, e, arguments):
+        if _same(arguments, e.args):
+            return e
         # Sums stay nested, as the derivation keeps them: flattened, they would no longer share.
         kept = [a for a in arguments if a != 0]
         return sp.Add(*kept, evaluate=False) if len(kept) > 1 else sum(kept, sp.S.Zero)
