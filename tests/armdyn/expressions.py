@@ -126,6 +126,11 @@ def value(expression: sp.Expr, at: dict) -> tuple[float, float]:
         for s in at
         for d in ("1e-13", "-1e-13")
     ]
+    # So are fractions, and what is added to a large number; 2, 3 and the like are exact.
+    rounded = {c for c in expression.atoms(sp.Rational) if c.q != 1 or abs(c) > 1000}
+    rounded |= expression.atoms(sp.NumberSymbol)
+    nudged = {c: sp.Float(c, 50) * (1 + sp.Float("1e-15", 50)) for c in rounded}
+    moved.append(_evaluated(expression.xreplace(nudged), exact))
     # With every step rounded to 53 bits: 1 + x loses a small x, whatever becomes of it.
     moved.append(_evaluated(expression, {s: sp.Float(v, 15) for s, v in at.items()}))
     if not all(e.is_Float or e.is_Rational for e in (found, *moved)):

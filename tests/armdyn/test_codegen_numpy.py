@@ -228,6 +228,13 @@ def test_bad_values_are_named(change, complaint):
         numpy_model(d, chosen)
 
 
+def test_two_parameters_of_one_name_are_refused():
+    q, qd = sp.symbols("q qd", real=True)
+    mass = from_energies(sp.Symbol("m") * qd**2 / 2, sp.Symbol("m", positive=True) * q, [q], [qd])
+    with pytest.raises(ValueError, match="derivation: has several parameters called m, as SymPy"):
+        numpy_model(mass, {"m": 1.0})
+
+
 def test_other_bad_models():
     q, qd, m = sp.symbols("q qd m")
     with pytest.raises(ValueError, match="needs a mapping"):

@@ -229,6 +229,11 @@ def constants(program, derivation, values) -> list[float]:
 
 def _checked(derivation, values):
     names = [p.name for p in derivation.parameters]
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise ValueError(
+            f"derivation: has several parameters called {', '.join(twice)}, as SymPy makes of one "
+            "name with different assumptions; needs one symbol for each name"
+        )
     if not isinstance(values, Mapping):
         raise ValueError(f"values = {values!r}: needs a mapping of names to numbers")
     for what, odd in (
