@@ -46,7 +46,10 @@ ISSUES = [
     sp.sign(X) / (2 + sp.sign(A - X)),
     (2 + sp.Piecewise((1, X > A), (2, True))) / (3 + sp.Piecewise((3, X > B), (4, True))),
     sp.Mul(2 * 10**9, sp.Integer(2), X, evaluate=False),
+    3 * 10**9 + X * 10**9,
     sp.zeta(3) * X,
+    # A condition on a Piecewise becomes an ITE of conditions.
+    sp.Piecewise((A, sp.sinc(X) > sp.sinc(B) * X), (2, sp.sinc(X - A) < X), (B, True)),
 ]
 # One of each kind, of x, a and b, by itself.
 EACH = [f(X - A) for f in UNARY] + [f(X - A, B) for f in BINARY] + [e * X for e in LEAVES] + ISSUES

@@ -228,6 +228,13 @@ def test_bad_values_are_named(change, complaint):
         numpy_model(d, chosen)
 
 
+def test_two_parameters_of_one_name_are_refused():
+    q, qd = sp.symbols("q qd", real=True)
+    K, P = sp.Symbol("m") * qd**2 / 2, sp.Symbol("m", positive=True) * q
+    with pytest.raises(ValueError, match="K and P: 2 different symbols are called m"):
+        from_energies(K, P, [q], [qd])
+
+
 def test_other_bad_models():
     q, qd, m = sp.symbols("q qd m")
     with pytest.raises(ValueError, match="needs a mapping"):

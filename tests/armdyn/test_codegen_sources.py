@@ -320,6 +320,14 @@ def test_closed_form_of_the_2r_can_be_read():
     assert "C12 = -t1*(qd1 + qd2);" in text
 
 
+@pytest.mark.parametrize("writer", WRITERS.values(), ids=WRITERS)
+def test_high_powers_are_left_as_they_are(writer):
+    """Multiplied out, or taken for polynomials of that degree, they would fill the memory."""
+    q, qd, a = sp.symbols("q qd a", real=True)
+    P = (q + sp.cos(q)) ** 3_000_000_000 + (a + q) ** sp.Rational(10**7 + 1, 3 * 10**7)
+    assert "3000000000" in source(writer, from_energies(qd**2 / 2, P, [q], [qd]))
+
+
 def test_terms_of_a_long_chain_have_the_names_of_the_field():
     text = cpp(planar_chain(5))
     assert "s123 = std::sin(q123);" in text

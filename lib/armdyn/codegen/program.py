@@ -13,6 +13,7 @@ from armdyn.derive import graph
 
 # Beyond this, combining products of sines would take seconds, so it is left out.
 COMBINED_UP_TO = 120
+HIGHEST = 8  # of the powers in it
 WIDTH = 96
 FUNCTIONS = {"M", "C", "g_vec", "f_vec", "potential_energy", "dynamics"}
 ARGUMENTS = {"q", "qd", "u"}
@@ -216,9 +217,15 @@ def _places(part, expression):
 def _forms(entries):
     """The entries as derived and, where that is quick, with products of sines combined."""
     flat = [entry.doit() for entry in entries]
-    if _operations(sp.cse(flat)) <= COMBINED_UP_TO:
+    if _operations(sp.cse(flat)) <= COMBINED_UP_TO and all(map(_of_low_degree, flat)):
         yield [_combined(entry) for entry in flat]
     yield flat
+
+
+def _of_low_degree(expression):
+    """Whether its powers are such as can be multiplied out, and factored again, in no time."""
+    powers = [p.exp for p in expression.atoms(sp.Pow) if p.exp.is_Rational]
+    return all(abs(e.p) <= HIGHEST and e.q <= HIGHEST for e in powers)
 
 
 def _combined(expression):

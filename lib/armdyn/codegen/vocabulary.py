@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, fields, replace
 import sympy as sp
 from sympy.codegen import cfunctions
 from sympy.core.function import AppliedUndef
+from sympy.functions.elementary.piecewise import ExprCondPair
 from sympy.logic.boolalg import Boolean, BooleanFunction
 
 from armdyn.derive import Derivation
@@ -159,7 +160,11 @@ class _Writing:
     def _piecewise(self, e):
         if e.args[-1].cond != sp.true:
             raise self._error(e, "needs a last case (…, True)")
-        cases = [(self._value(case.expr), self._condition(case.cond)) for case in e.args]
+        cases = [
+            ExprCondPair(self._value(case.expr), self._condition(case.cond)) for case in e.args
+        ]
+        # Of a condition on a Piecewise, such as sinc, SymPy has made an ITE of conditions here.
+        cases = [(case.expr, self._condition(case.cond)) for case in cases]
         chosen = sp.Piecewise(*cases)
         return chosen if isinstance(chosen, sp.Piecewise) else self._value(chosen)
 
@@ -170,7 +175,7 @@ class _Writing:
             return c.func(*map(self._value, c.args))
         if isinstance(c, _CONDITIONS):
             return c.func(*map(self._condition, c.args))
-        if isinstance(c, BooleanFunction):  # ITE, which SymPy makes of conditions on a Piecewise
+        if isinstance(c, BooleanFunction):
             return self._condition(c.to_nnf(simplify=False))
         raise self._error(c)
 
