@@ -45,11 +45,18 @@ def main(arguments: list[str] | None = None) -> int:
         "report", help="write a page about the class: scores, and who made which mistake"
     )
     reporting.add_argument("assignment", help="its name in solutions/, such as p1-inertia")
+    trying = commands.add_parser(
+        "try",
+        help="try the checks of a mechanism: right answers, every mistake, and what students read",
+    )
+    trying.add_argument("mechanism", help="its name, such as cart-pole, or a file with MECHANISM")
     if arguments[:1] == ["lab"]:
         from autograder.lab import lab  # imports Jupyter, which takes a second
 
         return lab(arguments[1:])
     given = parser.parse_args(arguments)
+    if given.command == "try":
+        return try_mechanism(given.mechanism)
     root = Path.cwd()
     if not (root / "nbgrader_config.py").exists():
         return _complain(
@@ -87,6 +94,23 @@ def open_recorder(root: Path, assignment: str) -> "AbstractContextManager[Record
     from autograder.nbgrader_glue import recorder  # imports nbgrader, which takes seconds
 
     return recorder.Recorder(root, assignment)
+
+
+def try_mechanism(name: str) -> int:
+    """Try a mechanism's checks; the exit status is 1 if a mistake is not named by its sentence."""
+    from autograder.mutation.trial import NoMechanismError, found, tried  # imports SymPy
+
+    try:
+        mechanism = found(name)
+        failed = 0
+        for line, is_as_it_should_be in tried(mechanism):
+            say(line if is_as_it_should_be else f"! {line}")
+            failed += not is_as_it_should_be
+    except NoMechanismError as error:
+        return _complain(str(error))
+    if failed:
+        return _complain(f"{failed} lines, marked with !, are not as they should be")
+    return 0
 
 
 def report(root: Path, assignment: str) -> int:
