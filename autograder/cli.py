@@ -50,6 +50,15 @@ def main(arguments: list[str] | None = None) -> int:
         help="try the checks of a mechanism: right answers, every mistake, and what students read",
     )
     trying.add_argument("mechanism", help="its name, such as cart-pole, or a file with MECHANISM")
+    new = commands.add_parser(
+        "new-problem", help="write the problem of a mechanism to solutions/, ready to be released"
+    )
+    new.add_argument("mechanism", help="its name, such as cart-pole; `autograder try` lists them")
+    new.add_argument(
+        "--asks",
+        default="potential_energy,M,g_vec,C",
+        help="what students write, in this order (default: %(default)s)",
+    )
     if arguments[:1] == ["lab"]:
         from autograder.lab import lab  # imports Jupyter, which takes a second
 
@@ -67,6 +76,8 @@ def main(arguments: list[str] | None = None) -> int:
         return grade(root, given.assignment, given.jobs, given.scheduler, given.force)
     if given.command == "report":
         return report(root, given.assignment)
+    if given.command == "new-problem":
+        return new_problem(root, given.mechanism, given.asks.split(","))
     return problems(root)
 
 
@@ -110,6 +121,24 @@ def try_mechanism(name: str) -> int:
         return _complain(str(error))
     if failed:
         return _complain(f"{failed} lines, marked with !, are not as they should be")
+    return 0
+
+
+def new_problem(root: Path, name: str, asks: list[str]) -> int:
+    """Write a mechanism's problem to solutions/."""
+    from autograder import lean  # noqa: F401  before nbformat is imported
+    from autograder.authoring.problem import ProblemError, write_problem
+    from autograder.mechanisms import MECHANISMS
+
+    if name not in MECHANISMS:
+        return _complain(f"there is no mechanism {name!r}; known are {', '.join(MECHANISMS)}")
+    try:
+        path = write_problem(root, MECHANISMS[name], asks)
+    except ProblemError as error:
+        return _complain(str(error))
+    say(f"{path.relative_to(root)}: written. Read it, write the story at its top, and try it:")
+    say(f"  autograder try {name}")
+    say(f"  nbgrader generate_assignment {name}")
     return 0
 
 

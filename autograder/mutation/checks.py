@@ -39,6 +39,7 @@ def check_of(mechanism: Mechanism, answer: str) -> Check:
         criteria=criteria,
         terms=tuple(_terms(mechanism, asked)),
         catalogue=partial(_mistakes, mechanism, answer),
+        hints=_hints(mechanism, asked),
         pose=lambda call: list(mechanism.points(call.args[0], call.args[-1])),
     )
 
@@ -100,6 +101,31 @@ def _terms(mechanism: Mechanism, asked: Answer):
 
 def _contribution(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:
     return contribution(mechanism, answer, k)(*args)
+
+
+def _hints(mechanism: Mechanism, asked: Answer) -> tuple[str, ...]:
+    """Which energy, of which bodies, into which entries; never a formula."""
+    energies = mechanism.kinetic if asked.of_kinetic else mechanism.potential
+    parts = ", ".join(term.name for term in energies)
+    moving = " and ".join(c.name for c in mechanism.coordinates)
+    energy = "kinetic energy K" if asked.of_kinetic else "potential energy P"
+    zeros = "; ".join(f"{c.name} = 0 is {c.zero}" for c in mechanism.coordinates)
+    last = {
+        "M": "The entry M_ij is the second derivative of K by the velocities i and j. Sort K by the "
+        "products of two velocities: where do the mixed ones go?",
+        "C": "Differentiate each entry of your M by each coordinate. The sum over k of h_ijk times the "
+        "k-th velocity is C_ij, and h_ijk has three derivatives: two with a plus, one with a minus.",
+        "g_vec": "Entry i is the derivative of P by coordinate i. Which terms change when only that "
+        "coordinate moves?",
+        "potential_energy": "Write the height of each body, or the stretch of each spring, as a "
+        "function of the coordinates, and test it at a position where you know it.",
+    }
+    return (
+        f"Start from the {energy}. Which bodies and springs of this mechanism have a part in it, as "
+        f"{moving} change?",
+        f"The parts are: {parts}. And mind where the coordinates are zero: {zeros}.",
+        last[asked.name],
+    )
 
 
 def _of_M(mechanism: Mechanism) -> tuple[Quantities, tuple[Criterion, ...]]:
