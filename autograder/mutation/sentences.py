@@ -49,6 +49,21 @@ ROWS = (
         "M",
         entry="M*",
     ),
+    Row(
+        "half of the whole",
+        "Your {where} is half of the right one. There is a ½ in K = ½ q̇ᵀ M q̇: is it a part of M?",
+        "M",
+    ),
+    Row(
+        "sign of the whole",
+        "Your {where} has the wrong sign. Can a kinetic energy be negative?",
+        "M",
+    ),
+    Row(
+        "sign of the whole",
+        "Your {where} has the wrong sign. Does it rise when a body is lifted or a spring stretched?",
+        "potential_energy",
+    ),
 )
 
 GENERAL = {
@@ -56,8 +71,7 @@ GENERAL = {
     "wrong sign": "In your {where}, {term} has the wrong sign.",
     "doubled": "Your {where} counts {term} twice.",
     "halved": "In your {where}, {term} is half of what it should be.",
-    "wrong parameter": "In your {where}, {term} uses {put}, which is the {put_doc}. Which {kind} "
-    "belongs there?",
+    "wrong parameter": "In your {where}, {term} uses {put} ({put_doc}). Which {kind} belongs there?",
     "parameters exchanged": "In your {where}, you swapped {put} and {instead_of} in {term}. Which "
     "is which?",
     "wrong angle": "In your {where}, {term} takes {put} for its angle. What does each angle measure, "
@@ -67,21 +81,20 @@ GENERAL = {
     "cosine for sine": "In your {where}, {term} has a cosine where a sine belongs. What is its value "
     "where the angle is 0?",
     "velocity left out": "In your {where}, {term} moves with {put} alone. Which joints move it?",
-    "square lost": "In your {where}, the units of {term} do not come out as {unit}. Look at the power "
-    "of {put}.",
+    "square lost": "In your {where}, the units of {term} do not come out {right}. Look at the power of "
+    "{put}.",
     "wave lost": "In your {where}, {term} does not change with the angle. Should it?",
-    "parameter left out": "In your {where}, the units of {term} do not come out as {unit}. Look for "
+    "parameter left out": "In your {where}, the units of {term} do not come out {right}. Look for "
     "{instead_of}.",
     "gravity of Earth": "Your {where} is right only on Earth: you typed 9.81 into it. Which "
     "parameter of {arm} gives the gravitational acceleration?",
-    "small angle": "In your {where}, {term} is right for small angles only. The arm turns all the "
+    "small angle": "In your {where}, {term} is right for small angles only. The joint turns all the "
     "way round.",
     "radians converted": "In your {where}, you convert the angle of {term} to radians. It comes in "
     "radians.",
     "angle in degrees": "In your {where}, you convert the angle of {term} to degrees. np.sin and "
     "np.cos take radians.",
-    "half of the whole": "Your {where} is half of the right one. The ½ of the energy: where does it "
-    "go when you differentiate?",
+    "half of the whole": "Your {where} is half of the right one. Is there a ½ too many?",
     "twice the whole": "Your {where} is twice the right one. Is a ½ missing?",
     "sign of the whole": "Your {where} has the wrong sign. On which side of the equation of motion "
     "does it stand?",
@@ -119,27 +132,49 @@ GENERAL = {
     "joints exchanged": "Your {where} has the entries of the joints in the wrong order.",
 }
 
+# Of a mistake that is made in all terms alike.
+THROUGHOUT = {
+    "wrong parameter": "Your {where} uses {put} ({put_doc}) where another {kind} belongs. Which one?",
+    "parameters exchanged": "In your {where}, you swapped {put} and {instead_of}. Which is which?",
+    "wrong angle": "Your {where} takes {put} for an angle throughout. What does each angle measure, and "
+    "from where?",
+    "sine for cosine": "Your {where} has sines where cosines belong. What is its value where the angles "
+    "are 0?",
+    "cosine for sine": "Your {where} has cosines where sines belong. What is its value where the angles "
+    "are 0?",
+    "velocity left out": "In your {where}, everything moves with {put} alone. Which joints move which "
+    "body?",
+    "square lost": "The units of your {where} do not come out {right}. Look at the power of {put}.",
+    "wave lost": "Your {where} does not change with the angle {instead_of}. Should it?",
+    "parameter left out": "The units of your {where} do not come out {right}. Look for {instead_of}.",
+    "small angle": "Your {where} is right for small angles only. The joints turn all the way round.",
+    "radians converted": "You convert the angles to radians. They come in radians.",
+    "angle in degrees": "You convert the angles to degrees. np.sin and np.cos take radians.",
+}
+
 
 def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
     """What to say of a mistake: a teacher's row, the most specific first, or the operator's sentence."""
     head = answer.name.removesuffix("_vec").replace("potential_energy", "P")
+    turning = all(c.unit == "rad" for c in mechanism.coordinates)
     docs = {p.name: p for p in mechanism.parameters}
     put = docs.get(mutant.put)
     words = {
         "where": mutant.entry or head,
-        "term": mutant.term or "each term",
+        "term": mutant.term,
         "put": mutant.put,
         "instead_of": mutant.instead_of,
         "put_doc": put.doc if put else "",
         "kind": KINDS.get(put.unit, "parameter") if put else "",
-        "unit": answer.unit,
+        "right": f"as {answer.unit}" if turning else "right",
         "arm": answer.arguments[-1],
     }
     rows = [row for row in ROWS if _fits(row, mutant, mechanism, answer)]
     rows.sort(
         key=lambda row: -sum(len(p.replace("*", "")) for p in (row.term, row.entry, row.mechanism))
     )
-    template = rows[0].sentence if rows else GENERAL[mutant.operator]
+    general = GENERAL if mutant.term else GENERAL | THROUGHOUT
+    template = rows[0].sentence if rows else general[mutant.operator]
     return template.format(**words)
 
 

@@ -11,7 +11,7 @@ from autograder.mechanisms import MECHANISMS
 from autograder.mutation import operators
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.checks import catalogue_of, check_of, mistakes_of
-from autograder.mutation.sentences import GENERAL, ROWS
+from autograder.mutation.sentences import GENERAL, ROWS, THROUGHOUT
 from autograder.mutation.steps import STEPS
 from autograder.mutation.trial import STYLES
 from autograder.protocol import Reply, read, real
@@ -95,10 +95,13 @@ def test_every_operator_and_step_has_a_sentence():
     steps = {name for of in STEPS.values() for name in of}
     assert made <= GENERAL.keys()
     assert GENERAL.keys() <= made | steps
+    assert THROUGHOUT.keys() <= GENERAL.keys()
     assert len(operators.OPERATORS) <= len(made)
 
 
-@pytest.mark.parametrize("template", [*GENERAL.values(), *(row.sentence for row in ROWS)])
+@pytest.mark.parametrize(
+    "template", [*GENERAL.values(), *THROUGHOUT.values(), *(row.sentence for row in ROWS)]
+)
 def test_a_sentence_holds_no_formula(template):
     """No product or function of parameters: the names of the parameters come alone."""
     assert not re.search(r"\{\w+\}\s*[*·+/^²]", template)
