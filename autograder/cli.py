@@ -46,11 +46,27 @@ def main(arguments: list[str] | None = None) -> int:
         "report", help="write a page about the class: scores, and who made which mistake"
     )
     reporting.add_argument("assignment", help="its name in solutions/, such as p1-inertia")
+    trying = commands.add_parser(
+        "try",
+        help="try the checks of a mechanism: right answers, every mistake, and what students read",
+    )
+    trying.add_argument("mechanism", help="its name, such as cart-pole, or a file with MECHANISM")
+    new = commands.add_parser(
+        "new-problem", help="write the problem of a mechanism to solutions/, ready to be released"
+    )
+    new.add_argument("mechanism", help="its name, such as cart-pole; `autograder try` lists them")
+    new.add_argument(
+        "--asks",
+        default="potential_energy,M,g_vec,C",
+        help="what students write, in this order (default: %(default)s)",
+    )
     if arguments[:1] == ["lab"]:
         from autograder.lab import lab  # imports Jupyter, which takes a second
 
         return lab(arguments[1:])
     given = parser.parse_args(arguments)
+    if given.command == "try":
+        return try_mechanism(given.mechanism)
     root = Path.cwd()
     if not (root / "nbgrader_config.py").exists():
         return _complain(
@@ -61,6 +77,8 @@ def main(arguments: list[str] | None = None) -> int:
         return grade(root, given.assignment, given.jobs, given.scheduler, given.force)
     if given.command == "report":
         return report(root, given.assignment)
+    if given.command == "new-problem":
+        return new_problem(root, given.mechanism, given.asks.split(","))
     return problems(root)
 
 
@@ -108,6 +126,41 @@ def open_recorder(root: Path, assignment: str) -> "AbstractContextManager[Record
     from autograder.nbgrader_glue import recorder  # imports nbgrader, which takes seconds
 
     return recorder.Recorder(root, assignment)
+
+
+def try_mechanism(name: str) -> int:
+    """Try a mechanism's checks; the exit status is 1 if a mistake is not named by its sentence."""
+    from autograder.mutation.trial import NoMechanismError, found, tried  # imports SymPy
+
+    try:
+        mechanism = found(name)
+        failed = 0
+        for line, is_as_it_should_be in tried(mechanism):
+            say(line if is_as_it_should_be else f"! {line}")
+            failed += not is_as_it_should_be
+    except NoMechanismError as error:
+        return _complain(str(error))
+    if failed:
+        return _complain(f"{failed} lines, marked with !, are not as they should be")
+    return 0
+
+
+def new_problem(root: Path, name: str, asks: list[str]) -> int:
+    """Write a mechanism's problem to solutions/."""
+    from autograder import lean  # noqa: F401  before nbformat is imported
+    from autograder.authoring.problem import ProblemError, write_problem
+    from autograder.mechanisms import MECHANISMS
+
+    if name not in MECHANISMS:
+        return _complain(f"there is no mechanism {name!r}; known are {', '.join(MECHANISMS)}")
+    try:
+        path = write_problem(root, MECHANISMS[name], asks)
+    except ProblemError as error:
+        return _complain(str(error))
+    say(f"{path.relative_to(root)}: written. Read it, write the story at its top, and try it:")
+    say(f"  autograder try {name}")
+    say(f"  nbgrader generate_assignment {name}")
+    return 0
 
 
 def report(root: Path, assignment: str) -> int:

@@ -8,6 +8,9 @@ from pathlib import Path
 import pytest
 from nbgrader.apps.nbgraderapp import NbGraderApp
 
+from autograder.cli import main
+from autograder.mechanisms import MECHANISMS
+
 ROOT = Path(__file__).parents[1]
 README = ROOT / "README.md"
 GUIDES = [README, ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -34,7 +37,7 @@ def subcommands(program: str) -> set[str]:
         text=True,
         check=True,
     )
-    return set(re.search(r"\{([\w,]+)\}", ran.stdout)[1].split(","))
+    return set(re.search(r"\{([\w,-]+)\}", ran.stdout)[1].split(","))
 
 
 @pytest.mark.parametrize("program", ["nbgrader", "autograder"])
@@ -43,7 +46,7 @@ def test_every_command_that_a_guide_shows_is_one(program):
         (path.name, name)
         for path in GUIDES
         for code in re.findall(r"```.*?```|`[^`]+`", path.read_text(encoding="utf-8"), re.S)
-        for name in re.findall(rf"^[`\s]*{program} ([a-z_]+)", code, re.M)
+        for name in re.findall(rf"^[`\s]*{program} ([a-z_-]+)", code, re.M)
     }
     assert len(shown) > 3
     # `formgrade` only says that the Formgrader is in Jupyter.
@@ -55,3 +58,14 @@ def test_feedback_reaches_students_by_the_commands_of_the_readme():
     commands = re.findall(r"^nbgrader (\w+)", README.read_text(encoding="utf-8"), re.M)
     steps = ["generate_assignment", "release_assignment", "collect", "autograde"]
     assert commands == [*steps, "generate_feedback", "release_feedback", "export"]
+
+
+def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
+    guide = (ROOT / "docs" / "own-problem.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```python\n(.*?)```", guide, re.S)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "block.py").write_text(example, encoding="utf-8")
+    assert main(["try", "block.py"]) == 0
+    assert "block-M: the right answer is correct" in capsys.readouterr().out
+    for name in MECHANISMS:
+        assert name in guide

@@ -9,6 +9,7 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from types import FunctionType
 
 import numpy as np
@@ -53,7 +54,8 @@ class Check:
     id: the grade_id of its cell. signature: how the function is called. reference: the right answer,
     with the same arguments. calls(rng, count): the calls to try. quantities(calls, values): what is
     judged in the values, for each call one array a criterion; by default the one number that came
-    back. mistakes: tried in order on each criterion that is not met. terms: the parts of the right
+    back. mistakes: tried in order on each criterion that is not met. catalogue(calls): more of them,
+    made when they are needed, each with what it returns for each call. terms: the parts of the right
     answer, of which an error may be made that no mistake explains. hints: from a nudge to nearly
     the way. pose(call): the joints of the arm in a call, to be drawn beside the worst case.
 
@@ -67,6 +69,7 @@ class Check:
     calls: Callable[[np.random.Generator, int], list[Call]]
     criteria: tuple[Criterion, ...]
     mistakes: tuple[Mistake, ...] = ()
+    catalogue: Callable[[list[Call]], list[tuple[Mistake, list]]] | None = None
     quantities: Quantities = one_number
     terms: tuple[Term, ...] = ()
     hints: tuple[str, ...] = ()
@@ -213,10 +216,11 @@ class Check:
     ) -> tuple[str, ...]:
         """What to say of the criteria that are not met."""
         wrong = [(mistake, self._quantities_of(mistake.wrong, calls)) for mistake in self.mistakes]
+        if self.catalogue:
+            wrong += [(m, self.quantities(calls, values)) for m, values in self.catalogue(calls)]
         for mistake, numbers in wrong:
             if explains_all(self.criteria, numbers, given, met):
                 return (mistake.sentence,)
-        parts = [(term, self._quantities_of(term.model, calls)) for term in self.terms]
         found: list = []  # of calls that are made once, and only where something is left to explain
 
         def elsewhere(k: int) -> str:
@@ -226,6 +230,10 @@ class Check:
             if found[0] is None or not criterion.unit or criterion.is_property:
                 return ""
             return dependence.sentence(criterion.text, k, *found[0])
+
+        @cache
+        def parts() -> list[tuple[Term, Numbers]]:
+            return [(term, self._quantities_of(term.model, calls)) for term in self.terms]
 
         return sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
 

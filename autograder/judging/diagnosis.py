@@ -52,14 +52,16 @@ def sentences(
     given: Numbers,
     met: list[bool],
     mistakes: list[tuple[Mistake, Numbers]],
-    terms: list[tuple[Term, Numbers]],
+    terms: Callable[[], list[tuple[Term, Numbers]]],
     elsewhere: Callable[[int], str],
 ) -> tuple[str, ...]:
     """What to say of each criterion that is not met, where no mistake explains the whole answer.
 
-    elsewhere: what more can be found out of criterion k, "" for nothing; it may cost calls.
+    terms, elsewhere: asked only where no mistake matches. elsewhere: what more can be found out of
+    criterion k, "" for nothing; it may cost calls.
     """
     said: list[str] = []
+    mistakes = sorted(mistakes, key=lambda one: not _leaves_right(criteria, expected, one[1], met))
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
@@ -69,10 +71,21 @@ def sentences(
         shown = mistakes_shown(right, theirs, wrong, criterion.allows(met=False))
         said += [mistake.sentence for mistake in shown]
         if not shown:
-            parts = [(term, _part(k, numbers)) for term, numbers in terms]
+            parts = [(term, _part(k, numbers)) for term, numbers in terms()]
             found = findings.of_numbers(criterion, right, theirs, parts) or criterion.otherwise
             said.append(found or ("" if any(said) else elsewhere(k)))
     return tuple(dict.fromkeys(filter(None, said)))
+
+
+def _leaves_right(
+    criteria: tuple[Criterion, ...], expected: Numbers, wrong: Numbers, met: list[bool]
+) -> bool:
+    """Whether a mistake spoils nothing that is right in the answer: it then says more of it."""
+    return all(
+        np.all(_errors_in(k, expected, wrong) <= criterion.tolerance)
+        for k, criterion in enumerate(criteria)
+        if met[k]
+    )
 
 
 def mistakes_shown(
@@ -90,11 +103,9 @@ def mistakes_shown(
     if not wrong:
         return ()
     flat = np.array([_flat(known.values) for known in wrong])
-    right, answer = _flat(expected), _flat(given)
-    # All pairs in one array first, as there may be hundreds.
-    both = flat[:, None] + flat[None] - right
-    near = np.max(np.abs(both - answer), axis=2) <= tolerance * np.max(np.abs(both), axis=2)
-    for i, j in np.argwhere(np.triu(near, 1)):
+    for i, j in _nearly_adding_up(
+        flat - _flat(expected), _flat(given) - _flat(expected), tolerance
+    ):
         first, second = wrong[i], wrong[j]
         sums = [x + y - e for x, y, e in zip(first.values, second.values, expected, strict=True)]
         # One error twice is not two mistakes.
@@ -102,6 +113,26 @@ def mistakes_shown(
         if apart and same(sums, given):
             return (first.of, second.of)
     return ()
+
+
+def _nearly_adding_up(
+    errors: np.ndarray, error: np.ndarray, tolerance: float
+) -> list[tuple[int, int]]:
+    """The pairs i < j whose errors may add up to this one, in the order of i.
+
+    There may be a hundred thousand pairs. So the errors are compared as one number each, a sum with
+    fixed weights, in which a pair that adds up does so too.
+    """
+    weights = np.random.default_rng(0).uniform(0.5, 1.0, len(error))
+    numbers, wanted = errors @ weights, float(error @ weights)
+    order = np.argsort(numbers)
+    size = np.max(np.abs(errors), initial=0.0) + np.max(np.abs(error), initial=0.0)
+    slack = 10 * tolerance * size * np.sum(weights)
+    low = np.searchsorted(numbers[order], wanted - numbers - slack)
+    high = np.searchsorted(numbers[order], wanted - numbers + slack)
+    return [
+        (i, int(j)) for i in range(len(errors)) for j in sorted(order[low[i] : high[i]]) if j > i
+    ]
 
 
 def _part(k: int, numbers: Numbers) -> list[np.ndarray]:

@@ -16,7 +16,7 @@ from autograder.notebook.beside import Beside
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
 from autograder.notebook.sitting import Sitting
-from autograder.problems import CHECKS
+from autograder.problems import check_for
 from autograder.sandbox.room import Room
 from autograder.terminal import shown_name, shown_note
 
@@ -78,9 +78,10 @@ def _graded(submission, source, seed, beside, said) -> Graded:
                 cell.outputs += _explanations(cell.outputs, beside)
                 continue
             name = grade_id(cell) or ""
-            if name in CHECKS:
-                verdict = CHECKS[name].run(ask, stream(seed, name), HIDDEN_CASES)
-                verdict = sitting.naming_an_earlier(CHECKS[name], verdict)
+            check = check_for(name)
+            if check is not None:
+                verdict = check.run(ask, stream(seed, name), HIDDEN_CASES)
+                verdict = sitting.naming_an_earlier(check, verdict)
             else:
                 problem = f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)

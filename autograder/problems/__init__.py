@@ -2,7 +2,9 @@
 
 import difflib
 import re
+from functools import lru_cache
 
+from autograder.judging.check import Check
 from autograder.problems.c6_regressor import checks as c6_regressor
 from autograder.problems.p1_inertia import checks as p1_inertia
 from autograder.problems.p2_energy_skew import checks as p2_energy_skew
@@ -25,6 +27,24 @@ CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 READ = ("p1-proof", "p2-proof", "p3-derivation", "p4-check", "p5-discussion", "c6-discussion")
 
 
+def check_for(id: str) -> Check | None:
+    """The check of this id: of a problem, or of a mechanism such as `cart-pole-M`; None for neither."""
+    if id in CHECKS:
+        return CHECKS[id]
+    if re.fullmatch(r"[a-z0-9-]+-(M|C|g_vec|potential_energy)", id):
+        return _of_mechanism(id)
+    return None
+
+
+@lru_cache(maxsize=64)
+def _of_mechanism(id: str) -> Check | None:
+    from autograder.mechanisms import MECHANISMS  # derives with SymPy, which takes a second
+    from autograder.mutation.checks import check_of
+
+    name, _, answer = id.rpartition("-")
+    return check_of(MECHANISMS[name], answer) if name in MECHANISMS else None
+
+
 class UnknownCheckError(ValueError):
     """No check has this id. In a notebook it is one line, without the way through our code."""
 
@@ -32,8 +52,8 @@ class UnknownCheckError(ValueError):
         return [str(self)]
 
 
-def known_check(id: object) -> str:
-    """The id, where a check has it; else UnknownCheckError, with those that are nearest.
+def known_check(id: object) -> Check:
+    """The check of this id; where there is none, UnknownCheckError, with those that are nearest.
 
     The error says so if a person reads the answer.
     """
@@ -43,12 +63,13 @@ def known_check(id: object) -> str:
         raise UnknownCheckError(
             f"give the id of a check, in quotes; you gave {said}{_meant(nearest(str(name)))}"
         )
-    if id in READ:
+    if id in READ or id.endswith("-proof"):
         raise UnknownCheckError(f"no check judges {id!r}: a person reads it and gives its points")
-    if id not in CHECKS:
+    check = check_for(id)
+    if check is None:
         meant = _meant(nearest(id)) or f"; the checks are {', '.join(CHECKS)}"
         raise UnknownCheckError(f"there is no check {id!r}{meant}")
-    return id
+    return check
 
 
 def nearest(id: str) -> list[str]:

@@ -17,7 +17,7 @@ import nbformat
 from autograder.judging.card import LOOKS
 from autograder.judging.verdict import State
 from autograder.notebook.outputs import read_verdict
-from autograder.problems import CHECKS
+from autograder.problems import check_for
 from autograder.protocol import one_line
 from autograder.terminal import shown_note
 
@@ -82,7 +82,8 @@ def mistakes_made(students: Iterable[Student]) -> list[Made]:
 
 
 def _name_of(check: str, sentence: str) -> str:
-    mistakes = CHECKS[check].mistakes if check in CHECKS else ()
+    known = check_for(check)
+    mistakes = known.mistakes if known else ()
     return next((mistake.name for mistake in mistakes if mistake.sentence == sentence), "")
 
 

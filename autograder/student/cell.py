@@ -41,7 +41,7 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     where no check has this id.
     """
     verdict = _naming_an_old_function(
-        verdict_on(known_check(id), sys._getframe(1).f_globals, fresh)
+        verdict_on(known_check(id).id, sys._getframe(1).f_globals, fresh)
     )
     _show(verdict)
     if verdict.state is not State.CORRECT:
@@ -52,7 +52,8 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
     """The verdict on the function in a namespace that a known check asks for."""
     rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
     count = HIDDEN_CASES if fresh else VISIBLE_CASES
-    name = CHECKS[id].name
+    judged = known_check(id)
+    name = judged.name
 
     def ask(calls: list[Call]) -> list[Reply]:
         replies = answer_all(calls, namespace)
@@ -61,12 +62,12 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
             return [Reply(fault=Fault(FaultKind.CELL_FAILED, error))]
         return replies
 
-    return CHECKS[id].run(ask, rng, count)
+    return judged.run(ask, rng, count)
 
 
 def _naming_an_old_function(verdict: Verdict) -> Verdict:
     """The verdict; if it is on an old function, its problem says so first."""
-    name = CHECKS[verdict.check].name
+    name = known_check(verdict.check).name
     error = _definitions.old(name) if _definitions else ""
     if not error:
         return verdict

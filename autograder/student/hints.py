@@ -2,7 +2,7 @@
 
 from html import escape
 
-from autograder.problems import CHECKS, known_check
+from autograder.problems import known_check
 
 _given: dict[str, int] = {}
 
@@ -12,8 +12,8 @@ def hint(id: str | None = None) -> None:
 
     The count starts again with the kernel. UnknownCheckError where no check has this id.
     """
-    id = known_check(id)
-    hints = CHECKS[id].hints
+    check = known_check(id)
+    id, hints = check.id, check.hints
     given = min(_given.get(id, 0) + 1, len(hints))
     _given[id] = given
     if not hints:

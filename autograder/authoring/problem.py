@@ -1,0 +1,201 @@
+"""Writes a problem's notebook in nbgrader's source form: symbols, answers, checks and a proof."""
+
+from pathlib import Path
+
+import nbformat
+import numpy as np
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+from autograder.authoring.model_answer import model_answer
+from autograder.authoring.picture import picture
+from autograder.files import put_in_place
+from autograder.mechanisms import Mechanism
+from autograder.mutation.answers import ANSWERS
+
+POINTS = {"potential_energy": 2, "M": 3, "g_vec": 2, "C": 4}
+PROOF_POINTS = 4
+WHAT = {
+    "potential_energy": (
+        "The potential energy",
+        "Write $P(q)$. Where you put its zero is up to you. Sum the energies of all bodies and springs.",
+        "Potential energy, J.",
+    ),
+    "M": (
+        "The inertia matrix",
+        "Write $M(q)$, so that the kinetic energy is "
+        "$K = \\tfrac12 \\dot q^{\\mathsf T} M(q)\\, \\dot q$. "
+        "Before you run the check, say which of its entries change with $q$.",
+        "Inertia matrix, ({n}, {n}).",
+    ),
+    "g_vec": (
+        "The vector $g(q)$",
+        "Write $g(q) = \\partial P / \\partial q$, on the **left** of the equation of motion. Predict "
+        "its signs for one position before you run the check.",
+        "Gravity vector ∂P/∂q, ({n},).",
+    ),
+    "C": (
+        "The matrix $C(q, \\dot q)$",
+        "Write $C(q, \\dot q)$ in the Christoffel form. The check looks at $C\\dot q$, at the energy, "
+        "and at $\\dot M - 2C$.",
+        "Coriolis and centrifugal matrix in Christoffel form, ({n}, {n}).",
+    ),
+}
+PROOF = """\
+The Christoffel symbols $h_{ijk} = \\tfrac12\\left(\\frac{\\partial M_{ij}}{\\partial q_k} + \
+\\frac{\\partial M_{ik}}{\\partial q_j} - \\frac{\\partial M_{jk}}{\\partial q_i}\\right)$ give \
+$C_{ij} = \\sum_k h_{ijk}\\dot q_k$. By the chain rule $\\dot M_{ij} = \\sum_k \
+\\frac{\\partial M_{ij}}{\\partial q_k}\\dot q_k$. In $\\dot M_{ij} - 2C_{ij}$ the first derivative \
+cancels, and $\\sum_k\\left(\\frac{\\partial M_{jk}}{\\partial q_i} - \
+\\frac{\\partial M_{ik}}{\\partial q_j}\\right)\\dot q_k$ is left. If $i$ and $j$ change places it \
+changes its sign, since $M$ is symmetric. So $\\dot M - 2C$ is skew-symmetric. For the energy \
+$E = K + P$ follows $\\dot E = \\dot q^{\\mathsf T}(M\\ddot q + \\tfrac12\\dot M\\dot q + g) = \
+\\dot q^{\\mathsf T}u + \\tfrac12\\dot q^{\\mathsf T}(\\dot M - 2C)\\dot q = \\dot q^{\\mathsf T}u$."""
+
+
+class ProblemError(ValueError):
+    """The problem cannot be written; the text says why, and what to do."""
+
+
+def write_problem(root: Path, mechanism: Mechanism, asks: list[str]) -> Path:
+    """Write solutions/NAME/NAME.ipynb and its picture, and give the notebook's path.
+
+    asks: names of answers, each once. ProblemError for another name, and where the folder is there.
+    """
+    unknown = [answer for answer in asks if answer not in ANSWERS]
+    if unknown or not asks or len(set(asks)) < len(asks):
+        raise ProblemError(
+            f"asks {', '.join(asks) or 'nothing'}: needs some of {', '.join(ANSWERS)}, each once"
+        )
+    folder = root / "solutions" / mechanism.name
+    if folder.exists():
+        raise ProblemError(
+            f"{folder.relative_to(root)} is there already; move it away to write the problem again"
+        )
+    folder.mkdir(parents=True)
+    path = folder / f"{mechanism.name}.ipynb"
+    put_in_place(folder / f"{mechanism.name}.svg", picture(mechanism))
+    put_in_place(path, nbformat.writes(notebook(mechanism, asks)) + "\n")
+    return path
+
+
+def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
+    """The problem in nbgrader's source form, with model answers."""
+    name = mechanism.name
+    total = sum(POINTS[answer] for answer in asks) + PROOF_POINTS
+    cells = [
+        new_markdown_cell(_title(mechanism, total), id=f"{name}-title"),
+        new_markdown_cell(_symbols(mechanism), id=f"{name}-symbols"),
+        new_code_cell(_setup(mechanism), id=f"{name}-setup", metadata=_locked(f"{name}-setup")),
+    ]
+    for letter, answer in zip("ABCDEFGH", asks, strict=False):
+        title, task, doc = WHAT[answer]
+        points = POINTS[answer]
+        cells += [
+            new_markdown_cell(
+                f"## {letter}. {title} ({points} points)\n\n{task}\n\n"
+                f'`hint("{name}-{answer}")` gives a hint; the next call gives a stronger one.',
+                id=f"{name}-{answer}-task",
+            ),
+            new_code_cell(
+                _answer(mechanism, answer, doc),
+                id=f"{name}-{answer}-answer",
+                metadata=_cell(f"answer-{answer}", solution=True),
+            ),
+            new_code_cell(
+                f"# Checks {ANSWERS[answer].signature} at random positions of random mechanisms.\n"
+                f'check("{name}-{answer}")\n### BEGIN HIDDEN TESTS\n'
+                f'check("{name}-{answer}", fresh=True)\n### END HIDDEN TESTS',
+                id=f"{name}-{answer}-check",
+                metadata=_cell(f"{name}-{answer}", locked=True, grade=True, points=points),
+            ),
+        ]
+    cells += [
+        new_markdown_cell(_proof_task("ABCDEFGH"[len(asks)]), id=f"{name}-proof-task"),
+        new_markdown_cell(
+            f"### BEGIN SOLUTION\n{PROOF}\n### END SOLUTION",
+            id=f"{name}-proof",
+            metadata=_cell(f"{name}-proof", solution=True, grade=True, points=PROOF_POINTS),
+        ),
+        new_markdown_cell(
+            "## Before you hand in\n\nChoose *Kernel → Restart Kernel and Run All Cells*, look at every "
+            "card, and press **Validate**. Then submit the notebook as your instructor says.",
+            id=f"{name}-end",
+        ),
+    ]
+    kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
+    return new_notebook(
+        cells=cells, metadata={"kernelspec": kernel, "language_info": {"name": "python"}}
+    )
+
+
+def _title(mechanism: Mechanism, total: int) -> str:
+    words = mechanism.name.replace("-", " ")
+    return (
+        f"# Problem: {words}\n\nThe equation of motion of this mechanism has the canonical form\n\n"
+        "$$M(q)\\,\\ddot q + C(q,\\dot q)\\,\\dot q + g(q) = u .$$\n\n"
+        f"You will write its parts as functions of numbers. {total} points."
+    )
+
+
+def _symbols(mechanism: Mechanism) -> str:
+    rows = ["| in code | meaning | unit |", "|---|---|---|"]
+    for i, c in enumerate(mechanism.coordinates):
+        rows.append(f"| `q[{i}]` | ${_latex(c.name)}$: 0 is {c.zero} | {c.unit} |")
+    for i, c in enumerate(mechanism.coordinates):
+        rows.append(f"| `qd[{i}]` | $\\dot{{{_latex(c.name)}}}$ | {c.unit}/s |")
+    rows += [f"| `arm.{p.name}` | {p.doc} | {p.unit} |" for p in mechanism.parameters]
+    alt = f"The mechanism {mechanism.name}, its links drawn as lines and its joints as circles."
+    return f"![{alt}]({mechanism.name}.svg)\n\n" + "\n".join(rows)
+
+
+def _latex(name: str) -> str:
+    head = name.rstrip("0123456789")
+    head = f"\\{head}" if head in ("theta", "phi") else head
+    index = name[len(name.rstrip("0123456789")) :]
+    return f"{head}_{index}" if index else head
+
+
+def _setup(mechanism: Mechanism) -> str:
+    drawn = mechanism.drawn(np.random.default_rng(1))
+    given = ", ".join(f"{name}={value:.3g}" for name, value in vars(drawn).items())
+    return (
+        "from types import SimpleNamespace\n\nimport numpy as np\n\n"
+        f"from autograder import check, hint\n\narm = SimpleNamespace({given})"
+    )
+
+
+def _answer(mechanism: Mechanism, answer: str, doc: str) -> str:
+    body = ["### BEGIN SOLUTION", *model_answer(mechanism, answer), "### END SOLUTION"]
+    lines = [f'"""{doc.format(n=mechanism.n)}"""', *body]
+    return f"def {ANSWERS[answer].signature}:\n" + "\n".join(f"    {line}" for line in lines)
+
+
+def _proof_task(letter: str) -> str:
+    return f"""\
+## {letter}. By hand ({PROOF_POINTS} points, read by a person)
+
+Show that $\\dot M - 2C$ is skew-symmetric for the Christoffel form of $C$, and what follows for the \
+energy of this mechanism. Write it up in the cell below, line by line, with a reason for each line.
+
+| points | for |
+|---|---|
+| 1 | the definition of the Christoffel symbols, with its three derivatives |
+| 1 | $\\dot M$ by the chain rule |
+| 1 | the two derivatives that are left, and why they change their sign |
+| 1 | $\\dot E = \\dot q^{{\\mathsf T}} u$, and where the skew-symmetry enters |"""
+
+
+def _locked(grade_id: str) -> dict:
+    return _cell(grade_id, locked=True)
+
+
+def _cell(grade_id: str, *, solution=False, locked=False, grade=False, points=None) -> dict:
+    cell = {
+        "grade": grade,
+        "grade_id": grade_id,
+        "locked": locked,
+        "schema_version": 3,
+        "solution": solution,
+        "task": False,
+    }
+    return {"nbgrader": cell if points is None else cell | {"points": points}}

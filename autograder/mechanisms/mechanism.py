@@ -1,0 +1,159 @@
+"""A mechanism: its coordinates, parameters and energies, from which M, C, g and all else follow."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from types import SimpleNamespace
+
+import numpy as np
+import sympy as sp
+
+from armdyn.derive import Derivation, from_energies
+
+UNITS_OF_COORDINATES = ("rad", "m")
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A generalised coordinate. zero: where it is 0, in words: "link 1 along the x axis"."""
+
+    name: str
+    unit: str
+    zero: str
+
+    @property
+    def symbol(self) -> sp.Symbol:
+        return sp.Symbol(self.name, real=True)
+
+    @property
+    def velocity(self) -> sp.Symbol:
+        """qd1 for q1, xd for x."""
+        head = self.name.rstrip("0123456789")
+        return sp.Symbol(f"{head}d{self.name[len(head) :]}", real=True)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter: what it is, and the range from which random mechanisms draw it."""
+
+    name: str
+    unit: str
+    doc: str
+    low: float
+    high: float
+
+    @property
+    def symbol(self) -> sp.Symbol:
+        return sp.Symbol(self.name, positive=True)
+
+
+@dataclass(frozen=True)
+class EnergyTerm:
+    """A part of an energy, in words: "the rotation of link 2"."""
+
+    name: str
+    energy: sp.Expr
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A robot given by its energies.
+
+    kinetic, potential: the named terms whose sums are K (J) and P (J), expressions in the
+    coordinates, velocities and parameters of the mechanism. points(q, arm): what is drawn, (x, y) in m
+    one after the other; q: (n,), arm: a namespace of the parameters' numbers.
+
+    ValueError, naming what is wrong: for names that are given twice; a coordinate that is no angle (rad)
+    or length (m); a range that is empty or not positive; a symbol in an energy that is none of the
+    mechanism's; energies that `armdyn.derive.from_energies` refuses.
+    """
+
+    name: str
+    coordinates: tuple[Coordinate, ...]
+    parameters: tuple[Parameter, ...]
+    kinetic: tuple[EnergyTerm, ...]
+    potential: tuple[EnergyTerm, ...]
+    points: Callable[[np.ndarray, SimpleNamespace], Sequence[tuple[float, float]]]
+
+    def __post_init__(self):
+        where = f"mechanism {self.name!r}"
+        names = [c.name for c in self.coordinates] + [p.name for p in self.parameters]
+        names += [c.velocity.name for c in self.coordinates]
+        _once(where, "symbols", names)
+        _once(where, "energy terms", [term.name for term in (*self.kinetic, *self.potential)])
+        for coordinate in self.coordinates:
+            if coordinate.unit not in UNITS_OF_COORDINATES:
+                raise ValueError(
+                    f"{where}: {coordinate.name} has the unit {coordinate.unit!r}, needs rad or m"
+                )
+        for p in self.parameters:
+            if not 0 < p.low < p.high:
+                raise ValueError(
+                    f"{where}: {p.name} is drawn from {p.low} to {p.high}; needs 0 < low < high"
+                )
+        known = {*self.q, *self.qd, *(p.symbol for p in self.parameters)}
+        for term in (*self.kinetic, *self.potential):
+            unknown = sorted(s.name for s in sp.sympify(term.energy).free_symbols - known)
+            if unknown:
+                raise ValueError(
+                    f"{where}: {term.name!r} holds {', '.join(unknown)}, which is neither a "
+                    "coordinate, nor a velocity, nor a parameter of the mechanism"
+                )
+
+    @property
+    def n(self) -> int:
+        return len(self.coordinates)
+
+    @property
+    def q(self) -> tuple[sp.Symbol, ...]:
+        return tuple(c.symbol for c in self.coordinates)
+
+    @property
+    def qd(self) -> tuple[sp.Symbol, ...]:
+        return tuple(c.velocity for c in self.coordinates)
+
+    @property
+    def K(self) -> sp.Expr:
+        return sp.Add(*(term.energy for term in self.kinetic))
+
+    @property
+    def P(self) -> sp.Expr:
+        return sp.Add(*(term.energy for term in self.potential))
+
+    @cached_property
+    def derivation(self) -> Derivation:
+        """M, C (Christoffel) and g of the energies; ValueError as `from_energies`."""
+        try:
+            return from_energies(self.K, self.P, self.q, self.qd)
+        except ValueError as error:
+            raise ValueError(f"mechanism {self.name!r}: {error}") from None
+
+    def drawn(self, rng: np.random.Generator) -> SimpleNamespace:
+        """Random parameters from their ranges, by their names."""
+        return SimpleNamespace(
+            **{p.name: float(rng.uniform(p.low, p.high)) for p in self.parameters}
+        )
+
+    def placed(self, rng: np.random.Generator) -> np.ndarray:
+        """A random q, (n,): angles whose sine and cosine do not nearly vanish, lengths up to 1 m."""
+        return np.array(
+            [_angle(rng) if c.unit == "rad" else _length(rng) for c in self.coordinates]
+        )
+
+    def moving(self, rng: np.random.Generator) -> np.ndarray:
+        """A random q̇, (n,): either sign, none near zero."""
+        return rng.choice([-1.0, 1.0], self.n) * rng.uniform(0.5, 3.0, self.n)
+
+
+def _once(where: str, kind: str, names: list[str]) -> None:
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"{where}: two of its {kind} are {name!r}")
+
+
+def _angle(rng) -> float:
+    return float(rng.integers(-2, 2) * np.pi / 2 + rng.uniform(0.2, np.pi / 2 - 0.2))
+
+
+def _length(rng) -> float:
+    return float(rng.choice([-1.0, 1.0]) * rng.uniform(0.2, 1.0))

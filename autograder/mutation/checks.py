@@ -1,0 +1,198 @@
+"""Makes the checks of a mechanism: what is asked, the right answer, and every mistake that follows."""
+
+from collections.abc import Callable
+from functools import lru_cache, partial
+
+import numpy as np
+
+from autograder.judging.check import Check
+from autograder.judging.criterion import Criterion
+from autograder.judging.diagnosis import Mistake
+from autograder.judging.quantities import Numbers, Quantities, array, each, one_number, vector
+from autograder.judging.terms import Term
+from autograder.mechanisms import Mechanism
+from autograder.mutation.answers import ANSWERS, Answer
+from autograder.mutation.catalogue import Catalogue
+from autograder.mutation.references import contribution, reference
+from autograder.mutation.sentences import sentence
+from autograder.protocol import Call
+
+# Random cases at least, so that no few terms fit just any error.
+LEAST_CASES = 12
+
+
+def checks_of(mechanism: Mechanism) -> tuple[Check, ...]:
+    """One check for each answer: `cart-pole-M`, `cart-pole-C` and so on."""
+    return tuple(check_of(mechanism, answer) for answer in ANSWERS)
+
+
+def check_of(mechanism: Mechanism, answer: str) -> Check:
+    """The check of one answer. Its mistakes are made when the first answer is wrong."""
+    asked = ANSWERS[answer]
+    quantities, criteria = _JUDGED[answer](mechanism)
+    return Check(
+        id=f"{mechanism.name}-{answer}",
+        signature=asked.signature,
+        reference=reference(mechanism, answer),
+        calls=partial(_calls, mechanism, asked),
+        quantities=quantities,
+        criteria=criteria,
+        terms=tuple(_terms(mechanism, asked)),
+        catalogue=partial(_mistakes, mechanism, answer),
+        hints=_hints(mechanism, asked),
+        pose=lambda call: list(mechanism.points(call.args[0], call.args[-1])),
+    )
+
+
+@lru_cache(maxsize=64)
+def catalogue_of(mechanism: Mechanism, answer: str) -> Catalogue:
+    """The catalogue, made once in a process."""
+    return Catalogue(mechanism, answer)
+
+
+def mistakes_of(mechanism: Mechanism, answer: str) -> list[Mistake]:
+    """Every mistake of an answer with its sentence."""
+    catalogue = catalogue_of(mechanism, answer)
+    return [
+        Mistake(
+            " / ".join(filter(None, (m.operator, m.term, m.entry, m.put, m.instead_of))),
+            partial(_one, mechanism, catalogue, k),
+            sentence(m, mechanism, ANSWERS[answer]),
+        )
+        for k, m in enumerate(catalogue.mutants)
+    ]
+
+
+def _mistakes(mechanism: Mechanism, answer: str, calls: list[Call]) -> list[tuple[Mistake, list]]:
+    numbers = catalogue_of(mechanism, answer).numbers(*_columns(mechanism, [c.args for c in calls]))
+    return list(zip(mistakes_of(mechanism, answer), map(list, numbers), strict=True))
+
+
+def _one(mechanism: Mechanism, catalogue: Catalogue, k: int, *args) -> np.ndarray:
+    """What the k-th mistake returns for one call."""
+    return catalogue.numbers(*_columns(mechanism, [args]))[k, 0]
+
+
+def _columns(mechanism: Mechanism, calls: list[tuple]) -> tuple[np.ndarray, np.ndarray, list]:
+    """q, q̇ and the arms of calls with the arguments (q, arm) or (q, qd, arm)."""
+    q = np.array([args[0] for args in calls])
+    qd = np.array([args[1] for args in calls]) if len(calls[0]) == 3 else np.zeros_like(q)
+    return q, qd, [args[-1] for args in calls]
+
+
+def _calls(mechanism: Mechanism, asked: Answer, rng: np.random.Generator, count: int) -> list[Call]:
+    found = []
+    for _ in range(max(count, LEAST_CASES)):
+        arm, q = mechanism.drawn(rng), mechanism.placed(rng)
+        if "qd" in asked.arguments:
+            found.append(Call(asked.name, (q, mechanism.moving(rng), arm)))
+        else:
+            found.append(Call(asked.name, (q, arm)))
+        if asked.name == "potential_energy":
+            found.append(Call(asked.name, (mechanism.placed(rng), arm)))
+    return found
+
+
+def _terms(mechanism: Mechanism, asked: Answer):
+    energies = mechanism.kinetic if asked.of_kinetic else mechanism.potential
+    for k, term in enumerate(energies):
+        yield Term(term.name, partial(_contribution, mechanism, asked.name, k))
+
+
+def _contribution(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:
+    return contribution(mechanism, answer, k)(*args)
+
+
+def _hints(mechanism: Mechanism, asked: Answer) -> tuple[str, ...]:
+    """Which energy, of which bodies, into which entries; never a formula."""
+    energies = mechanism.kinetic if asked.of_kinetic else mechanism.potential
+    parts = ", ".join(term.name for term in energies)
+    moving = " and ".join(c.name for c in mechanism.coordinates)
+    energy = "kinetic energy K" if asked.of_kinetic else "potential energy P"
+    zeros = "; ".join(f"{c.name} = 0 is {c.zero}" for c in mechanism.coordinates)
+    last = {
+        "M": "The entry M_ij is the second derivative of K by the velocities i and j. Sort K by the "
+        "products of two velocities: where do the mixed ones go?",
+        "C": "Differentiate each entry of your M by each coordinate. The sum over k of h_ijk times the "
+        "k-th velocity is C_ij, and h_ijk has three derivatives: two with a plus, one with a minus.",
+        "g_vec": "Entry i is the derivative of P by coordinate i. Which terms change when only that "
+        "coordinate moves?",
+        "potential_energy": "Write the height of each body, or the stretch of each spring, as a "
+        "function of the coordinates, and test it at a position where you know it.",
+    }
+    return (
+        f"Start from the {energy}. Which bodies and springs of this mechanism have a part in it, as "
+        f"{moving} change?",
+        f"The parts are: {parts}. And mind where the coordinates are zero: {zeros}.",
+        last[asked.name],
+    )
+
+
+def _of_M(mechanism: Mechanism) -> tuple[Quantities, tuple[Criterion, ...]]:
+    n = mechanism.n
+    pairs = [(i, j) for i in range(n) for j in range(i, n)]
+
+    @each
+    def entries(call, value):
+        M = np.reshape(value, (1, 1)) if n == 1 and np.size(value) == 1 else array(value, n, n)
+        return tuple(M[i, i] if i == j else np.array([M[i, j], M[j, i]]) for i, j in pairs)
+
+    names = [f"M{i + 1}{j + 1}" + (f" and M{j + 1}{i + 1}" if i != j else "") for i, j in pairs]
+    return entries, tuple(
+        Criterion(name if n > 1 else "M", _unit(mechanism, "kg·m²"), 1 / len(pairs))
+        for name in names
+    )
+
+
+def _of_C(mechanism: Mechanism) -> tuple[Quantities, tuple[Criterion, ...]]:
+    n = mechanism.n
+
+    @each
+    def steps(call, value):
+        C = np.reshape(value, (1, 1)) if n == 1 and np.size(value) == 1 else array(value, n, n)
+        qd = call.args[1]
+        return C @ qd, qd @ C @ qd, C + C.T
+
+    energy = "With your C the energy would change although nobody does work."
+    skew = (
+        "Ṁ − 2C is not skew-symmetric with your C. A right C q̇ is not enough: how does the Christoffel "
+        "form share the products of two velocities?"
+    )
+    return steps, (
+        Criterion("vector C q̇", _unit(mechanism, "N·m"), 0.5),
+        Criterion("power q̇ᵀC q̇ = ½ q̇ᵀṀ q̇", "W", 0.2, otherwise=energy, is_property=True),
+        Criterion(
+            "sum C + Cᵀ = Ṁ", _unit(mechanism, "kg·m²/s"), 0.3, otherwise=skew, is_property=True
+        ),
+    )
+
+
+def _of_g_vec(mechanism: Mechanism) -> tuple[Quantities, tuple[Criterion, ...]]:
+    n = mechanism.n
+    torques = each(lambda call, value: tuple(vector(value, n)))
+    units = ["N·m" if c.unit == "rad" else "N" for c in mechanism.coordinates]
+    return torques, tuple(
+        Criterion(f"g{i + 1}" if n > 1 else "g", unit, 1 / n) for i, unit in enumerate(units)
+    )
+
+
+def _of_potential_energy(mechanism: Mechanism) -> tuple[Quantities, tuple[Criterion, ...]]:
+    def changes(calls: list[Call], values: list) -> Numbers:
+        """Between two places of one arm: a constant, even one of each arm's own, is free."""
+        P = [energy for (energy,) in one_number(calls, values)]
+        return [(a - b,) for a, b in zip(P[::2], P[1::2], strict=True) for _ in range(2)]
+
+    return changes, (Criterion("change of P between two places", "J"),)
+
+
+def _unit(mechanism: Mechanism, unit: str) -> str:
+    """The unit, where all coordinates are angles; a matrix of mixed units has none of its own."""
+    return unit if all(c.unit == "rad" for c in mechanism.coordinates) else "SI units"
+
+
+_JUDGED: dict[str, Callable] = {
+    "M": _of_M,
+    "C": _of_C,
+    "g_vec": _of_g_vec,
+    "potential_energy": _of_potential_energy,
+}

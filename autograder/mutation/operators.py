@@ -1,0 +1,182 @@
+"""The operators: what people do wrong in one term, each as a rewriting of its expressions.
+
+The expressions are the term's energy, from which the answer is then derived, or what the right term
+contributes to the answer, where somebody made the mistake later. The same rewriting of all terms at
+once is a mistake too: "m1 for m2 everywhere".
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import sympy as sp
+
+from autograder.mechanisms import Mechanism
+
+EARTH = 9.81
+
+
+@dataclass(frozen=True)
+class Rewriting:
+    """A wrong form of expressions. operator: its name; put, instead_of: what stands there, and should
+    not.
+    """
+
+    operator: str
+    expressions: sp.Tuple
+    put: str = ""
+    instead_of: str = ""
+
+
+Operator = Callable[[sp.Tuple, Mechanism], Iterator[Rewriting]]
+
+
+def dropped(term, mechanism):
+    yield Rewriting("dropped", _times(0, term))
+
+
+def wrong_sign(term, mechanism):
+    yield Rewriting("wrong sign", _times(-1, term))
+
+
+def doubled(term, mechanism):
+    yield Rewriting("doubled", _times(2, term))
+
+
+def halved(term, mechanism):
+    yield Rewriting("halved", _times(sp.Rational(1, 2), term))
+
+
+def wrong_parameter(term, mechanism):
+    """Another parameter of the same unit."""
+    for parameter, other in _pairs(term, mechanism):
+        wrong = term.xreplace({parameter.symbol: other.symbol})
+        yield Rewriting("wrong parameter", wrong, other.name, parameter.name)
+
+
+def parameters_exchanged(term, mechanism):
+    for a, b in _pairs(term, mechanism):
+        exchanged = term.xreplace({a.symbol: b.symbol, b.symbol: a.symbol})
+        first, second = sorted((a.name, b.name))
+        yield Rewriting("parameters exchanged", exchanged, first, second)
+
+
+def wrong_angle(term, mechanism):
+    """One angle alone for a sum, a sum for one angle, a difference for a sum, another angle."""
+    angles = [c.symbol for c in mechanism.coordinates if c.unit == "rad"]
+    candidates = [*angles]
+    for i, a in enumerate(angles):
+        candidates += [e for b in angles[i + 1 :] for e in (a + b, a - b, b - a)]
+    for argument in _angles(term):
+        for angle in candidates:
+            if angle != argument:
+                changes = {w: w.func(angle) for w in _waves(term) if w.args[0] == argument}
+                yield Rewriting("wrong angle", term.xreplace(changes), str(angle), str(argument))
+
+
+def sine_for_cosine(term, mechanism):
+    for wave, other, name in (
+        (sp.cos, sp.sin, "sine for cosine"),
+        (sp.sin, sp.cos, "cosine for sine"),
+    ):
+        for factor in (1, -1):
+            changes = {w: factor * other(w.args[0]) for w in term.atoms(wave)}
+            if changes:
+                put = "−" if factor < 0 else ""
+                yield Rewriting(name, term.xreplace(changes), put)
+
+
+def velocity_left_out(term, mechanism):
+    """One velocity alone where the body turns with a sum of them."""
+    for total in sorted({e for e in sp.preorder_traversal(term) if e.is_Add}, key=str):
+        if total.free_symbols <= set(mechanism.qd):
+            for one in total.args:
+                wrong = term.xreplace({total: one})
+                yield Rewriting("velocity left out", wrong, str(one), str(total - one))
+
+
+def square_lost(term, mechanism):
+    known = {p.symbol for p in mechanism.parameters}
+    squares = [e for e in term.atoms(sp.Pow) if e.base in known and e.exp == 2]
+    for square in sorted(squares, key=sp.default_sort_key):
+        wrong = term.xreplace({square: square.base})
+        yield Rewriting("square lost", wrong, square.base.name, f"{square.base.name}²")
+
+
+def wave_lost(term, mechanism):
+    for argument in _angles(term):
+        changes = {w: sp.S.One for w in _waves(term) if w.args[0] == argument}
+        yield Rewriting("wave lost", term.xreplace(changes), "", str(argument))
+
+
+def parameter_left_out(term, mechanism):
+    for parameter in mechanism.parameters:
+        if parameter.symbol in term.free_symbols:
+            wrong = term.xreplace({parameter.symbol: sp.S.One})
+            yield Rewriting("parameter left out", wrong, "", parameter.name)
+
+
+def gravity_of_earth(term, mechanism):
+    for parameter in mechanism.parameters:
+        if parameter.unit == "m/s²" and parameter.symbol in term.free_symbols:
+            wrong = term.xreplace({parameter.symbol: sp.Float(EARTH)})
+            yield Rewriting("gravity of Earth", wrong, "9.81", parameter.name)
+
+
+def small_angle(term, mechanism):
+    changes = {w: w.args[0] for w in term.atoms(sp.sin)}
+    changes |= dict.fromkeys(term.atoms(sp.cos), sp.S.One)
+    if changes:
+        yield Rewriting("small angle", term.xreplace(changes))
+
+
+def degrees(term, mechanism):
+    for name, factor in (("radians converted", sp.pi / 180), ("angle in degrees", 180 / sp.pi)):
+        changes = {w: w.func(w.args[0] * factor) for w in _waves(term)}
+        if changes:
+            yield Rewriting(name, term.xreplace(changes))
+
+
+OPERATORS: tuple[Operator, ...] = (
+    dropped,
+    wrong_sign,
+    doubled,
+    halved,
+    wrong_parameter,
+    parameters_exchanged,
+    wrong_angle,
+    sine_for_cosine,
+    velocity_left_out,
+    square_lost,
+    wave_lost,
+    parameter_left_out,
+    gravity_of_earth,
+    small_angle,
+    degrees,
+)
+
+
+def rewritings(term: sp.Tuple, mechanism: Mechanism) -> Iterator[Rewriting]:
+    """All wrong forms of a term, the likeliest first; some may be equal to each other or to it."""
+    for operator in OPERATORS:
+        yield from operator(term, mechanism)
+
+
+def _times(factor, term: sp.Tuple) -> sp.Tuple:
+    return sp.Tuple(*(factor * expression for expression in term))
+
+
+def _waves(term: sp.Tuple) -> list[sp.Expr]:
+    return sorted(term.atoms(sp.sin, sp.cos), key=sp.default_sort_key)
+
+
+def _angles(term: sp.Tuple) -> list[sp.Expr]:
+    return list(dict.fromkeys(wave.args[0] for wave in _waves(term)))
+
+
+def _pairs(term: sp.Tuple, mechanism: Mechanism):
+    """A parameter of the term, and another parameter of its unit."""
+    for parameter in mechanism.parameters:
+        for other in mechanism.parameters:
+            there = parameter.symbol in term.free_symbols
+            if there and other.unit == parameter.unit and other != parameter:
+                yield parameter, other

@@ -1,0 +1,86 @@
+"""Tries the checks of a mechanism: right answers in several styles, and every mistake."""
+
+import importlib.util
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from autograder.judging.check import VISIBLE_CASES, Check
+from autograder.judging.verdict import State, Verdict
+from autograder.mechanisms import MECHANISMS, Mechanism
+from autograder.mutation.answers import ANSWERS
+from autograder.mutation.checks import check_of, mistakes_of
+from autograder.protocol import Call, Reply, read, real
+
+# Ways in which right answers come.
+STYLES: dict[str, Callable] = {
+    "as an array": np.asarray,
+    "in single precision": np.float32,
+    "as nested lists": lambda value: np.asarray(value).tolist(),
+    "rounded in the last digits": lambda value: np.asarray(value) * (1 + 1e-13),
+    "as an array of objects": lambda value: np.asarray(value, dtype=object),
+}
+
+
+class NoMechanismError(ValueError):
+    """There is no mechanism of this name, or none in this file; the text says what there is."""
+
+
+def found(name: str) -> Mechanism:
+    """The mechanism of this name, or the MECHANISM of this Python file."""
+    if name in MECHANISMS:
+        return MECHANISMS[name]
+    path = Path(name)
+    if path.suffix != ".py":
+        raise NoMechanismError(
+            f"there is no mechanism {name!r}; known are {', '.join(MECHANISMS)}; a mechanism of your "
+            "own is named by its file, such as my_arm.py"
+        )
+    if not path.is_file():
+        raise NoMechanismError(f"{name}: there is no such file")
+    spec = importlib.util.spec_from_file_location("own_mechanism", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:  # whatever the lecturer's file raises
+        raise NoMechanismError(f"{name}: {type(error).__name__}: {error}") from error
+    own = getattr(module, "MECHANISM", None)
+    if not isinstance(own, Mechanism):
+        raise NoMechanismError(
+            f"{name}: needs MECHANISM = Mechanism(…), of autograder.mechanisms; it has "
+            f"{'none' if own is None else repr(own)}"
+        )
+    return own
+
+
+def tried(mechanism: Mechanism) -> Iterator[tuple[str, bool]]:
+    """Line by line what students will read, each with whether it is as it should be."""
+    for answer in ANSWERS:
+        check = check_of(mechanism, answer)
+        wrong_styles = [
+            style
+            for style, given in STYLES.items()
+            if _verdict(check, lambda *args, given=given: given(check.reference(*args))).state  # noqa: B023
+            is not State.CORRECT
+        ]
+        refused = f", but not {', '.join(wrong_styles)}" if wrong_styles else ""
+        yield f"{check.id}: the right answer is correct{refused}", not wrong_styles
+        known = mistakes_of(mechanism, answer)
+        for mistake in known:
+            verdict = _verdict(check, mistake.wrong)
+            named = verdict.diagnosis == (mistake.sentence,)
+            yield (
+                f"  {' '.join(verdict.diagnosis) or f'(nothing is said of {mistake.name})'}",
+                named,
+            )
+        yield f"  {len(known)} mistakes", True
+
+
+def _verdict(check: Check, function: Callable) -> Verdict:
+    def ask(calls: list[Call]) -> list[Reply]:
+        return [Reply(value=read(call, function(*map(real, call.args)))) for call in calls]
+
+    return check.run(ask, np.random.default_rng(20260101), VISIBLE_CASES)

@@ -1,0 +1,109 @@
+"""`autograder new-problem`: a mechanism's notebook, whose model answers pass, released and graded."""
+
+import json
+
+import nbformat
+import numpy as np
+import pytest
+
+from autograder.authoring.model_answer import model_answer
+from autograder.authoring.problem import ProblemError, notebook, write_problem
+from autograder.cli import main
+from autograder.mechanisms import MECHANISMS
+from autograder.mutation.answers import ANSWERS
+from autograder.mutation.references import reference
+from tests.autograder.courses import NOTEBOOK, P3, new_course, run
+
+EVERY = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=list(MECHANISMS))
+CART = MECHANISMS["cart-pole"]
+
+
+@EVERY
+@pytest.mark.parametrize("answer", ANSWERS)
+def test_a_model_answer_is_right(mechanism, answer):
+    asked = ANSWERS[answer]
+    source = f"def {asked.signature}:\n" + "\n".join(
+        f"    {line}" for line in model_answer(mechanism, answer)
+    )
+    namespace = {"np": np}
+    exec(source, namespace)
+    rng = np.random.default_rng(1)
+    for _ in range(5):
+        arm, q, qd = mechanism.drawn(rng), mechanism.placed(rng), mechanism.moving(rng)
+        given = {"q": q, "qd": qd, "arm": arm}
+        arguments = [given[name] for name in asked.arguments]
+        right = reference(mechanism, answer)(*arguments)
+        np.testing.assert_allclose(namespace[answer](*arguments), right, rtol=1e-10, atol=1e-12)
+
+
+@EVERY
+def test_a_notebook_is_one_that_nbgrader_takes(mechanism):
+    made = notebook(mechanism, list(ANSWERS))
+    nbformat.validate(made)
+    ids = [cell.id for cell in made.cells]
+    grade_ids = [
+        cell.metadata.nbgrader.grade_id for cell in made.cells if "nbgrader" in cell.metadata
+    ]
+    assert len(set(ids)) == len(ids)
+    assert len(set(grade_ids)) == len(grade_ids)
+    assert not any("outputs" in cell and cell.outputs for cell in made.cells)
+
+
+def test_a_problem_is_written_released_and_graded(tmp_path):
+    """As an instructor does it; one student hands in the model answers but for one sign."""
+    root = new_course(tmp_path / "course")
+    shown = run(root, "autograder", "new-problem", "cart-pole", "--asks", "M,C")
+    assert "solutions/cart-pole/cart-pole.ipynb: written" in shown
+    run(root, "nbgrader", "generate_assignment", "cart-pole")
+    released = root / "course" / "release" / "cart-pole" / "cart-pole.ipynb"
+    text = released.read_text(encoding="utf-8")
+    assert "raise NotImplementedError" in text
+    assert "arm.lc*arm.m" not in text
+    assert (released.parent / "cart-pole.svg").is_file()
+
+    answered = nbformat.read(root / "solutions" / "cart-pole" / "cart-pole.ipynb", 4)
+    handed_in = nbformat.read(released, 4)
+    for cell, model in zip(handed_in.cells, answered.cells, strict=True):
+        if cell.metadata.get("nbgrader", {}).get("grade_id") == "answer-M":
+            cell.source = model.source.replace("M12 = arm", "M12 = -arm")
+        elif cell.metadata.get("nbgrader", {}).get("grade_id") == "answer-C":
+            cell.source = model.source
+    folder = root / "course" / "submitted" / "ada" / "cart-pole"
+    folder.mkdir(parents=True)
+    nbformat.write(handed_in, folder / "cart-pole.ipynb")
+    shown = run(root, "autograder", "grade", "cart-pole", "--jobs", "1")
+    assert "ada" in shown
+    graded = (root / "course" / "autograded" / "ada" / "cart-pole" / "cart-pole.ipynb").read_text()
+    assert "the coupling of cart and pole has the wrong sign" in graded
+    scores = {
+        cell["metadata"]["nbgrader"]["grade_id"]: json.dumps(cell["outputs"])
+        for cell in json.loads(graded)["cells"]
+        if cell["metadata"].get("nbgrader", {}).get("grade") and cell["cell_type"] == "code"
+    }
+    assert "partly correct" in scores["cart-pole-M"]
+    assert "cart-pole-C: correct" in scores["cart-pole-C"]
+
+
+def test_nothing_is_written_over(tmp_path):
+    path = write_problem(tmp_path, CART, ["M"])
+    before = path.read_bytes()
+    with pytest.raises(ProblemError, match="solutions/cart-pole is there already; move it away"):
+        write_problem(tmp_path, CART, ["M", "C"])
+    assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize("asks", [[], ["M", "M"], ["m"], ["M", ""]])
+def test_answers_that_cannot_be_asked(tmp_path, asks):
+    with pytest.raises(
+        ProblemError, match="needs some of M, C, g_vec, potential_energy, each once"
+    ):
+        write_problem(tmp_path, CART, asks)
+    assert not (tmp_path / "solutions").exists()
+
+
+def test_a_mechanism_that_is_not_there(tmp_path, capsys, monkeypatch):
+    root = new_course(tmp_path / "course")
+    monkeypatch.chdir(root)
+    assert main(["new-problem", "cart"]) == 2
+    assert "there is no mechanism 'cart'; known are pendulum, " in capsys.readouterr().err
+    assert (root / "solutions" / P3 / NOTEBOOK).is_file()

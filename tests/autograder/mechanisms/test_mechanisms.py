@@ -1,0 +1,137 @@
+"""The mechanisms: their equations are those that others derive, and bad ones are refused by name."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import sympy as sp
+from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
+
+from armdyn import Planar2R
+from autograder.mechanisms import MECHANISMS, Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mutation.references import reference
+
+EVERY = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=list(MECHANISMS))
+DRAWS = 5
+
+
+def lagranges_method(mechanism: Mechanism):
+    """M and C q̇ + g as SymPy's own route gives them, as a function of numbers."""
+    q = dynamicsymbols(" ".join(f"x{i}" for i in range(mechanism.n)) + ",")
+    t = dynamicsymbols._t
+    moving = dict(zip(mechanism.q, q, strict=True))
+    moving |= {v: x.diff(t) for v, x in zip(mechanism.qd, q, strict=True)}
+    method = LagrangesMethod((mechanism.K - mechanism.P).xreplace(moving), q)
+    method.form_lagranges_equations()
+    names = [*mechanism.q, *mechanism.qd, *(p.symbol for p in mechanism.parameters)]
+    back = {x.diff(t): v for v, x in zip(mechanism.qd, q, strict=True)}
+    back |= dict(zip(q, mechanism.q, strict=True))
+    parts = [part.subs(back) for part in (method.mass_matrix, -method.forcing)]
+    return sp.lambdify(names, parts)
+
+
+@EVERY
+def test_the_references_are_those_of_lagranges_method(mechanism):
+    theirs = lagranges_method(mechanism)
+    rng = np.random.default_rng(1)
+    for _ in range(DRAWS):
+        arm, q, qd = mechanism.drawn(rng), mechanism.placed(rng), mechanism.moving(rng)
+        M, bias = theirs(*q, *qd, *vars(arm).values())
+        ours = reference(mechanism, "C")(q, qd, arm) @ qd + reference(mechanism, "g_vec")(q, arm)
+        np.testing.assert_allclose(reference(mechanism, "M")(q, arm), M, rtol=1e-10, atol=1e-12)
+        np.testing.assert_allclose(ours, np.ravel(bias), rtol=1e-10, atol=1e-10)
+
+
+@EVERY
+def test_its_inertia_is_that_of_a_body(mechanism):
+    rng = np.random.default_rng(2)
+    for _ in range(DRAWS):
+        arm, q = mechanism.drawn(rng), mechanism.placed(rng)
+        M = reference(mechanism, "M")(q, arm)
+        assert np.linalg.eigvalsh(M)[0] > 0
+        points = np.array(mechanism.points(q, arm))
+        assert points.shape[1] == 2
+        assert np.isfinite(points).all()
+
+
+def test_the_planar_2r_is_the_librarys():
+    mechanism, rng = MECHANISMS["planar-2r"], np.random.default_rng(3)
+    for _ in range(DRAWS):
+        arm, q, qd = mechanism.drawn(rng), mechanism.placed(rng), mechanism.moving(rng)
+        model = Planar2R(**vars(arm))
+        np.testing.assert_allclose(reference(mechanism, "M")(q, arm), model.M(q), rtol=1e-12)
+        np.testing.assert_allclose(
+            reference(mechanism, "C")(q, qd, arm), model.C(q, qd), atol=1e-12
+        )
+        np.testing.assert_allclose(
+            reference(mechanism, "g_vec")(q, arm), model.g_vec(q), rtol=1e-12
+        )
+        P = reference(mechanism, "potential_energy")(q, arm)
+        assert pytest.approx(model.potential_energy(q)) == P
+
+
+@pytest.mark.parametrize("other", ["planar-2r-absolute", "planar-2r-hanging"])
+def test_another_zero_of_the_angles_is_the_same_arm(other):
+    """One arm in two conventions has one kinetic and, but for a constant, one potential energy."""
+    mechanism, rng = MECHANISMS[other], np.random.default_rng(4)
+    arm = mechanism.drawn(rng)
+    energies = []
+    for _ in range(DRAWS):
+        q, qd = mechanism.placed(rng), mechanism.moving(rng)
+        if other.endswith("absolute"):
+            q2, qd2 = np.array([q[0], q[1] - q[0]]), np.array([qd[0], qd[1] - qd[0]])
+        else:
+            q2, qd2 = q - [np.pi / 2, 0], qd
+        model = Planar2R(**vars(arm))
+        K = qd @ reference(mechanism, "M")(q, arm) @ qd / 2
+        assert pytest.approx(model.kinetic_energy(q2, qd2)) == K
+        energies.append(
+            reference(mechanism, "potential_energy")(q, arm) - model.potential_energy(q2)
+        )
+    np.testing.assert_allclose(energies, energies[0], atol=1e-9)
+
+
+PENDULUM = MECHANISMS["pendulum"]
+Q = PENDULUM.q[0]
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        (
+            {"coordinates": (Coordinate("m", "rad", "down"),)},
+            "two of its symbols are 'm'",
+        ),
+        (
+            {"coordinates": (Coordinate("q", "°", "down"),)},
+            "q has the unit '°', needs rad or m",
+        ),
+        (
+            {
+                "parameters": (
+                    *PENDULUM.parameters[:-1],
+                    Parameter("g", "m/s²", "gravity", 3.0, 3.0),
+                )
+            },
+            "g is drawn from 3.0 to 3.0; needs 0 < low < high",
+        ),
+        (
+            {"potential": (EnergyTerm("the weight", sp.Symbol("k") * Q),)},
+            "'the weight' holds k, which is neither a coordinate, nor a velocity, nor a parameter",
+        ),
+        (
+            {"potential": (EnergyTerm("the rotation of the body", Q),)},
+            "two of its energy terms are 'the rotation of the body'",
+        ),
+    ],
+)
+def test_what_is_no_mechanism_is_refused(changes, said):
+    with pytest.raises(ValueError, match="mechanism 'pendulum': ") as refused:
+        replace(PENDULUM, **changes)
+    assert said in str(refused.value)
+
+
+def test_an_energy_that_is_not_quadratic_is_refused_by_name():
+    odd = replace(PENDULUM, kinetic=(EnergyTerm("the turn", PENDULUM.qd[0] ** 3),))
+    with pytest.raises(ValueError, match="mechanism 'pendulum': K"):
+        _ = odd.derivation

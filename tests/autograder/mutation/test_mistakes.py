@@ -1,0 +1,124 @@
+"""Every mistake that follows from a mechanism is named by its own sentence; right answers by none."""
+
+import re
+
+import numpy as np
+import pytest
+
+from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
+from autograder.judging.verdict import State
+from autograder.mechanisms import MECHANISMS
+from autograder.mutation import operators
+from autograder.mutation.answers import ANSWERS
+from autograder.mutation.checks import catalogue_of, check_of, mistakes_of
+from autograder.mutation.sentences import GENERAL, ROWS, THROUGHOUT
+from autograder.mutation.steps import STEPS
+from autograder.mutation.trial import STYLES
+from autograder.protocol import Reply, read, real
+
+# All of them take minutes (`autograder try` does it); here a few of each answer, spread over all kinds.
+TRIED = 12
+ASKED = [(m, answer) for m in MECHANISMS.values() for answer in ANSWERS]
+EVERY = pytest.mark.parametrize(
+    ("mechanism", "answer"), ASKED, ids=[f"{m.name}-{a}" for m, a in ASKED]
+)
+
+
+def judged(check, function, seed=0, count=VISIBLE_CASES):
+    def ask(calls):
+        return [Reply(value=read(call, function(*map(real, call.args)))) for call in calls]
+
+    return check.run(ask, np.random.default_rng(seed), count)
+
+
+@EVERY
+def test_every_mistake_is_named_by_its_sentence(mechanism, answer):
+    check = check_of(mechanism, answer)
+    known = mistakes_of(mechanism, answer)
+    assert known
+    stride = max(1, len(known) // TRIED)
+    start = list(MECHANISMS).index(mechanism.name) % stride
+    for mistake in known[start::stride]:
+        verdict = judged(check, mistake.wrong)
+        if verdict.problem.endswith("which is not a finite number."):
+            continue  # a square root of less than nothing, of a slider-crank
+        assert verdict.state in (State.INCORRECT, State.PARTLY_CORRECT), mistake.name
+        assert verdict.diagnosis == (mistake.sentence,), mistake.name
+
+
+@EVERY
+def test_a_right_answer_is_right_in_every_style_and_for_every_seed(mechanism, answer):
+    check = check_of(mechanism, answer)
+    for seed in range(10):
+        assert judged(check, check.reference, seed, HIDDEN_CASES).state is State.CORRECT
+    for style, given in STYLES.items():
+        styled = judged(check, lambda *args, given=given: given(check.reference(*args)))
+        assert styled.state is State.CORRECT, style
+
+
+@EVERY
+def test_no_two_mistakes_have_the_same_numbers(mechanism, answer):
+    """To a fresh draw, so that what was taken for two is two."""
+    catalogue, rng = catalogue_of(mechanism, answer), np.random.default_rng(11)
+    arms = [arm for _ in range(4) for arm in 2 * [mechanism.drawn(rng)]]
+    q = np.array([mechanism.placed(rng) for _ in arms])
+    qd = np.array([mechanism.moving(rng) for _ in arms])
+    numbers = np.concatenate([catalogue.numbers(q, qd, arms), catalogue.right(q, qd, arms)[None]])
+    if answer == "potential_energy":
+        numbers = numbers[:, ::2] - numbers[:, 1::2]
+    flat = numbers.reshape(len(numbers), -1)
+    flat = flat[np.isfinite(flat).all(axis=1)]
+    for i, own in enumerate(flat[1:], 1):
+        apart = np.max(np.abs(flat[:i] - own), axis=1)
+        assert apart.min() > 1e-9 * np.max(np.abs(own), initial=1.0), catalogue.mutants[
+            i % len(flat)
+        ]
+
+
+def test_two_mistakes_at_once_are_both_named():
+    mechanism = MECHANISMS["planar-2r"]
+    check, catalogue = check_of(mechanism, "M"), catalogue_of(mechanism, "M")
+    places = {(m.operator, m.term, m.entry): k for k, m in enumerate(catalogue.mutants)}
+    first = places["dropped", "the rotation of link 1", ""]
+    second = places["wrong sign", "the coupling of links 1 and 2", "M11"]
+    known = mistakes_of(mechanism, "M")
+
+    def wrong(q, arm):
+        right = check.reference(q, arm)
+        return known[first].wrong(q, arm) + known[second].wrong(q, arm) - right
+
+    assert set(judged(check, wrong).diagnosis) == {known[first].sentence, known[second].sentence}
+
+
+def test_every_operator_and_step_has_a_sentence():
+    made = {mutant.operator for m, answer in ASKED for mutant in catalogue_of(m, answer).mutants}
+    steps = {name for of in STEPS.values() for name in of}
+    assert made <= GENERAL.keys()
+    assert GENERAL.keys() <= made | steps
+    assert THROUGHOUT.keys() <= GENERAL.keys()
+    assert len(operators.OPERATORS) <= len(made)
+
+
+@pytest.mark.parametrize(
+    "template", [*GENERAL.values(), *THROUGHOUT.values(), *(row.sentence for row in ROWS)]
+)
+def test_a_sentence_holds_no_formula(template):
+    """No product or function of parameters: the names of the parameters come alone."""
+    assert not re.search(r"\{\w+\}\s*[*·+/^²]", template)
+    assert not re.search(r"\b[mIlg](c)?[12]\b|cos\(|sin\(", template)
+
+
+def test_a_teachers_row_is_said_where_it_fits_best():
+    said = {
+        (m.operator, m.term, m.entry): mistake.sentence
+        for m, mistake in zip(
+            catalogue_of(MECHANISMS["planar-2r"], "M").mutants,
+            mistakes_of(MECHANISMS["planar-2r"], "M"),
+            strict=True,
+        )
+    }
+    own = said["dropped", "the rotation of link 2", "M11"]
+    assert "Hold joint 2 and move joint 1" in own
+    general = said["dropped", "the coupling of links 1 and 2", "M11"]
+    assert "Hold joint 2" not in general
+    assert "products of two velocities" in general

@@ -1,0 +1,58 @@
+"""`autograder try`: what an instructor reads of a mechanism, of the kit or of one's own file."""
+
+import textwrap
+
+import pytest
+
+from autograder.cli import main
+
+OWN = """
+    import sympy as sp
+    from autograder.mechanisms import Coordinate, EnergyTerm, Mechanism, Parameter
+
+    x = Coordinate("x", "m", "the spring loose")
+    m = Parameter("m", "kg", "mass of the block", 0.5, 3.0)
+    k = Parameter("k", "N/m", "stiffness of the spring", 5.0, 40.0)
+    MECHANISM = Mechanism(
+        "block",
+        (x,),
+        (m, k),
+        (EnergyTerm("the motion of the block", m.symbol * x.velocity**2 / 2),),
+        (EnergyTerm("the spring", k.symbol * x.symbol**2 / 2),),
+        lambda q, arm: [(0.0, 0.0), (q[0], 0.0)],
+    )
+"""
+
+
+def test_a_mechanism_of_ones_own(tmp_path, capsys):
+    path = tmp_path / "block.py"
+    path.write_text(textwrap.dedent(OWN), encoding="utf-8")
+    assert main(["try", str(path)]) == 0
+    shown = capsys.readouterr().out
+    assert "block-M: the right answer is correct\n" in shown
+    assert "In your g, the spring has the wrong sign" not in shown  # that is the sign of the whole
+    assert "Your g is twice the right one. Is a ½ missing?" in shown
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("x = 1", "needs MECHANISM = Mechanism(…), of autograder.mechanisms; it has none"),
+        ("MECHANISM = 3", "it has 3"),
+        ("import nothing_of_this_name", "ModuleNotFoundError: No module named"),
+        (textwrap.dedent(OWN).replace('"m", "kg"', '"x", "kg"'), "two of its symbols are 'x'"),
+    ],
+)
+def test_a_file_without_a_mechanism_says_so(tmp_path, capsys, text, said):
+    path = tmp_path / "mine.py"
+    path.write_text(text, encoding="utf-8")
+    assert main(["try", str(path)]) == 2
+    shown = capsys.readouterr().err
+    assert "mine.py" in shown
+    assert said in shown
+
+
+@pytest.mark.parametrize("name", ["cart", "none.py"])
+def test_a_name_of_nothing(capsys, name):
+    assert main(["try", name]) == 2
+    assert name in capsys.readouterr().err
