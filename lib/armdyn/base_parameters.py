@@ -5,12 +5,14 @@ only to the digits that it writes: an angle of 1.5708 for π/2 makes axes that a
 parameters that show by a millionth. So the number is read off the singular values of Y, where they drop.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
 
 import numpy as np
 
 from armdyn.geometry import column_indices, fall_time, joint_units, powers_of_length, reach
+from armdyn.manipulator import Manipulator
 from armdyn.regressor import parameter_names, regressor
 
 # Singular values as shares of the largest. Of the arms that people build, the smallest that is meant
@@ -125,7 +127,9 @@ class BaseParameters:
         return "\n".join(filter(None, lines))
 
 
-def base_parameters(model, columns=None, tolerance=None) -> BaseParameters:
+def base_parameters(
+    model: Manipulator, columns: Sequence[int] | None = None, tolerance: float | None = None
+) -> BaseParameters:
     """The base parameters of a model's geometry, numerically, from random states.
 
     columns: indices of the entries of π that may be other than 0, all of them by default;
@@ -173,7 +177,7 @@ def base_parameters(model, columns=None, tolerance=None) -> BaseParameters:
     )
 
 
-def on_link_axes(model) -> tuple[int, ...]:
+def on_link_axes(model: Manipulator) -> tuple[int, ...]:
     """All columns of Y but those of m cy, which are not needed if the centres lie on the axes.
 
     Raises ValueError for a spatial chain.

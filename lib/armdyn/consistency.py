@@ -10,9 +10,11 @@ Source: P. M. Wensing, S. Kim, J.-J. E. Slotine (2018), Linear Matrix Inequaliti
 Consistent Inertial Parameter Identification: A Statistical Perspective on the Mass Distribution.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.linalg import null_space
 
 from armdyn.geometry import column_indices
@@ -23,7 +25,7 @@ TOLERANCE = 1e-9
 MODEST_TRACE, LARGEST_TRACE = 1e2, 1e6
 
 
-def pseudo_inertia(pi) -> np.ndarray:
+def pseudo_inertia(pi: ArrayLike) -> np.ndarray:
     """The matrix that is positive semidefinite for consistent π of one link.
 
     pi: (..., 4) for a planar link, giving (..., 3, 3), or (..., 10) for a spatial one, giving
@@ -78,7 +80,13 @@ class Consistency:
         return self.parameters is not None
 
 
-def consistent_parameters(combination, estimate, columns, n, length=1.0) -> Consistency:
+def consistent_parameters(
+    combination: np.ndarray,
+    estimate: ArrayLike,
+    columns: Sequence[int] | None,
+    n: int,
+    length: float = 1.0,
+) -> Consistency:
     """Look for consistent π with combination @ π = estimate, and 0 outside `columns`.
 
     combination: (b, p). estimate: (b,). n: number of links, so that p/n is 4 or 10. length: a length

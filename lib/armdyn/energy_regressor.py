@@ -10,12 +10,14 @@ Proceedings of the 27th IEEE Conference on Decision and Control.
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.geometry import INERTIA, PlanarGeometry, geometry, sum_of_those_before
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import state_vector, state_vectors
 
 
-def energy_regressor(model, q, qd) -> np.ndarray:
+def energy_regressor(model: Manipulator, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
     """The row Y_E with K + P = Y_E π, (..., 4n) for planar arms, (..., 10n) for spatial chains.
 
     q, qd: (..., n), rad, rad/s (m, m/s for a prismatic joint). P is 0 where the model's
@@ -25,7 +27,7 @@ def energy_regressor(model, q, qd) -> np.ndarray:
     return kinetic_energy_regressor(model, q, qd) + potential_energy_regressor(model, q)
 
 
-def kinetic_energy_regressor(model, q, qd) -> np.ndarray:
+def kinetic_energy_regressor(model: Manipulator, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
     """The row Y_K with K = Y_K π: |v|²/2, v × ω and ω ωᵀ/2 of each link, in its own axes.
 
     Arguments, shape and errors are those of `energy_regressor`.
@@ -41,7 +43,7 @@ def kinetic_energy_regressor(model, q, qd) -> np.ndarray:
     return _joined(shape, np.vecdot(v, v) / 2, np.cross(v, w), *turning)
 
 
-def potential_energy_regressor(model, q) -> np.ndarray:
+def potential_energy_regressor(model: Manipulator, q: ArrayLike) -> np.ndarray:
     """The row Y_P with P = Y_P π: how far against gravity each link's origin and axes reach.
 
     Arguments, shape and errors are those of `energy_regressor`.

@@ -4,7 +4,9 @@ import itertools
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import all_finite, real_array
 
 STARTS = 8  # per coordinate, at first
@@ -50,7 +52,7 @@ class Equilibrium:
         return np.array(list(itertools.product(*places))).reshape(-1, len(self.q))
 
 
-def equilibria(model, within=None) -> tuple[Equilibrium, ...]:
+def equilibria(model: Manipulator, within: ArrayLike | None = None) -> tuple[Equilibrium, ...]:
     """All q with g(q) = 0 of an arm, the lowest potential energy first.
 
     model: a Manipulator with up to 3 joints. A coordinate is an angle if a full turn of it, tried at

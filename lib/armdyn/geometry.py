@@ -1,11 +1,13 @@
 """What a regressor takes from a model: how its links lie and where gravity points, and no mass."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import singledispatch
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from armdyn.manipulator import Manipulator
 from armdyn.models import Pendulum, Planar2R, PlanarChain, SerialChain
 
 PLANAR = ("m{0}", "m{0} cx{0}", "m{0} cy{0}", "J{0}")
@@ -43,7 +45,7 @@ class PlanarGeometry:
     def revolute(self) -> np.ndarray:
         return np.ones(self.n, dtype=bool)
 
-    def axes(self, q) -> tuple[np.ndarray, np.ndarray]:
+    def axes(self, q: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """The links' x and y axes, (..., n, 2) each, for q of shape (..., n)."""
         angle = np.cumsum(q, axis=-1)
         x_axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
@@ -74,7 +76,7 @@ class SpatialGeometry:
         return np.array([link.joint == "revolute" for link in self.chain.links])
 
 
-def geometry(model) -> PlanarGeometry | SpatialGeometry:
+def geometry(model: Manipulator) -> PlanarGeometry | SpatialGeometry:
     """The geometry of a model.
 
     Raises ValueError for one without links that π belongs to, and for a subclass or an arm with an M,
@@ -120,35 +122,35 @@ def _(model: SerialChain):
     return SpatialGeometry(model)
 
 
-def reach(model) -> float:
+def reach(model: Manipulator) -> float:
     """The arm's length from its first joint to its last, m; 1 where they are all at one place."""
     length = geometry(model).length
     return length if length > LEAST else 1.0
 
 
-def fall_time(model) -> float:
+def fall_time(model: Manipulator) -> float:
     """The arm's own unit of time, s: √(reach / gravity), 1 without gravity."""
     gravity = np.linalg.norm(geometry(model).gravity)
     return float(np.sqrt(reach(model) / gravity)) if gravity > LEAST else 1.0
 
 
-def joint_units(model) -> np.ndarray:
+def joint_units(model: Manipulator) -> np.ndarray:
     """(n,): 1 rad for a revolute joint, the arm's reach in m for a prismatic one."""
     return np.where(geometry(model).revolute, 1.0, reach(model))
 
 
-def powers_of_length(names) -> np.ndarray:
+def powers_of_length(names: Sequence[str]) -> np.ndarray:
     """Of each entry of π by its name: 0 for m (kg), 1 for m c (kg·m), 2 for J (kg·m²)."""
     return np.array([2 if name.startswith("J") else 1 if " c" in name else 0 for name in names])
 
 
-def sum_of_those_before(steps) -> np.ndarray:
+def sum_of_those_before(steps: np.ndarray) -> np.ndarray:
     """Σ over k < i of steps[..., k, :], for each i."""
     sums = np.cumsum(steps[..., :-1, :], axis=-2)
     return np.concatenate([np.zeros_like(steps[..., :1, :]), sums], axis=-2)
 
 
-def column_indices(columns, count) -> tuple[int, ...]:
+def column_indices(columns: Sequence[int] | None, count: int) -> tuple[int, ...]:
     """`columns`, sorted, all `count` of them for None; ValueError unless they are distinct indices."""
     if columns is None:
         return tuple(range(count))

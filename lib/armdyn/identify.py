@@ -5,14 +5,17 @@ Joint torques show only the base parameters, so only they are estimated: see
 """
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.sparse.csgraph import connected_components
 
 from armdyn.base_parameters import BaseParameters, base_parameters
 from armdyn.consistency import Consistency, consistent_parameters
 from armdyn.geometry import geometry, joint_units, powers_of_length, reach
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import state_vector, state_vectors
 from armdyn.regressor import friction_columns, regressor
 
@@ -112,7 +115,14 @@ class Identification:
 
 
 def excitation(
-    model, q, qd, qdd, friction=False, columns=None, tolerance=None, noise=None
+    model: Manipulator,
+    q: ArrayLike,
+    qd: ArrayLike,
+    qdd: ArrayLike,
+    friction: bool = False,
+    columns: Sequence[int] | None = None,
+    tolerance: float | None = None,
+    noise: ArrayLike | None = None,
 ) -> Excitation:
     """What a motion shows of the parameters, before any torque is measured.
 
@@ -124,7 +134,15 @@ def excitation(
 
 
 def identify(
-    model, q, qd, qdd, u, friction=False, columns=None, tolerance=None, noise=None
+    model: Manipulator,
+    q: ArrayLike,
+    qd: ArrayLike,
+    qdd: ArrayLike,
+    u: ArrayLike,
+    friction: bool = False,
+    columns: Sequence[int] | None = None,
+    tolerance: float | None = None,
+    noise: ArrayLike | None = None,
 ) -> Identification:
     """Base parameters, and with `friction` the friction of each joint, by least squares.
 

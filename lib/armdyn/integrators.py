@@ -34,7 +34,7 @@ class Integrator:
     of_model: bool = False
 
 
-def euler(rate: Rate, t: float, x, dt: float) -> np.ndarray:
+def euler(rate: Rate, t: float, x: np.ndarray, dt: float) -> np.ndarray:
     """Order 1, explicit, not symplectic; the energy of a free arm grows.
 
     Source: L. Euler (1768), Institutionum calculi integralis, volume 1.
@@ -42,7 +42,7 @@ def euler(rate: Rate, t: float, x, dt: float) -> np.ndarray:
     return x + dt * rate(t, x)
 
 
-def semi_implicit_euler(rate: Rate, t: float, x, dt: float) -> np.ndarray:
+def semi_implicit_euler(rate: Rate, t: float, x: np.ndarray, dt: float) -> np.ndarray:
     """Order 1, explicit; symplectic for a rate [q̇(p); ṗ(q)], not for every arm.
 
     The velocities step first, then the positions with the new velocities: of x = [q; v], first
@@ -61,7 +61,7 @@ def semi_implicit_euler(rate: Rate, t: float, x, dt: float) -> np.ndarray:
     return half
 
 
-def rk4(rate: Rate, t: float, x, dt: float) -> np.ndarray:
+def rk4(rate: Rate, t: float, x: np.ndarray, dt: float) -> np.ndarray:
     """Order 4, explicit, not symplectic; the energy of a free arm drifts slowly, as dt⁵ per time.
 
     Source: W. Kutta (1901), Beitrag zur näherungsweisen Integration totaler
@@ -74,7 +74,7 @@ def rk4(rate: Rate, t: float, x, dt: float) -> np.ndarray:
     return x + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
 
 
-def implicit_midpoint(rate: Rate, t: float, x, dt: float) -> np.ndarray:
+def implicit_midpoint(rate: Rate, t: float, x: np.ndarray, dt: float) -> np.ndarray:
     """Order 2, implicit, symplectic in canonical variables (q, p); also its own inverse in time.
 
     x' = x + dt k with k = rate(t + dt/2, x + dt/2 k), by fixed-point iteration to rounding. On the

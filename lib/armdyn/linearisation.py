@@ -10,7 +10,9 @@ models of `armdyn.codegen` with up to four coordinates. For others it is by cent
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import state_vector, state_vectors
 
 # Order 8: truncation h⁸ and rounding EPS/h balance near here.
@@ -49,7 +51,9 @@ class Linearisation:
     x_dot: np.ndarray
 
 
-def inverse_dynamics_slopes(model, q, qd, qdd) -> InverseSlopes:
+def inverse_dynamics_slopes(
+    model: Manipulator, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike
+) -> InverseSlopes:
     """∂u/∂q, ∂u/∂q̇, ∂u/∂q̈ of u = M q̈ + C q̇ + g + f; entry (i, k) is by how much u_i changes with q_k.
 
     q, qd, qdd: (..., n). Raises ValueError as the model does, and, naming the joint, where friction
@@ -72,7 +76,9 @@ def inverse_dynamics_slopes(model, q, qd, qdd) -> InverseSlopes:
     return InverseSlopes(by_q, by_velocity + _friction_slope(model, qd), M)
 
 
-def forward_dynamics_slopes(model, q, qd, u) -> ForwardSlopes:
+def forward_dynamics_slopes(
+    model: Manipulator, q: ArrayLike, qd: ArrayLike, u: ArrayLike
+) -> ForwardSlopes:
     """∂q̈/∂q = −M⁻¹ ∂u/∂q, ∂q̈/∂q̇ = −M⁻¹ ∂u/∂q̇ at the q̈ that u gives, and ∂q̈/∂u = M⁻¹.
 
     q, qd, u: (..., n). Raises as `inverse_dynamics_slopes`, and numpy.linalg.LinAlgError where M is
@@ -84,7 +90,7 @@ def forward_dynamics_slopes(model, q, qd, u) -> ForwardSlopes:
     return ForwardSlopes(-inverse @ slopes.q, -inverse @ slopes.qd, inverse)
 
 
-def linearise(model, x, u) -> Linearisation:
+def linearise(model: Manipulator, x: ArrayLike, u: ArrayLike) -> Linearisation:
     """A = ∂ẋ/∂x and B = ∂ẋ/∂u at any state x = [q; q̇], (..., 2n), and input u, (..., n).
 
     Raises as `forward_dynamics_slopes`.

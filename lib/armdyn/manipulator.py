@@ -11,6 +11,7 @@ that one state and a million states are the same call.
 from abc import ABC, abstractmethod
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.parameters import state_vector, state_vectors
 
@@ -37,26 +38,26 @@ class Manipulator(ABC):
     n: int
 
     @abstractmethod
-    def M(self, q) -> np.ndarray:
+    def M(self, q: ArrayLike) -> np.ndarray:
         """Joint-space inertia matrix, (n, n), kg·m²; q: (n,), rad."""
 
     @abstractmethod
-    def C(self, q, qd) -> np.ndarray:
+    def C(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """Coriolis and centrifugal matrix in Christoffel form, (n, n), kg·m²/s."""
 
     @abstractmethod
-    def g_vec(self, q) -> np.ndarray:
+    def g_vec(self, q: ArrayLike) -> np.ndarray:
         """Gravity vector ∂P/∂q, (n,), N·m."""
 
     @abstractmethod
-    def potential_energy(self, q) -> np.ndarray:
+    def potential_energy(self, q: ArrayLike) -> np.ndarray:
         """Potential energy P, scalar, J."""
 
-    def f_vec(self, qd) -> np.ndarray:
+    def f_vec(self, qd: ArrayLike) -> np.ndarray:
         """Friction torque f(q̇), (n,), N·m; zero unless the model has friction."""
         return np.zeros_like(state_vector("qd", qd, self.n))
 
-    def christoffel_symbols(self, q) -> np.ndarray:
+    def christoffel_symbols(self, q: ArrayLike) -> np.ndarray:
         """h_ijk = ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), (n, n, n), kg·m²: C_ij = Σ_k h_ijk q̇_k.
 
         C is linear in q̇, so that its value at the k-th unit velocity is h_ijk, without a derivative.
@@ -64,17 +65,17 @@ class Manipulator(ABC):
         q = state_vector("q", q, self.n)
         return np.moveaxis(self.C(q[..., np.newaxis, :], np.eye(self.n)), -3, -1)
 
-    def inverse_dynamics(self, q, qd, qdd) -> np.ndarray:
+    def inverse_dynamics(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> np.ndarray:
         """Input u = M q̈ + C q̇ + g + f that gives the acceleration qdd, (n,), N·m."""
         q, qd, qdd = state_vectors(self.n, q=q, qd=qd, qdd=qdd)
         return np.matvec(self.M(q), qdd) + self.bias(q, qd)
 
-    def bias(self, q, qd) -> np.ndarray:
+    def bias(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """C q̇ + g + f, the input that keeps q̈ = 0, (n,), N·m."""
         q, qd = state_vectors(self.n, q=q, qd=qd)
         return np.matvec(self.C(q, qd), qd) + self.g_vec(q) + self.f_vec(qd)
 
-    def dynamics(self, q, qd, u) -> np.ndarray:
+    def dynamics(self, q: ArrayLike, qd: ArrayLike, u: ArrayLike) -> np.ndarray:
         """Acceleration q̈ = M⁻¹ (u − C q̇ − g − f), (n,), rad/s².
 
         Raises numpy.linalg.LinAlgError, saying where, if M(q) is singular to rounding: its smallest
@@ -87,16 +88,16 @@ class Manipulator(ABC):
         rest = u - np.matvec(self.C(q, qd), qd) - self.g_vec(q) - self.f_vec(qd)
         return np.linalg.solve(M, rest[..., np.newaxis])[..., 0]
 
-    def kinetic_energy(self, q, qd) -> np.ndarray:
+    def kinetic_energy(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """K = ½ q̇ᵀ M q̇, scalar, J."""
         q, qd = state_vectors(self.n, q=q, qd=qd)
         return 0.5 * np.vecdot(qd, np.matvec(self.M(q), qd))
 
-    def energy(self, q, qd) -> np.ndarray:
+    def energy(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """Total energy E = K + P, scalar, J."""
         return self.kinetic_energy(q, qd) + self.potential_energy(q)
 
-    def state_derivative(self, x, u) -> np.ndarray:
+    def state_derivative(self, x: ArrayLike, u: ArrayLike) -> np.ndarray:
         """ẋ of the state x = [q; q̇], shape (2n,), in rad/s and rad/s².
 
         x: (2n,), the coordinates first, then the velocities. u: (n,), N·m.

@@ -13,8 +13,9 @@ Robotic Manipulation, lemma 4.2.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from armdyn.manipulator import ROUNDING
+from armdyn.manipulator import ROUNDING, Manipulator
 from armdyn.parameters import state_vectors
 
 EPS = np.finfo(float).eps
@@ -70,7 +71,7 @@ class CoriolisFinding(Finding):
         return f"{super().__str__()}\n{self.torque}"
 
 
-def symmetry(model, q) -> Finding:
+def symmetry(model: Manipulator, q: ArrayLike) -> Finding:
     """M = Mᵀ; the violation is max |M − Mᵀ| / max |M|. q: (..., n), rad."""
     (q,) = _states(model, q=q)
     M = model.M(q)
@@ -78,7 +79,7 @@ def symmetry(model, q) -> Finding:
     return _worst("M = Mᵀ", _largest(difference), _largest(M), 10 * EPS, q=q)
 
 
-def positive_definiteness(model, q) -> Finding:
+def positive_definiteness(model: Manipulator, q: ArrayLike) -> Finding:
     """All eigenvalues of M are > 0; the witness holds the smallest one (kg·m²) and its eigenvector.
 
     The violation is 1 if the smallest eigenvalue is not above rounding, n·1.8e-15 times the
@@ -100,7 +101,7 @@ def positive_definiteness(model, q) -> Finding:
     return Finding("M > 0", float(relative[at] <= floor), floor, witness)
 
 
-def skew_symmetry(model, q, qd) -> Finding:
+def skew_symmetry(model: Manipulator, q: ArrayLike, qd: ArrayLike) -> Finding:
     """Ṁ − 2C is skew-symmetric: zᵀ(Ṁ − 2C)z = 0 for every z, not for z = q̇ alone.
 
     The violation is max |N + Nᵀ| / (max(|Ṁ|, |C|) + |M| |q̇|), with N = Ṁ − 2C and Ṁ by differences
@@ -115,7 +116,7 @@ def skew_symmetry(model, q, qd) -> Finding:
     return _worst("Ṁ − 2C is skew-symmetric", _largest(sum_), scale, DIFFERENCE_FLOOR, **shown)
 
 
-def inertia_rate(model, q, qd) -> Finding:
+def inertia_rate(model: Manipulator, q: ArrayLike, qd: ArrayLike) -> Finding:
     """Ṁ = C + Cᵀ: the same as skew-symmetry, as long as M is symmetric.
 
     The violation is max |Ṁ − C − Cᵀ| over the scale of `skew_symmetry`, with Ṁ by differences of M;
@@ -128,7 +129,7 @@ def inertia_rate(model, q, qd) -> Finding:
     return _worst("Ṁ = C + Cᵀ", _largest(M_dot - sum_), scale, DIFFERENCE_FLOOR, **shown)
 
 
-def christoffel_form(model, q, qd) -> CoriolisFinding:
+def christoffel_form(model: Manipulator, q: ArrayLike, qd: ArrayLike) -> CoriolisFinding:
     """C_ij = Σ_k h_ijk q̇_k with h_ijk = ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), or merely valid.
 
     The derivatives are differences of M, so that C is judged by M alone. The violation is
@@ -155,7 +156,7 @@ def christoffel_form(model, q, qd) -> CoriolisFinding:
     return CoriolisFinding(**vars(finding), torque=valid)
 
 
-def gravity_gradient(model, q) -> Finding:
+def gravity_gradient(model: Manipulator, q: ArrayLike) -> Finding:
     """g = ∂P/∂q, with the gradient by differences of P; the witness holds both.
 
     The violation is max |g − ∇P| over |g| and the size of P around q. q: (..., n), rad.
@@ -170,7 +171,7 @@ def gravity_gradient(model, q) -> Finding:
     return _worst("g = ∂P/∂q", off, scale, DIFFERENCE_FLOOR, q=q, g=g_vec, gradient=gradient)
 
 
-def power_balance(model, q, qd, u) -> Finding:
+def power_balance(model: Manipulator, q: ArrayLike, qd: ArrayLike, u: ArrayLike) -> Finding:
     """dE/dt = q̇ᵀ(u − f) along the motion: the arm stores what goes in, less what friction takes.
 
     The violation is |dE/dt − q̇ᵀ(u − f)| over the sizes of the powers and energies, with dE/dt by

@@ -21,8 +21,10 @@ Manipulator Loads and Links.
 from functools import singledispatch
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.geometry import INERTIA, PLANAR, SPATIAL, PlanarGeometry, geometry, sum_of_those_before
+from armdyn.manipulator import Manipulator
 from armdyn.models import Pendulum, Planar2R, PlanarChain, SerialChain
 from armdyn.parameters import state_vector, state_vectors
 
@@ -33,7 +35,7 @@ UNIT_INERTIAS = np.array(
 
 
 @singledispatch
-def parameters(model) -> np.ndarray:
+def parameters(model: Manipulator) -> np.ndarray:
     """π of a model, all links in a row: (4n,) for planar arms, (10n,) for spatial chains.
 
     The order and units are the module's. Raises ValueError for a model that has no links to read
@@ -71,13 +73,15 @@ def _(model: SerialChain):
     return np.concatenate([mass, mass * com, J[:, *np.transpose(INERTIA)]], axis=-1).ravel()
 
 
-def parameter_names(model) -> tuple[str, ...]:
+def parameter_names(model: Manipulator) -> tuple[str, ...]:
     """The names of the entries of π; "J2" is the inertia of link 2 about its joint."""
     shape = geometry(model)
     return tuple(name.format(i + 1) for i in range(shape.n) for name in shape.names)
 
 
-def regressor(model, q, qd, qdd, qd_ref=None) -> np.ndarray:
+def regressor(
+    model: Manipulator, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, qd_ref: ArrayLike | None = None
+) -> np.ndarray:
     """Y with M q̈ + C q̇ + g = Y π, (..., n, 4n) for planar arms, (..., n, 10n) for spatial chains.
 
     q, qd, qdd: (..., n), rad, rad/s, rad/s² (m for a prismatic joint). Of the model only the geometry
@@ -103,7 +107,7 @@ def regressor(model, q, qd, qdd, qd_ref=None) -> np.ndarray:
     return _spatial_regressor(shape.chain, q, qd, qdd, qd_ref)
 
 
-def armature_columns(qdd) -> np.ndarray:
+def armature_columns(qdd: ArrayLike) -> np.ndarray:
     """A with A a = the motors' part of M q̈, a the armature of each joint; (..., n, n).
 
     qdd: (..., n), rad/s² (m/s² for a prismatic joint). Raises ValueError for a qdd that is not
@@ -118,7 +122,7 @@ def armature_columns(qdd) -> np.ndarray:
     return np.eye(*size) * state_vector("qdd", qdd, *size)[..., np.newaxis]
 
 
-def friction_columns(qd) -> np.ndarray:
+def friction_columns(qd: ArrayLike) -> np.ndarray:
     """F with f(q̇) = F [d; k]: viscous coefficients d, then Coulomb torques k; (..., n, 2n).
 
     qd: (..., n), rad/s. Raises ValueError for a qd that is not finite numbers.

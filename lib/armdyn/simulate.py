@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy import integrate
 
 from armdyn.events import Event, Trajectory, Watch, listed
@@ -35,7 +36,7 @@ SCIPY_METHODS = ("RK45", "RK23", "DOP853", "LSODA")
 SMALLEST_RTOL = 100 * np.finfo(float).eps
 
 
-def rk4_step(f, x, u, dt: float) -> np.ndarray:
+def rk4_step(f, x: ArrayLike, u: ArrayLike, dt: float) -> np.ndarray:
     """One step of the classical Runge-Kutta method, order 4, with u held over the step.
 
     f(x, u) gives ẋ. x: (..., N). dt in s. Returns the state after dt, (..., N). Raises ValueError
@@ -50,9 +51,9 @@ def rk4_step(f, x, u, dt: float) -> np.ndarray:
 
 def simulate(
     f,
-    x0,
+    x0: ArrayLike,
     u: Input,
-    t,
+    t: ArrayLike,
     method: str = "rk4",
     rtol: float = 1e-9,
     atol: float = 1e-12,
@@ -118,7 +119,7 @@ def simulate(
     return states if watch is None else watch.trajectory(reached, states)
 
 
-def energy_drift(model, x) -> np.ndarray:
+def energy_drift(model: Manipulator, x: ArrayLike) -> np.ndarray:
     """E − E₀ along states x of shape (..., T, 2n): (..., T), J.
 
     Zero for exact motion without input and friction. Raises ValueError for another shape.
@@ -146,7 +147,13 @@ class Convergence:
 
 
 def observed_order(
-    f, x0, u: Input, t_end: float, method: str = "rk4", steps: int = 64, halvings: int = 4
+    f,
+    x0: ArrayLike,
+    u: Input,
+    t_end: float,
+    method: str = "rk4",
+    steps: int = 64,
+    halvings: int = 4,
 ) -> Convergence:
     """The order a fixed-step method shows on ẋ = f(x, u) from 0 to t_end (s), by halving the step.
 

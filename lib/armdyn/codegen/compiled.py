@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.codegen import build, c_code, c_module, straight_line
 from armdyn.codegen.numpy_code import SUSPECT, NumpyModel, generated_terms
@@ -41,7 +42,7 @@ class CompiledModel(NumpyModel):
         super().__post_init__()
         _ = self._compiled, self._k
 
-    def dynamics(self, q, qd, u) -> np.ndarray:
+    def dynamics(self, q: ArrayLike, qd: ArrayLike, u: ArrayLike) -> np.ndarray:
         """q̈ = M⁻¹ (u − C q̇ − g − f), (n,); raises as `Manipulator.dynamics`.
 
         A subclass with another M, C, g or f moves by its own, here and in the other calls; what the
@@ -50,7 +51,9 @@ class CompiledModel(NumpyModel):
         found = self._one(self._k, q, qd, u)
         return self._checked_dynamics(q, qd, u) if found is None else found
 
-    def dynamics_many(self, q, qd, u, out=None) -> np.ndarray:
+    def dynamics_many(
+        self, q: ArrayLike, qd: ArrayLike, u: ArrayLike, out: np.ndarray | None = None
+    ) -> np.ndarray:
         """q̈ of many states, (..., n), as `dynamics`; into `out` if given.
 
         out: float64, C-contiguous, of the shape of the result; ValueError for another.
@@ -85,7 +88,9 @@ class CompiledModel(NumpyModel):
             return self._checked_floats
         return partial(self._compiled.of_floats, self._k, self._checked_floats)
 
-    def rk4(self, x0, u, dt: float, steps: int, final: bool = False) -> np.ndarray:
+    def rk4(
+        self, x0: ArrayLike, u: ArrayLike, dt: float, steps: int, final: bool = False
+    ) -> np.ndarray:
         """States by the classical Runge–Kutta method, `steps` steps of `dt` s with constant input.
 
         x0: (2n,), the coordinates, then the velocities. u: (n,), N·m. Leading batch axes are many

@@ -5,6 +5,7 @@ from sympy.printing.cxx import CXX17CodePrinter
 
 from armdyn.codegen.printing import CFamily, code
 from armdyn.codegen.program import ARGUMENTS, FUNCTIONS, Program, program, rows, wrapped
+from armdyn.derive import Derivation
 
 RESERVED = {
     *CXX17CodePrinter.reserved_words,
@@ -16,7 +17,7 @@ RESERVED = {
 }
 
 
-def cpp(derivation, name: str = "Arm") -> str:
+def cpp(derivation: Derivation, name: str = "Arm") -> str:
     """A C++ header (C++11, Eigen 3) with a struct `name`: parameters, and the equation's functions.
 
     M(q), C(q, qd), g_vec(q), f_vec(qd), potential_energy(q) and dynamics(q, qd, u), which solves

@@ -4,6 +4,7 @@ from sympy.printing.c import C89CodePrinter
 
 from armdyn.codegen.printing import CFamily, code
 from armdyn.codegen.program import ARGUMENTS, FUNCTIONS, Program, program, rows, wrapped
+from armdyn.derive import Derivation
 
 # fmt: off
 KEYWORDS = {
@@ -28,7 +29,7 @@ FUNCTIONS_OF_MATH = {
 RESERVED = {*KEYWORDS, *METHODS, "Math", "SimpleMatrix", *FUNCTIONS, *ARGUMENTS}
 
 
-def java(derivation, name: str = "Arm") -> str:
+def java(derivation: Derivation, name: str = "Arm") -> str:
     """The file `name`.java (Java 16, EJML): a record of the parameters, with the equation's functions.
 
     M(q), C(q, qd), g_vec(q), f_vec(qd), potential_energy(q) and dynamics(q, qd, u) take and give

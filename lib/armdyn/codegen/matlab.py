@@ -8,6 +8,7 @@ from sympy.printing.octave import OctaveCodePrinter, known_fcns_src1, known_fcns
 
 from armdyn.codegen.printing import Logic, ShortFloats, code
 from armdyn.codegen.program import ARGUMENTS, FUNCTIONS, Program, program, rows, wrapped
+from armdyn.derive import Derivation
 
 # fmt: off
 KEYWORDS = {
@@ -28,7 +29,7 @@ RESERVED = {
 }
 
 
-def matlab(derivation, name: str = "Arm") -> dict[str, str]:
+def matlab(derivation: Derivation, name: str = "Arm") -> dict[str, str]:
     """The files of a MATLAB package `name`, one function each: file name → source.
 
     With the folder that holds `+name` on the path, `name.M(q, arm)`, `name.C(q, qd, arm)`,

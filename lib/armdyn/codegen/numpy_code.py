@@ -1,13 +1,14 @@
 """Makes NumPy callables of a derivation, with batch axes."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
 import sympy as sp
+from numpy.typing import ArrayLike
 
 from armdyn.codegen import straight_line
 from armdyn.codegen.buffers import in_buffers
@@ -61,34 +62,34 @@ class NumpyModel(Manipulator):
         """The number of coordinates."""
         return self.derivation.n
 
-    def M(self, q) -> np.ndarray:
+    def M(self, q: ArrayLike) -> np.ndarray:
         """Joint-space inertia matrix, (n, n); q: (n,)."""
         return self._inertia(state_vector("q", q, self.n))
 
-    def C(self, q, qd) -> np.ndarray:
+    def C(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """Coriolis and centrifugal matrix in Christoffel form, (n, n); q, qd: (n,)."""
         return self._coriolis(*state_vectors(self.n, q=q, qd=qd))
 
-    def g_vec(self, q) -> np.ndarray:
+    def g_vec(self, q: ArrayLike) -> np.ndarray:
         """Gravity vector ∂P/∂q, (n,); q: (n,)."""
         return self._gravity(state_vector("q", q, self.n))
 
-    def f_vec(self, qd) -> np.ndarray:
+    def f_vec(self, qd: ArrayLike) -> np.ndarray:
         """Friction f(q̇), (n,); qd: (n,)."""
         return self._friction(state_vector("qd", qd, self.n))
 
-    def potential_energy(self, q) -> np.ndarray:
+    def potential_energy(self, q: ArrayLike) -> np.ndarray:
         """Potential energy P, scalar, J; q: (n,)."""
         return self._potential(state_vector("q", q, self.n))[()]
 
-    def dynamics(self, q, qd, u) -> np.ndarray:
+    def dynamics(self, q: ArrayLike, qd: ArrayLike, u: ArrayLike) -> np.ndarray:
         """q̈ = M⁻¹ (u − C q̇ − g − f), (n,), by M = L D Lᵀ written out; raises as `Manipulator`.
 
         A subclass with another M, C, g or f moves by its own.
         """
         if not generated_terms(self):
             return super().dynamics(q, qd, u)
-        states = [q, qd, u]
+        states: Sequence[ArrayLike] = [q, qd, u]
         # Of plain arrays, what is not finite is left to `Manipulator` below, which names it.
         if not all(_plain(s, self.n) for s in states):
             states = state_vectors(self.n, q=q, qd=qd, u=u)
@@ -99,7 +100,7 @@ class NumpyModel(Manipulator):
             found = None
         return super().dynamics(*states) if found is None else found
 
-    def slope_in_q(self, q, qd, qdd) -> np.ndarray | None:
+    def slope_in_q(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> np.ndarray | None:
         """∂(M q̈ + C q̇ + g)/∂q, (n, n), from the derivation's own derivatives; q, qd, qdd: (n,).
 
         None where they would take long to derive, with more than four coordinates, and where M, C or
@@ -169,7 +170,7 @@ class NumpyModel(Manipulator):
 _M, _C, _G, _F = NumpyModel.M, NumpyModel.C, NumpyModel.g_vec, NumpyModel.f_vec
 
 
-def generated_terms(model) -> bool:
+def generated_terms(model: Manipulator) -> bool:
     """Whether M, C, g and f are the generated ones, whatever others could have come in their place."""
     cls = type(model)
     return (

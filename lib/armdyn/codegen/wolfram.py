@@ -4,6 +4,7 @@ from sympy.printing.mathematica import MCodePrinter, known_functions
 
 from armdyn.codegen.printing import Logic, code
 from armdyn.codegen.program import Program, Routine, program, rows, wrapped
+from armdyn.derive import Derivation
 
 HEADS = {"Abs": "Abs", "sign": "Sign", "floor": "Floor", "ceiling": "Ceiling"}
 RESERVED = {
@@ -26,7 +27,7 @@ RESERVED = {
 }
 
 
-def wolfram(derivation, name: str = "arm") -> str:
+def wolfram(derivation: Derivation, name: str = "arm") -> str:
     """Wolfram Language source: definitions, symbolic in the parameters, whose names begin with `name`.
 
     nameM[q], nameC[q, qd], nameGVec[q], nameFVec[qd], namePotentialEnergy[q] and

@@ -1,6 +1,7 @@
 """Holds the result of a derivation: the terms of M q̈ + C q̇ + g + f = u as SymPy expressions."""
 
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -86,7 +87,9 @@ class Derivation:
         rows = graph.slopes(list(self.C), self.qd)
         return sp.ImmutableDenseNDimArray(rows, (self.n,) * 3)
 
-    def inverse_dynamics_slopes(self, qdd) -> tuple[sp.ImmutableMatrix, sp.ImmutableMatrix]:
+    def inverse_dynamics_slopes(
+        self, qdd: Sequence[sp.Expr]
+    ) -> tuple[sp.ImmutableMatrix, sp.ImmutableMatrix]:
         """∂u/∂q and ∂u/∂q̇ of u = M q̈ + C q̇ + g + f, (n, n) each; ∂u/∂q̈ is M.
 
         qdd: n symbols or expressions. Raises ValueError for another number of them. sign(q̇), of
@@ -101,7 +104,9 @@ class Derivation:
         by_q, by_qd = (self.slopes(left, symbols) for symbols in (self.q, self.qd))
         return by_q, (by_qd + friction).as_immutable()
 
-    def slopes(self, entries, symbols) -> sp.ImmutableMatrix:
+    def slopes(
+        self, entries: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]
+    ) -> sp.ImmutableMatrix:
         """∂e_i/∂s_j of expressions of this derivation, one row each.
 
         Part by part where they share their parts: written out, those of a robot are long.
@@ -110,7 +115,7 @@ class Derivation:
             return sp.Matrix(entries).jacobian(symbols).as_immutable()
         return sp.ImmutableMatrix(graph.slopes(list(entries), symbols))
 
-    def equations(self, qdd, u) -> tuple[sp.Eq, ...]:
+    def equations(self, qdd: Sequence[sp.Expr], u: Sequence[sp.Expr]) -> tuple[sp.Eq, ...]:
         """The n equations of motion (M q̈ + C q̇ + g + f)_i = u_i.
 
         qdd, u: n symbols or expressions each. Raises ValueError for another number of them.
@@ -119,7 +124,9 @@ class Derivation:
         left = self.M * sp.Matrix(qdd) + self.C * sp.Matrix(self.qd) + self.g_vec + self.f_vec
         return tuple(sp.Eq(a, b, evaluate=False) for a, b in zip(left, u, strict=True))
 
-    def with_friction(self, viscous=None, coulomb=None) -> "Derivation":
+    def with_friction(
+        self, viscous: Sequence[sp.Expr] | None = None, coulomb: Sequence[sp.Expr] | None = None
+    ) -> "Derivation":
         """The same model with d_i q̇_i + k_i sign(q̇_i) added to f_i; at rest sign(0) = 0.
 
         viscous d, coulomb k: n symbols or expressions each (N·m·s/rad and N·m at a revolute joint),
@@ -158,7 +165,7 @@ class Derivation:
         )
 
 
-def christoffel_symbols(M, q) -> sp.ImmutableDenseNDimArray:
+def christoffel_symbols(M: sp.Matrix, q: Sequence[sp.Symbol]) -> sp.ImmutableDenseNDimArray:
     """h_ijk = ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), (n, n, n): the first index is the free one.
 
     M: symmetric SymPy matrix, (n, n), whose upper triangle is read. q: n symbols.
@@ -178,7 +185,13 @@ def christoffel_symbols(M, q) -> sp.ImmutableDenseNDimArray:
     return sp.ImmutableDenseNDimArray(h, (n, n, n))
 
 
-def from_inertia(M, P, q, qd, parameters) -> Derivation:
+def from_inertia(
+    M: sp.Matrix,
+    P: sp.Expr,
+    q: Sequence[sp.Symbol],
+    qd: Sequence[sp.Symbol],
+    parameters: Sequence[sp.Symbol],
+) -> Derivation:
     """The derivation of K = ½ q̇ᵀ M q̇ and P: C_ij = Σ_k h_ijk q̇_k and g = ∂P/∂q."""
     n = len(q)
     h = christoffel_symbols(M, q)
@@ -187,7 +200,9 @@ def from_inertia(M, P, q, qd, parameters) -> Derivation:
     return Derivation(tuple(q), tuple(qd), tuple(parameters), sp.ImmutableMatrix(M), C, gradient, P)
 
 
-def parameters_of(expressions, q, qd) -> tuple[sp.Symbol, ...]:
+def parameters_of(
+    expressions: Iterable[sp.Expr], q: Sequence[sp.Symbol], qd: Sequence[sp.Symbol]
+) -> tuple[sp.Symbol, ...]:
     """The symbols that are neither coordinates nor velocities, by name, m2 before m10."""
     found = set().union(*(e.free_symbols for e in expressions)) - set(q) - set(qd)
     return tuple(sorted(found, key=_by_name))

@@ -1,5 +1,7 @@
 """Derives the equation of motion from kinetic and potential energy, or from a Lagrangian."""
 
+from collections.abc import Sequence
+
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -7,7 +9,9 @@ from armdyn.derive.derivation import Derivation, from_inertia, parameters_of
 from armdyn.derive.names import refuse_shared, refuse_taken
 
 
-def from_energies(K, P, q, qd=None) -> Derivation:
+def from_energies(
+    K: sp.Expr, P: sp.Expr, q: Sequence[sp.Expr], qd: Sequence[sp.Symbol] | None = None
+) -> Derivation:
     """M, C and g of K(q, q̇) = ½ q̇ᵀ M(q) q̇ and P(q), by the Euler–Lagrange equations.
 
     K, P: SymPy expressions (J). q: n symbols, and qd as many for the velocities; or q: n functions
@@ -37,7 +41,9 @@ def from_energies(K, P, q, qd=None) -> Derivation:
     return from_inertia(M, P, q, qd, parameters_of((K, P), q, qd))
 
 
-def from_lagrangian(L, q, qd=None) -> Derivation:
+def from_lagrangian(
+    L: sp.Expr, q: Sequence[sp.Expr], qd: Sequence[sp.Symbol] | None = None
+) -> Derivation:
     """M, C and g of L(q, q̇) = ½ q̇ᵀ M(q) q̇ − P(q): as `from_energies`, P being −L at q̇ = 0.
 
     Raises ValueError, naming the term, if L has a term that is neither of degree 2 in q̇ nor free

@@ -1,5 +1,6 @@
 """Derives the equation of motion from links and joints: M = Σ JᵀIJ in symbols."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import sympy as sp
@@ -53,7 +54,12 @@ class Link:
             raise ValueError(f"axis = {tuple(self.axis)}: needs a vector of length 1")
 
 
-def from_links(links, gravity=None, q=None, qd=None) -> Derivation:
+def from_links(
+    links: Sequence[Link],
+    gravity: Sequence[sp.Expr] | None = None,
+    q: Sequence[sp.Symbol] | None = None,
+    qd: Sequence[sp.Symbol] | None = None,
+) -> Derivation:
     """M = Σ JᵀIJ, C (Christoffel) and g = ∂P/∂q of a chain of links, each on the one before it.
 
     links: a sequence of `Link`. gravity: the gravitational acceleration in the base frame, (3,),

@@ -1,5 +1,6 @@
 """Derives two mechanisms that are no open chain of rigid links: elastic joints, and a slider-crank."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import sympy as sp
@@ -9,7 +10,11 @@ from armdyn.derive.energies import from_energies
 from armdyn.derive.names import refuse_taken
 
 
-def elastic_joints(rigid: Derivation, stiffness=None, rotor_inertia=None) -> Derivation:
+def elastic_joints(
+    rigid: Derivation,
+    stiffness: Sequence[sp.Expr] | None = None,
+    rotor_inertia: Sequence[sp.Expr] | None = None,
+) -> Derivation:
     """The arm `rigid` with a torsional spring between each motor and its link: 2n coordinates.
 
     q: the link angles of `rigid`, then the motor angles theta1…thetan, seen behind the gears; their

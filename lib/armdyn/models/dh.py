@@ -1,8 +1,10 @@
 """Links from a table of Denavit–Hartenberg parameters."""
 
+from collections.abc import Sequence
 from typing import Literal, get_args
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.models.link import Joint, Link
 from armdyn.parameters import nonnegative, numbers, real_array
@@ -13,7 +15,16 @@ X, Z = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def dh_links(
-    a, alpha, d, theta, mass, com, inertia, joints, convention, triangle
+    a: ArrayLike,
+    alpha: ArrayLike,
+    d: ArrayLike,
+    theta: ArrayLike,
+    mass: ArrayLike,
+    com: ArrayLike | None,
+    inertia: ArrayLike | None,
+    joints: str | Sequence[str] | None,
+    convention: Convention,
+    triangle: Literal["error", "warn"],
 ) -> tuple[Link, ...]:
     """The links of `SerialChain.from_dh`, which says what the arguments are."""
     if convention not in get_args(Convention):

@@ -1,11 +1,12 @@
 """The inertia of a motor behind a gear, as its joint feels it."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.parameters import all_finite, real_array
 
 
-def reflected_inertia(rotor_inertia, gear_ratio) -> np.ndarray:
+def reflected_inertia(rotor_inertia: ArrayLike, gear_ratio: ArrayLike) -> np.ndarray:
     """Gear ratio² × rotor inertia: the `armature` of a `SerialChain`, (...).
 
     rotor_inertia: (...), kg·m², of what turns with the motor's shaft, about that shaft. gear_ratio:

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, fields
 from typing import Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.friction import joint_friction
 from armdyn.manipulator import Manipulator
@@ -60,25 +61,25 @@ class Pendulum(Manipulator):
         nonnegative("lc", lc, "m")
         return cls(m=m, lc=lc, I=I_com + m * lc**2, **others)
 
-    def M(self, q) -> np.ndarray:
+    def M(self, q: ArrayLike) -> np.ndarray:
         """(1, 1), kg·m²: the constant I."""
         q = state_vector("q", q, 1)
         return np.full((*q.shape, 1), self.I)
 
-    def C(self, q, qd) -> np.ndarray:
+    def C(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """(1, 1), kg·m²/s: zero, since M does not depend on q."""
         q, qd = state_vectors(1, q=q, qd=qd)
         return np.zeros((*np.broadcast_shapes(q.shape, qd.shape), 1))
 
-    def g_vec(self, q) -> np.ndarray:
+    def g_vec(self, q: ArrayLike) -> np.ndarray:
         """m g ℓc sin q, (1,), N·m."""
         return self.m * self.g * self.lc * np.sin(state_vector("q", q, 1))
 
-    def f_vec(self, qd) -> np.ndarray:
+    def f_vec(self, qd: ArrayLike) -> np.ndarray:
         """Viscous and Coulomb friction, (1,), N·m."""
         return joint_friction(state_vector("qd", qd, 1), self.viscous, self.coulomb)
 
-    def potential_energy(self, q) -> np.ndarray:
+    def potential_energy(self, q: ArrayLike) -> np.ndarray:
         """P = m g ℓc (1 − cos q), zero when hanging, J."""
         q = state_vector("q", q, 1)[..., 0]
         return self.m * self.g * self.lc * (1 - np.cos(q))

@@ -7,6 +7,7 @@ from math import cos, inf, sin
 
 import numpy as np
 from numpy import empty  # found a little sooner, and `dynamics` is a matter of nanoseconds
+from numpy.typing import ArrayLike
 
 from armdyn.friction import joint_friction
 from armdyn.manipulator import TERMS, Manipulator
@@ -67,7 +68,7 @@ class Planar2R(Manipulator):
             # Floats and tuples whatever came, so that arms compare and hash by their numbers.
             object.__setattr__(self, name, value)
 
-    def M(self, q) -> np.ndarray:
+    def M(self, q: ArrayLike) -> np.ndarray:
         """(2, 2), kg·m²; it depends on q2 alone."""
         q2 = state_vector("q", q, 2)[..., 1]
         coupling = self.m2 * self.l1 * self.lc2 * np.cos(q2)
@@ -79,7 +80,7 @@ class Planar2R(Manipulator):
                        M12, M22)
         # fmt: on
 
-    def C(self, q, qd) -> np.ndarray:
+    def C(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """Christoffel form, (2, 2), kg·m²/s."""
         q, qd = state_vectors(2, q=q, qd=qd)
         qd1, qd2 = qd[..., 0], qd[..., 1]
@@ -89,18 +90,18 @@ class Planar2R(Manipulator):
                        -h * qd1, 0.0)
         # fmt: on
 
-    def g_vec(self, q) -> np.ndarray:
+    def g_vec(self, q: ArrayLike) -> np.ndarray:
         """(2,), N·m."""
         q = state_vector("q", q, 2)
         g2 = self.m2 * self.lc2 * self.g * np.cos(q[..., 0] + q[..., 1])
         g1 = (self.m1 * self.lc1 + self.m2 * self.l1) * self.g * np.cos(q[..., 0]) + g2
         return np.stack([g1, g2], axis=-1)
 
-    def f_vec(self, qd) -> np.ndarray:
+    def f_vec(self, qd: ArrayLike) -> np.ndarray:
         """Viscous and Coulomb friction of each joint, (2,), N·m."""
         return joint_friction(state_vector("qd", qd, 2), self.viscous, self.coulomb)
 
-    def dynamics(self, q, qd, u) -> np.ndarray:
+    def dynamics(self, q: ArrayLike, qd: ArrayLike, u: ArrayLike) -> np.ndarray:
         """Acceleration q̈ = M⁻¹ (u − C q̇ − g − f), (2,), rad/s²; errors as in `Manipulator`.
 
         One state without friction is summed in plain floats, and M solved by Cramer's rule: for two
@@ -113,16 +114,16 @@ class Planar2R(Manipulator):
         try:
             a, b, k, G1, G2, least = own["_lumped"]
             if (
-                q.dtype is qd.dtype is u.dtype is FLOAT
+                q.dtype is qd.dtype is u.dtype is FLOAT  # type: ignore[union-attr]  # tried, below
                 and cls.g_vec is _G
                 and cls.f_vec is _F
                 and cls.C is _C
                 and cls.M is _M
                 and (len(own) == PLAIN or TERMS.isdisjoint(own))
             ):
-                q1, q2 = q.tolist()
-                qd1, qd2 = qd.tolist()
-                u1, u2 = u.tolist()
+                q1, q2 = q.tolist()  # type: ignore[union-attr]
+                qd1, qd2 = qd.tolist()  # type: ignore[union-attr]
+                u1, u2 = u.tolist()  # type: ignore[union-attr]
                 coupling, minus_h, g2 = k * cos(q2), k * sin(q2), G2 * cos(q1 + q2)
                 det = a * b - coupling * coupling
                 if det > least:
@@ -159,7 +160,7 @@ class Planar2R(Manipulator):
         plain = not computed and not any(self.viscous + self.coulomb)
         return a, b, k, G1, G2, 1e-3 * a * b if plain else inf
 
-    def potential_energy(self, q) -> np.ndarray:
+    def potential_energy(self, q: ArrayLike) -> np.ndarray:
         """Zero with both centres of mass at the height of joint 1, J."""
         q = state_vector("q", q, 2)
         q1, q12 = q[..., 0], q[..., 0] + q[..., 1]

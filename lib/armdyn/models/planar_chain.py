@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.friction import joint_friction
 from armdyn.manipulator import Manipulator
@@ -70,7 +71,7 @@ class PlanarChain(Manipulator):
     def n(self) -> int:  # type: ignore[override]  # read only here, and nobody writes it
         return len(self.l)
 
-    def M(self, q) -> np.ndarray:
+    def M(self, q: ArrayLike) -> np.ndarray:
         """(n, n), kg·m²; it does not depend on q1."""
         turn = self._turns(state_vector("q", q, self.n))
         absolute = (self._pairs * turn).real + np.diag(self.I)
@@ -78,23 +79,23 @@ class PlanarChain(Manipulator):
         # The sums round differently above and below the diagonal.
         return (M + np.swapaxes(M, -1, -2)) / 2
 
-    def C(self, q, qd) -> np.ndarray:
+    def C(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """Christoffel form, (n, n), kg·m²/s: Σ m Jᵀ J̇, which for a planar chain has that form."""
         q, qd = state_vectors(self.n, q=q, qd=qd)
         ad = np.cumsum(qd, axis=-1)
         absolute = -(self._pairs * self._turns(q)).imag * ad[..., np.newaxis, :]
         return _sum_of_later(_sum_of_later(absolute, axis=-2), axis=-1)
 
-    def g_vec(self, q) -> np.ndarray:
+    def g_vec(self, q: ArrayLike) -> np.ndarray:
         """(n,), N·m."""
         a = np.cumsum(state_vector("q", q, self.n), axis=-1)
         return self.g * _sum_of_later((self._moments * np.exp(1j * a)).real, axis=-1)
 
-    def f_vec(self, qd) -> np.ndarray:
+    def f_vec(self, qd: ArrayLike) -> np.ndarray:
         """Viscous and Coulomb friction of each joint, (n,), N·m."""
         return joint_friction(state_vector("qd", qd, self.n), self.viscous, self.coulomb)
 
-    def potential_energy(self, q) -> np.ndarray:
+    def potential_energy(self, q: ArrayLike) -> np.ndarray:
         """Zero with all centres of mass at the height of joint 1, J."""
         a = np.cumsum(state_vector("q", q, self.n), axis=-1)
         return self.g * np.sum((self._moments * np.exp(1j * a)).imag, axis=-1)

@@ -1,13 +1,18 @@
 """Links from screw axes: the product of exponentials."""
 
+from typing import Literal
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.models.link import TOLERANCE, Joint, Link
 from armdyn.parameters import numbers, real_array
 from armdyn.spatial import rigid_inertia
 
 
-def screw_links(screws, homes, inertias, triangle) -> tuple[Link, ...]:
+def screw_links(
+    screws: ArrayLike, homes: ArrayLike, inertias: ArrayLike, triangle: Literal["error", "warn"]
+) -> tuple[Link, ...]:
     """The links of `SerialChain.from_screws`, which says what the arguments are."""
     needs = "real numbers of shape (n, 6), a row [ω; v] per joint"
     n = len(np.atleast_1d(real_array("screws", screws, needs)))

@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.friction import joint_friction
 from armdyn.manipulator import ROUNDING, Manipulator
@@ -93,15 +94,15 @@ class SerialChain(Manipulator):
     @classmethod
     def from_dh(
         cls,
-        a,
-        alpha,
-        d,
-        theta,
-        mass,
-        com=None,
-        inertia=None,
+        a: ArrayLike,
+        alpha: ArrayLike,
+        d: ArrayLike,
+        theta: ArrayLike,
+        mass: ArrayLike,
+        com: ArrayLike | None = None,
+        inertia: ArrayLike | None = None,
         *,
-        joints=None,
+        joints: str | Sequence[str] | None = None,
         convention: Convention = "standard",
         triangle: Literal["error", "warn"] = "error",
         **more,
@@ -132,7 +133,13 @@ class SerialChain(Manipulator):
 
     @classmethod
     def from_screws(
-        cls, screws, homes, inertias, *, triangle: Literal["error", "warn"] = "error", **more
+        cls,
+        screws: ArrayLike,
+        homes: ArrayLike,
+        inertias: ArrayLike,
+        *,
+        triangle: Literal["error", "warn"] = "error",
+        **more,
     ) -> "SerialChain":
         """A chain by its joints' screw axes, the product of exponentials.
 
@@ -157,7 +164,7 @@ class SerialChain(Manipulator):
     def n(self) -> int:  # type: ignore[override]  # read only here, and nobody writes it
         return len(self.links)
 
-    def M(self, q) -> np.ndarray:
+    def M(self, q: ArrayLike) -> np.ndarray:
         """Σ_k J_kᵀ I_k J_k over the links, and the armature on the diagonal, (n, n)."""
         q = state_vector("q", q, self.n)
         M = np.zeros((*q.shape, self.n))
@@ -165,7 +172,7 @@ class SerialChain(Manipulator):
             M += np.swapaxes(J, -1, -2) @ I @ J
         return (M + np.swapaxes(M, -1, -2)) / 2 + np.diag(np.array(self.armature))
 
-    def C(self, q, qd) -> np.ndarray:
+    def C(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """Christoffel form, (n, n): Σ_k J_kᵀ (I_k J̇_k + B_k J_k) over the links.
 
         J̇_k is the rate of the Jacobian's entries in the link's own coordinates, and
@@ -190,7 +197,7 @@ class SerialChain(Manipulator):
             before = J
         return C
 
-    def g_vec(self, q) -> np.ndarray:
+    def g_vec(self, q: ArrayLike) -> np.ndarray:
         """−Σ_k J_kᵀ I_k [0; g⃗] over the links, with g⃗ in the link's coordinates, (n,)."""
         q = state_vector("q", q, self.n)
         transforms = self._transforms(q)
@@ -201,18 +208,18 @@ class SerialChain(Manipulator):
             result -= np.vecmat(np.matvec(I, pull), J)
         return result
 
-    def f_vec(self, qd) -> np.ndarray:
+    def f_vec(self, qd: ArrayLike) -> np.ndarray:
         """Viscous and Coulomb friction of each joint, (n,)."""
         return joint_friction(state_vector("qd", qd, self.n), self.viscous, self.coulomb)
 
-    def potential_energy(self, q) -> np.ndarray:
+    def potential_energy(self, q: ArrayLike) -> np.ndarray:
         """−Σ_k m_k g⃗ᵀ p_k with p_k the centre of mass: zero with all of them at the base, J."""
         R, p = self.link_placements(q)
         com = p + np.matvec(R, np.array([link.com for link in self.links]))
         mass = np.array([link.mass for link in self.links])
         return -np.matvec(com, np.array(self.gravity)) @ mass
 
-    def link_placements(self, q) -> tuple[np.ndarray, np.ndarray]:
+    def link_placements(self, q: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Of each link's frame in the base's: rotation (n, 3, 3), and origin (n, 3), m."""
         q = state_vector("q", q, self.n)
         turns, origins = [], []
@@ -224,7 +231,7 @@ class SerialChain(Manipulator):
             origins.append(np.broadcast_to(p, (*q.shape[:-1], 3)))
         return np.stack(turns, axis=-3), np.stack(origins, axis=-2)
 
-    def link_jacobians(self, q) -> np.ndarray:
+    def link_jacobians(self, q: ArrayLike) -> np.ndarray:
         """J_k of each link, (n, 6, n): J_k q̇ = [ω; v] of link k at its frame, in its coordinates."""
         q = state_vector("q", q, self.n)
         return np.stack(list(self._jacobians(self._transforms(q))), axis=-3)
@@ -236,7 +243,7 @@ class SerialChain(Manipulator):
         """
         return self._inertias.copy()
 
-    def rnea(self, q, qd, qdd) -> np.ndarray:
+    def rnea(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> np.ndarray:
         """u = M q̈ + C q̇ + g + f, (n,), in a number of operations proportional to n.
 
         The recursive Newton–Euler algorithm. Source: J. Y. S. Luh, M. W. Walker, R. P. C. Paul
@@ -263,7 +270,7 @@ class SerialChain(Manipulator):
             force = np.vecmat(force, transforms[k])
         return u
 
-    def crba(self, q) -> np.ndarray:
+    def crba(self, q: ArrayLike) -> np.ndarray:
         """M, (n, n), from the inertias of the links from k outwards taken as one body.
 
         The composite-rigid-body algorithm. Source: R. Featherstone (2008), Rigid Body Dynamics
@@ -283,7 +290,7 @@ class SerialChain(Manipulator):
             composite = _carried(composite, transforms[k])
         return M
 
-    def aba(self, q, qd, u) -> np.ndarray:
+    def aba(self, q: ArrayLike, qd: ArrayLike, u: ArrayLike) -> np.ndarray:
         """q̈ = M⁻¹ (u − C q̇ − g − f), (n,), in a number of operations proportional to n.
 
         The articulated-body algorithm. Raises numpy.linalg.LinAlgError, naming the joint, where

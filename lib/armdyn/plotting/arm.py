@@ -3,7 +3,9 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc
+from numpy.typing import ArrayLike
 
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import state_vector
 from armdyn.plotting.pose import direction, pose, skeleton
 from armdyn.plotting.style import OKABE_ITO
@@ -11,7 +13,7 @@ from armdyn.plotting.style import OKABE_ITO
 LINK = "#777777"
 
 
-def draw_arm(ax: Axes, model, q) -> None:
+def draw_arm(ax: Axes, model: Manipulator, q: ArrayLike) -> None:
     """Draw an arm at q on `ax`: links, joints, centres of mass, each angle from its own zero.
 
     model: a Pendulum, a Planar2R or a PlanarChain. q: (n,), rad. The axes are in m, x to the right,
@@ -38,7 +40,9 @@ def draw_arm(ax: Axes, model, q) -> None:
     plane(ax, edge)
 
 
-def draw_trace(ax: Axes, model, q, color: str = OKABE_ITO["vermilion"]) -> None:
+def draw_trace(
+    ax: Axes, model: Manipulator, q: ArrayLike, color: str = OKABE_ITO["vermilion"]
+) -> None:
     """Draw the path of the tip on `ax`, from a hollow circle to a square; q: (T, n), rad.
 
     A pendulum's tip is its centre of mass. Axes in m as in `draw_arm`, over which it can be drawn.
@@ -53,12 +57,12 @@ def draw_trace(ax: Axes, model, q, color: str = OKABE_ITO["vermilion"]) -> None:
     plane(ax, 1.15 * skeleton(model).reach)
 
 
-def tip(model, q) -> np.ndarray:
+def tip(model: Manipulator, q: ArrayLike) -> np.ndarray:
     """x and y of the tip of the last link, (..., 2), m; q: (..., n), rad. Raises as `draw_arm`."""
     return pose(model, q).joints[..., -1, :]
 
 
-def draw_links(ax: Axes, joints, color: str, width: float = 7) -> None:
+def draw_links(ax: Axes, joints: np.ndarray, color: str, width: float = 7) -> None:
     """The links between joints, (n + 1, 2), m."""
     ax.plot(*joints.T, "-", color=color, linewidth=width, solid_capstyle="round")
 

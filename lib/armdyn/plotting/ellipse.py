@@ -3,7 +3,9 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import positive, state_vector
 from armdyn.plotting.arm import draw_links, plane
 from armdyn.plotting.pose import pose, skeleton
@@ -12,7 +14,7 @@ from armdyn.plotting.style import DASHES, LINES, OKABE_ITO, figure
 POINTS = 181
 
 
-def draw_inertia_ellipse(ax: Axes, M, energy: float = 1.0, **line) -> np.ndarray:
+def draw_inertia_ellipse(ax: Axes, M: np.ndarray, energy: float = 1.0, **line) -> np.ndarray:
     """Draw the velocities with ½ q̇ᵀ M q̇ = energy (J) on `ax`: (q̇1, q̇2), rad/s; M: (2, 2), kg·m².
 
     The half-axes, which are drawn thin, are √(2·energy/λ) along the eigenvectors of M: they are
@@ -38,7 +40,7 @@ def draw_inertia_ellipse(ax: Axes, M, energy: float = 1.0, **line) -> np.ndarray
     return curve
 
 
-def inertia_ellipses(model, qs, energy: float = 1.0) -> Figure:
+def inertia_ellipses(model: Manipulator, qs: ArrayLike, energy: float = 1.0) -> Figure:
     """An arm in several postures, and beside it the velocities of one kinetic energy in each.
 
     model: with two joints. qs: (k, 2), rad, k up to 5. energy in J. Raises ValueError for another

@@ -6,13 +6,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from armdyn.equilibria import equilibria
+from armdyn.manipulator import Manipulator
 from armdyn.plotting.style import angle_ticks, figure
 
 POINTS = 121
 MARKS = {"minimum": "o", "saddle": "D", "maximum": "^"}
 
 
-def energy_landscape(model, limits: tuple[float, float] = (-np.pi, np.pi)) -> Figure:
+def energy_landscape(model: Manipulator, limits: tuple[float, float] = (-np.pi, np.pi)) -> Figure:
     """P over (q1, q2), J, from limits[0] to limits[1] (rad) both ways, and its equilibria.
 
     At a minimum of P the arm rests without torque and stays; it leaves a saddle or a maximum.

@@ -1,12 +1,15 @@
 """Draws the phase plane: angle against velocity."""
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from armdyn.equilibria import equilibria
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import positive, state_vector
 from armdyn.plotting.style import angle_ticks, figure
 
@@ -14,7 +17,10 @@ POINTS = 41
 
 
 def phase_portrait(
-    model, states=(), q_limits: tuple[float, float] = (-np.pi, np.pi), qd_limit: float | None = None
+    model: Manipulator,
+    states: Iterable[np.ndarray] = (),
+    q_limits: tuple[float, float] = (-np.pi, np.pi),
+    qd_limit: float | None = None,
 ) -> Figure:
     """How each state (q, q̇) of a free one-joint arm moves on, with its equilibria and given runs.
 
@@ -58,7 +64,7 @@ def phase_portrait(
     return fig
 
 
-def draw_phase(ax: Axes, model, x, joint: int = 0, **line) -> None:
+def draw_phase(ax: Axes, model: Manipulator, x: ArrayLike, joint: int = 0, **line) -> None:
     """Draw one joint's angle against its velocity on `ax`, from a hollow circle to a square.
 
     x: states over time, (T, 2n), rad and rad/s. joint counts from 0. line: keywords of `Axes.plot`.

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from functools import singledispatch
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from armdyn.manipulator import Manipulator
 from armdyn.models import Pendulum, Planar2R, PlanarChain
 from armdyn.parameters import state_vector
 
@@ -28,7 +30,7 @@ class Skeleton:
         bases = np.concatenate([[0], np.cumsum(self.l)])
         return float(max(bases[-1], np.max(bases[:-1] + np.hypot(self.lc, self.ly)))) or 1.0
 
-    def angles(self, q) -> np.ndarray:
+    def angles(self, q: ArrayLike) -> np.ndarray:
         """Each link's own direction, rad from x, of the shape of q."""
         return self.zero + np.cumsum(q, axis=-1)
 
@@ -45,7 +47,7 @@ class Pose:
 
 
 @singledispatch
-def skeleton(model) -> Skeleton:
+def skeleton(model: Manipulator) -> Skeleton:
     """The links of a model. Raises TypeError for one that cannot be drawn."""
     raise TypeError(
         f"plotting draws a Pendulum, a Planar2R or a PlanarChain, got {type(model).__name__}"
@@ -67,7 +69,7 @@ def _(model: PlanarChain) -> Skeleton:
     return _skeleton(model.l, model.lc, model.ly, 0.0)
 
 
-def pose(model, q) -> Pose:
+def pose(model: Manipulator, q: ArrayLike) -> Pose:
     """The pose at q, (..., n), rad. Raises as `skeleton`, and ValueError for another shape."""
     parts = skeleton(model)
     q = state_vector("q", q, model.n)
@@ -79,7 +81,7 @@ def pose(model, q) -> Pose:
     return Pose(joints, joints[..., :-1, :] + offsets, angles - q)
 
 
-def direction(angle) -> np.ndarray:
+def direction(angle: ArrayLike) -> np.ndarray:
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 

@@ -4,7 +4,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import state_vector
 from armdyn.plotting.arm import draw_arm
 from armdyn.plotting.style import OKABE_ITO, StyledFigure, styled
@@ -20,7 +22,9 @@ TERMS = (
 
 
 @styled
-def torque_terms(model, q, qd, qdd, limit: float | None = None) -> Figure:
+def torque_terms(
+    model: Manipulator, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, limit: float | None = None
+) -> Figure:
     """The arm at q, and beside it each joint's M q̈, C q̇, g, f and their sum u as bars, in N·m.
 
     q (rad), qd (rad/s), qdd (rad/s²): (n,). limit: the bars' axes run from −limit to limit (N·m),
@@ -40,7 +44,7 @@ def torque_terms(model, q, qd, qdd, limit: float | None = None) -> Figure:
     return fig
 
 
-def terms(model, q, qd, qdd) -> np.ndarray:
+def terms(model: Manipulator, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> np.ndarray:
     """M q̈, C q̇, g, f and u = their sum, as the rows of a (5, n) array, N·m."""
     qd, qdd = state_vector("qd", qd, model.n), state_vector("qdd", qdd, model.n)
     parts = [model.M(q) @ qdd, model.C(q, qd) @ qd, model.g_vec(q), model.f_vec(qd)]

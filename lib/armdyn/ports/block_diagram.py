@@ -8,13 +8,15 @@ Source of bdsim: P. Corke (2020 on), bdsim, block diagram simulation for Python.
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from armdyn.manipulator import Manipulator
 from armdyn.parameters import nonnegative, positive, state_vector
 from armdyn.rate import Input, Rate
 from armdyn.simulate import SCIPY_METHODS, SMALLEST_RTOL
 
 
-def diagram(model, x0, u: Input, start: float = 0.0):
+def diagram(model: Manipulator, x0: ArrayLike, u: Input, start: float = 0.0):
     """The compiled bdsim.BlockDiagram of the arm, to run, or to draw with `plotting`.
 
     model: any Manipulator. x0: (2n,), [q; q̇], the initial states of the integrators, rad and rad/s.
@@ -64,7 +66,13 @@ def diagram(model, x0, u: Input, start: float = 0.0):
 
 
 def simulate(
-    model, x0, u: Input, t, method: str = "RK45", rtol: float = 1e-9, atol: float = 1e-12
+    model: Manipulator,
+    x0: ArrayLike,
+    u: Input,
+    t: ArrayLike,
+    method: str = "RK45",
+    rtol: float = 1e-9,
+    atol: float = 1e-12,
 ) -> np.ndarray:
     """The states [q; q̇] of the arm at the times t, as its block diagram runs, (T, 2n).
 

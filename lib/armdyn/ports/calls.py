@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import sympy as sp
+from numpy.typing import ArrayLike
 
 from armdyn.codegen.build import cache_folder
 from armdyn.derive import Derivation, planar_chain
@@ -53,8 +54,8 @@ def start(language: str, derivation: Derivation | None = None, *, seconds: float
 def run(
     language: str,
     model,
-    states,
-    u=None,
+    states: ArrayLike,
+    u: ArrayLike | None = None,
     *,
     values=None,
     generated: bool = False,
@@ -77,9 +78,9 @@ def run(
 def simulate(
     language: str,
     model,
-    x0,
-    u,
-    t,
+    x0: ArrayLike,
+    u: ArrayLike,
+    t: ArrayLike,
     *,
     values=None,
     generated: bool = False,

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from armdyn.parameters import all_finite, positive, real_array, state_vector
 from armdyn.ports.toolchain import Conversation, ProgramError
@@ -35,7 +36,7 @@ class Program:
         self.n, self.count = n, count
         self._conversation = conversation
 
-    def terms(self, parameters, states, u=None) -> Terms:
+    def terms(self, parameters: ArrayLike, states: ArrayLike, u: ArrayLike | None = None) -> Terms:
         """M, C, g, f, P and q̈ at states (..., 2n) = [q; q̇], for inputs u (..., n), zero if None.
 
         parameters: (..., count), in the program's order. Batch axes of all three broadcast.
@@ -70,7 +71,9 @@ class Program:
             qdd.reshape(vector),
         )
 
-    def simulate(self, parameters, x0, u, t, *, substeps: int = 1) -> np.ndarray:
+    def simulate(
+        self, parameters: ArrayLike, x0: ArrayLike, u: ArrayLike, t: ArrayLike, *, substeps: int = 1
+    ) -> np.ndarray:
         """States (len(t), 2n) by RK4 with u held, from x0 (2n,) at t[0].
 
         t: (T,), s, evenly spaced; from one time to the next the program takes `substeps` steps.

@@ -1,7 +1,9 @@
 """Reads serial chains from URDF files, the robot description format of ROS."""
 
+import os
 import reprlib
-from typing import Literal
+from collections.abc import Sequence
+from typing import IO, Literal
 
 import numpy as np
 
@@ -22,8 +24,8 @@ KINDS: dict[str, Joint] = {
 
 
 def read_urdf(
-    source,
-    gravity=(0.0, 0.0, -9.81),
+    source: str | bytes | os.PathLike | IO,
+    gravity: Sequence[float] = (0.0, 0.0, -9.81),
     *,
     tip: str | None = None,
     base: str | None = None,
@@ -68,9 +70,9 @@ def read_urdf(
             known("link", link, tree.links, f"{name}: ")
     base = tree.root if base is None else base
     stance = Stance(tree, base, tip, positions(locked, tree.joints))
-    gravity = state_vector("gravity", gravity, 3)
+    pull = state_vector("gravity", gravity, 3)
     for joint in tree.path(tree.root, base):
-        gravity = gravity @ stance.placement(joint)[:3, :3]
+        pull = pull @ stance.placement(joint)[:3, :3]
     links, joints = [], []
     _, moving = _rigid(base, np.eye(4), tree, stance)
     while moving:
@@ -90,7 +92,7 @@ def read_urdf(
         raise ValueError(f"{robot.source}: no joint moves{between}")
     return SerialChain(
         tuple(links),
-        gravity,
+        tuple(pull.tolist()),
         viscous=tuple(joint.damping for joint in joints),
         coulomb=tuple(joint.friction for joint in joints),
         armature=tuple(robot.armature.get(joint.name, 0.0) for joint in joints),
