@@ -13,7 +13,7 @@ import numpy as np
 
 from armdyn.geometry import column_indices, fall_time, joint_units, powers_of_length, reach
 from armdyn.manipulator import Manipulator
-from armdyn.regressor import parameter_names, regressor
+from armdyn.regressor import armature_columns, parameter_names, regressor
 
 # Singular values as shares of the largest. Of the arms that people build, the smallest that is meant
 # is some 1e-2, while angles rounded to three digits give 1e-5 to 1e-4. Between these bounds the widest
@@ -188,6 +188,34 @@ def on_link_axes(model: Manipulator) -> tuple[int, ...]:
     return tuple(j for j, name in enumerate(names) if " cy" not in name)
 
 
+def motors_apart(model, base) -> tuple[np.ndarray, np.ndarray]:
+    """Which joints' torques tell the inertia of their motor from that of the links.
+
+    Returns the joints' indices, and shares, (rank + len(indices), n): column j is what the armature of
+    joint j acts like, in base parameters and then in the armatures of those joints. So the armature of
+    a first revolute joint acts like the inertia of its link, and torque shows only their sum. A share
+    below 1e-5, in units of the arm's length, is 0.
+    """
+    W, unit = _random_rows(model)
+    independent = list(base.independent)
+    per_joint, motor = joint_units(model), (reach(model) / joint_units(model)) ** 2
+    A = armature_columns(_random_states(model)[2]) * (fall_time(model) / reach(model)) ** 2
+    A = (A * per_joint[:, np.newaxis] * motor).reshape(-1, model.n)
+    columns = W[:, independent]
+    apart: list[int] = []
+    for j in reversed(range(model.n)):
+        own = A[:, j]
+        fitted = columns @ np.linalg.lstsq(columns, own, rcond=None)[0]
+        if np.linalg.norm(own - fitted) > base.cut * np.linalg.norm(own):
+            columns, apart = np.column_stack([columns, own]), [*apart, j]
+    joints = np.array(sorted(apart), dtype=int)
+    columns = np.column_stack([W[:, independent], A[:, joints]])
+    shares = np.linalg.lstsq(columns, A, rcond=None)[0]
+    shares[np.abs(shares) < UNSPOKEN] = 0
+    per_row = np.concatenate([unit[independent], motor[joints]])
+    return joints, shares * per_row[:, np.newaxis] / motor
+
+
 def _random_rows(model) -> tuple[np.ndarray, np.ndarray]:
     """Y at random states, stacked, in the arm's units, and the unit of each entry of π.
 
@@ -195,14 +223,18 @@ def _random_rows(model) -> tuple[np.ndarray, np.ndarray]:
     that an arm a tenth as long has the same rows.
     """
     length, time, per_joint = reach(model), fall_time(model), joint_units(model)
-    rng = np.random.default_rng(0)
-    # Several times as many equations as there are columns, 4n or 10n.
-    q, qd, qdd = rng.uniform(-np.pi, np.pi, (3, 40, model.n)) * per_joint
-    Y = regressor(model, q, qd / time, qdd / time**2)
+    Y = regressor(model, *_random_states(model))
     unit = length ** powers_of_length(parameter_names(model))
     # Forces of prismatic joints are counted as torques at the arm's length.
     W = Y * per_joint[:, np.newaxis] * (time / length) ** 2 * unit
     return W.reshape(-1, Y.shape[-1]), unit
+
+
+def _random_states(model) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    time, rng = fall_time(model), np.random.default_rng(0)
+    # Several times as many equations as there are columns, 4n or 10n.
+    q, qd, qdd = rng.uniform(-np.pi, np.pi, (3, 40, model.n)) * joint_units(model)
+    return q, qd / time, qdd / time**2
 
 
 def _widest_gap(values) -> float:

@@ -69,11 +69,13 @@ class Consistency:
     margin: the smallest eigenvalue that all pseudo-inertia matrices can be given at once, in units
     of the arm's size (about 1e-3 for slim links, negative where no bodies exist); a lower bound
     where they exist, an upper bound where they do not. parameters: such a π, (4n,) or (10n,), or
-    None. It is one of many; no parameter that the motion does not show can be read from it.
+    None. It is one of many; no parameter that the motion does not show can be read from it. motors: with
+    it, the armature of each motor that was asked for, (k,), or None.
     """
 
     margin: float
     parameters: np.ndarray | None
+    motors: np.ndarray | None = None
 
     @property
     def exists(self) -> bool:
@@ -86,14 +88,17 @@ def consistent_parameters(
     columns: Sequence[int] | None,
     n: int,
     length: float = 1.0,
+    motors: np.ndarray | None = None,
 ) -> Consistency:
     """Look for consistent π with combination @ π = estimate, and 0 outside `columns`.
 
     combination: (b, p). estimate: (b,). n: number of links, so that p/n is 4 or 10. length: a length
-    of the arm's size, m, for scaling alone. The search decides: it ends either with a π whose
-    matrices are positive definite or with a bound that shows there is none. Two limits remain: an
-    eigenvalue above −1e-9 counts as 0, so that a point mass passes, and masses are looked for up to
-    1e6 times the arm's size.
+    of the arm's size, m, for scaling alone. motors: (b, k), what the armature of each of k motors adds
+    to the estimate: then combination @ π + motors @ a = estimate is looked for, with a ≥ 0.
+
+    The search decides: it ends either with a π whose matrices are positive definite or with a bound
+    that shows there is none. Two limits remain: an eigenvalue above −1e-9 counts as 0, so that a point
+    mass passes, and masses are looked for up to 1e6 times the arm's size.
 
     Raises ValueError for arguments that are not as described.
 
@@ -116,13 +121,19 @@ def consistent_parameters(
     K = combination[:, columns] * unit
     rows = np.linalg.norm(K, axis=1)
     K, target = K / rows[:, np.newaxis], estimate / rows
+    motors = np.zeros((len(K), 0)) if motors is None else _motors(motors, len(K))
+    per_motor = np.linalg.norm(motors / rows[:, np.newaxis], axis=0)
+    per_motor[per_motor == 0] = 1
+    K = np.column_stack([K, motors / rows[:, np.newaxis] / per_motor])
     size = np.max(np.abs(target), initial=0.0)
     size = size if size > 0 else 1.0
 
     def matrices(coordinates):
         pi = np.zeros((*coordinates.shape[:-1], n * per_link))
-        pi[..., columns] = coordinates
-        return pseudo_inertia(pi.reshape(*coordinates.shape[:-1], n, per_link))
+        pi[..., columns] = coordinates[..., : len(columns)]
+        bodies = pseudo_inertia(pi.reshape(*coordinates.shape[:-1], n, per_link))
+        rotors = coordinates[..., len(columns) :, np.newaxis, np.newaxis] * np.eye(bodies.shape[-1])
+        return np.concatenate([bodies, rotors], axis=-3)
 
     start, free = np.linalg.pinv(K) @ (target / size), _free(K)
     # Bodies of the arm's own size first: without a bound the search prefers heavy ones.
@@ -133,8 +144,18 @@ def consistent_parameters(
     else:
         return Consistency(margin, None)
     found = np.zeros(n * per_link)
-    found[columns] = (start + free @ step) * size * unit
-    return Consistency(margin, found)
+    coordinates = (start + free @ step) * size
+    found[columns] = coordinates[: len(columns)] * unit
+    return Consistency(margin, found, coordinates[len(columns) :] / per_motor)
+
+
+def _motors(motors, rows) -> np.ndarray:
+    motors = all_finite("motors", real_array("motors", motors))
+    if motors.ndim != 2 or len(motors) != rows:
+        raise ValueError(
+            f"motors: got shape {motors.shape}, needs ({rows}, k), one column per motor"
+        )
+    return motors
 
 
 def _free(K) -> np.ndarray:

@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse.csgraph import connected_components
 
-from armdyn.base_parameters import BaseParameters, base_parameters
+from armdyn.base_parameters import BaseParameters, base_parameters, motors_apart
 from armdyn.consistency import Consistency, consistent_parameters
 from armdyn.geometry import geometry, joint_units, powers_of_length, reach
 from armdyn.manipulator import Manipulator
+from armdyn.models import SerialChain
 from armdyn.parameters import state_vector, state_vectors
-from armdyn.regressor import friction_columns, regressor
+from armdyn.regressor import armature_columns, friction_columns, regressor
 
 # A singular value below this share of the largest, columns scaled to length 1, counts as 0: geometry
 # with rounded angles, which are off by up to this much, shows no parameter better.
@@ -30,11 +31,11 @@ ROUNDING, COUPLED = 1e-13, 1e-3
 class Excitation:
     """How well a motion shows the parameters.
 
-    names: of the base parameters, then of friction. rank: of the stacked regressor's columns, at
-    most len(names). condition: the ratio of its singular values, each column scaled to length 1, so
-    that units do not enter; infinite where the rank falls short. confused: groups of parameters
-    that the motion cannot tell apart; a group of one has no effect on the torques at all. What shows
-    below the tolerance (see `excitation`) does not count. base: the base parameters.
+    names: of the base parameters, then of motors and of friction. rank: of the stacked regressor's
+    columns, at most len(names). condition: the ratio of its singular values, each column scaled to
+    length 1, so that units do not enter; infinite where the rank falls short. confused: groups of
+    parameters that the motion cannot tell apart; a group of one has no effect on the torques at all.
+    What shows below the tolerance (see `excitation`) does not count. base: the base parameters.
     """
 
     names: tuple[str, ...]
@@ -63,15 +64,16 @@ class Excitation:
 class Identification:
     """What least squares found.
 
-    names: of the estimates, the base parameters first, then with friction "viscous1" … and
-    "coulomb1" …. estimate, standard_error: (p,), in the units of π, N·m·s/rad and N·m (N·s/m and N for
-    a prismatic joint). residual: the standard deviation of u that is left, with the degrees of freedom
-    taken off: in N·m, a force counted as its torque at the arm's reach; or where `noise` was given, as a
-    multiple of it.
+    names: of the estimates, the base parameters first, then with armature "armature2" … and with
+    friction "viscous1" … and "coulomb1" …. estimate, standard_error: (p,), in the units of π, kg·m²,
+    N·m·s/rad and N·m (kg, N·s/m and N for a prismatic joint). residual: the standard deviation of u that
+    is left, with the degrees of freedom taken off: in N·m, a force counted as its torque at the arm's
+    reach; or where `noise` was given, as a multiple of it.
 
     consistency: whether bodies exist that have exactly the estimated base parameters, and if so
     one full π of theirs. It judges the estimate, not its error bars: where noise alone has made a
-    light link's inertia negative, it says that no such body exists, and a nearby one may.
+    light link's inertia negative, it says that no such body exists, and a nearby one may. Where a base
+    parameter holds an armature, a motor may have any part of it that is not negative.
     """
 
     base: BaseParameters
@@ -98,7 +100,16 @@ class Identification:
     @property
     def friction(self) -> np.ndarray:
         """Viscous coefficients, then Coulomb torques, (2n,); empty if friction was not asked for."""
-        return self.estimate[self.base.rank :]
+        return self._named("viscous", "coulomb")
+
+    @property
+    def armature(self) -> dict[str, float]:
+        """By name, "armature2" …, kg·m² or kg: of the joints whose motors torque tells from links."""
+        names = (name for name in self.names if name.startswith("armature"))
+        return dict(zip(names, self._named("armature").tolist(), strict=True))
+
+    def _named(self, *kinds) -> np.ndarray:
+        return self.estimate[[name.startswith(kinds) for name in self.names]]
 
     def __str__(self):
         width = max(map(len, self.names))
@@ -123,6 +134,7 @@ def excitation(
     columns: Sequence[int] | None = None,
     tolerance: float | None = None,
     noise: ArrayLike | None = None,
+    armature: bool = False,
 ) -> Excitation:
     """What a motion shows of the parameters, before any torque is measured.
 
@@ -130,7 +142,8 @@ def excitation(
     """
     q, qd, qdd = _samples(model, q=q, qd=qd, qdd=qdd)
     base = base_parameters(model, columns, tolerance)
-    return _excitation(base, *_columns(model, base, q, qd, qdd, friction, noise), tolerance)
+    stacked = _columns(model, base, q, qd, qdd, friction, noise, armature)
+    return _excitation(base, *stacked, tolerance)
 
 
 def identify(
@@ -143,15 +156,22 @@ def identify(
     columns: Sequence[int] | None = None,
     tolerance: float | None = None,
     noise: ArrayLike | None = None,
+    armature: bool = False,
 ) -> Identification:
     """Base parameters, and with `friction` the friction of each joint, by least squares.
 
-    model: gives the geometry and gravity; its masses, inertias and friction do not enter.
-    q, qd, qdd, u: samples of a motion, (..., n), rad, rad/s, rad/s², N·m; for a prismatic joint m, m/s,
-    m/s², N. columns, tolerance: as for `base_parameters`. What the motion shows by less than the
-    tolerance, 1e-5 by default, counts as not shown: rounded angles in the geometry can do that alone.
+    model: gives the geometry and gravity, and the armature if that is not estimated; its masses,
+    inertias and friction do not enter. q, qd, qdd, u: samples of a motion, (..., n), rad, rad/s,
+    rad/s², N·m; for a prismatic joint m, m/s, m/s², N. columns, tolerance: as for `base_parameters`.
+    What the motion shows by less than the tolerance, 1e-5 by default, counts as not shown: rounded
+    angles in the geometry can do that alone.
     noise: (n,), the standard deviation of each joint's u, N·m or N, or any numbers in proportion; by
     default the same at all joints, with a force counted as its torque at the arm's reach.
+
+    armature: whether to estimate the inertia of the motors, too. Otherwise the model's own is taken as
+    known, and its part of u is subtracted. Of the first joint's motor, and on some arms of others',
+    torque shows only the sum with inertia of the links; that sum is then the base parameter's estimate,
+    as its name says.
 
     The standard errors are those of ordinary least squares: u has independent noise at each sample and
     joint, in proportion to `noise`, and q, q̇, q̈ have none. Noise in q̈ biases the estimates towards 0,
@@ -165,7 +185,7 @@ def identify(
     """
     q, qd, qdd, u = _samples(model, q=q, qd=qd, qdd=qdd, u=u)
     base = base_parameters(model, columns, tolerance)
-    W, names, full = _columns(model, base, q, qd, qdd, friction, noise)
+    W, names, full = _columns(model, base, q, qd, qdd, friction, noise, armature)
     equations, unknowns = W.shape
     if not unknowns:
         raise ValueError("columns: none of these parameters loads a joint; needs one that does")
@@ -181,6 +201,8 @@ def identify(
             "tolerance if the geometry is exact"
         )
 
+    if isinstance(model, SerialChain) and not armature:
+        u = u - np.array(model.armature) * qdd
     measured = (u / _noise(noise, model)).ravel()
     size = np.linalg.norm(W, axis=0)
     left, values, right = np.linalg.svd(W / size, full_matrices=False)
@@ -189,7 +211,8 @@ def identify(
     residual = np.sqrt(rest @ rest / (equations - unknowns))
     standard_error = residual * np.linalg.norm(right.T / values, axis=1) / size
     consistency = consistent_parameters(
-        base.combination, estimate[: base.rank], base.columns, model.n, reach(model)
+        *(base.combination, estimate[: base.rank], base.columns, model.n, reach(model)),
+        motors=_motors_among(model, base) if armature else None,
     )
     return Identification(
         *(base, names, estimate, standard_error, residual, shown, consistency),
@@ -223,15 +246,41 @@ def _shortened(sum_: str) -> str:
     return sum_ if len(sum_) <= 48 else re.split(" [+−] ", sum_, maxsplit=1)[0] + " + …"
 
 
+def _with_motors(names, joints, shares) -> tuple[str, ...]:
+    """The names with what torque does not tell from them, such as "Jzz1 + armature1"."""
+    summed = list(names)
+    for j in np.delete(np.arange(shares.shape[1]), joints):
+        for i in np.flatnonzero(shares[:, j]):
+            sign, size = "+" if shares[i, j] > 0 else "−", abs(shares[i, j])
+            times = "" if np.isclose(size, 1) else f"{size:.4g} "
+            summed[i] += f" {sign} {times}armature{j + 1}"
+    return tuple(summed)
+
+
+def _motors_among(model, base) -> np.ndarray:
+    """What the armatures that torque does not tell from links add to the base parameters."""
+    joints, shares = motors_apart(model, base)
+    return np.delete(shares[: base.rank], joints, axis=1)
+
+
 def _columns(
-    model, base, q, qd, qdd, friction, noise
+    model, base, q, qd, qdd, friction, noise, armature
 ) -> tuple[np.ndarray, tuple[str, ...], np.ndarray]:
     """The columns of the unknowns, one row per sample and joint, in units of the noise; their names;
     and how large each would be if this motion loaded it in full."""
+    if not isinstance(armature, bool | np.bool_):
+        raise ValueError(
+            f"armature = {armature!r}: needs True to estimate it or False; known values are the model's"
+        )
     scale = _noise(noise, model)
     Y = regressor(model, q, qd, qdd)[..., list(base.independent)]
     names = tuple(map(_shortened, base.descriptions))
     full = _full_effect(model, base, q, qd, qdd) * np.linalg.norm(1 / (scale * joint_units(model)))
+    if armature:
+        motors, shares = motors_apart(model, base)
+        Y = np.concatenate([Y, armature_columns(qdd)[..., motors]], axis=-1)
+        names = _with_motors((*names, *(f"armature{j + 1}" for j in motors)), motors, shares)
+        full = np.concatenate([full, np.zeros(len(motors))])
     if friction:
         Y = np.concatenate([Y, friction_columns(qd)], axis=-1)
         joints = range(1, model.n + 1)

@@ -124,7 +124,7 @@ def test_two_symbols_of_one_name_are_refused_by_name(make):
                 ),
                 {"m": 1.0},
             ),
-            "^derivation: depends on m: needs q, qd and its parameters only",
+            "^M depends on m: needs q and parameters only",
         ),
     ],
 )

@@ -156,12 +156,12 @@ TABLE = {
             0.55,
         ),
         (
-            ("absolute acceleration of link 2", "sign of the velocity products"),
+            ("absolute acceleration of link 2", "sign of the velocity products at joint 2"),
             Y("J2[:] = a1 + a2", "J2[:] = a2", "c2 * a1 + l1", "c2 * a1 - l1"),
             0.6,
         ),
         (
-            ("coupling without the factor 2", "sign of the velocity products"),
+            ("coupling without the factor 2", "sign of the velocity products at joint 1"),
             Y("(2 * a1 + a2)", "(a1 + a2)", "- l1 * s2", "+ l1 * s2"),
             0.75,
         ),
