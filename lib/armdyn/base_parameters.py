@@ -188,7 +188,7 @@ def on_link_axes(model: Manipulator) -> tuple[int, ...]:
     return tuple(j for j, name in enumerate(names) if " cy" not in name)
 
 
-def motors_apart(model, base) -> tuple[np.ndarray, np.ndarray]:
+def motors_apart(model: Manipulator, base: BaseParameters) -> tuple[np.ndarray, np.ndarray]:
     """Which joints' torques tell the inertia of their motor from that of the links.
 
     Returns the joints' indices, and shares, (rank + len(indices), n): column j is what the armature of
