@@ -7,7 +7,7 @@ from hypothesis import given
 
 from armdyn.codegen import numpy_model
 from armdyn.codegen.buffers import in_buffers
-from armdyn.codegen.numpy_code import BLOCK
+from armdyn.codegen.numpy_function import BLOCK
 from armdyn.derive import Derivation, from_energies, planar_2r, planar_chain
 from armdyn.manipulator import Manipulator
 from tests.armdyn.arms import a_few, arms_and_states, assert_close, planar_arms
