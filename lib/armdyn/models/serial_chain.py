@@ -9,9 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from armdyn.friction import joint_friction
-from armdyn.manipulator import ROUNDING, Manipulator
+from armdyn.manipulator import Manipulator
 from armdyn.models.dh import Convention, dh_links
 from armdyn.models.link import Link
+from armdyn.models.recursive import (
+    Bodies,
+    articulated_acceleration,
+    composite_inertia,
+    newton_euler,
+)
 from armdyn.models.screws import screw_links
 from armdyn.parameters import finite, per_joint, state_vector, state_vectors
 from armdyn.spatial import (
@@ -251,24 +257,8 @@ class SerialChain(Manipulator):
         Measurement, and Control 102(2).
         """
         q, qd, qdd = state_vectors(self.n, q=q, qd=qd, qdd=qdd)
-        transforms = self._transforms(q)
-        v, forces = np.zeros(6), []
-        # A base that accelerates upwards stands for gravity.
-        a = np.array([0.0, 0.0, 0.0, *(-np.array(self.gravity))])
-        for k, (X, I) in enumerate(zip(transforms, self._inertias, strict=True)):
-            moved = self._screws[k] * qd[..., k : k + 1]
-            v = np.matvec(X, v) + moved
-            a = np.matvec(X, a) + self._screws[k] * qdd[..., k : k + 1]
-            a = a + np.matvec(motion_cross(v), moved)
-            forces.append(np.matvec(I, a) + np.matvec(force_cross(v), np.matvec(I, v)))
-        u = self.f_vec(qd) + np.array(self.armature) * qdd
-        u = u + np.zeros(np.broadcast_shapes(q.shape, qd.shape, qdd.shape))
-        force = np.zeros(6)
-        for k in reversed(range(self.n)):
-            force = force + forces[k]
-            u[..., k] += force @ self._screws[k]
-            force = np.vecmat(force, transforms[k])
-        return u
+        friction = self.f_vec(qd) + np.zeros(np.broadcast_shapes(q.shape, qd.shape, qdd.shape))
+        return newton_euler(self._bodies(q), qd, qdd, friction)
 
     def crba(self, q: ArrayLike) -> np.ndarray:
         """M, (n, n), from the inertias of the links from k outwards taken as one body.
@@ -277,18 +267,7 @@ class SerialChain(Manipulator):
         Algorithms, section 6.2.
         """
         q = state_vector("q", q, self.n)
-        transforms = self._transforms(q)
-        M, armature = np.empty((*q.shape, self.n)), np.array(self.armature)
-        composite = np.zeros((6, 6))
-        for k in reversed(range(self.n)):
-            composite = composite + self._inertias[k]
-            force = composite @ self._screws[k]
-            M[..., k, k] = force @ self._screws[k] + armature[k]
-            for j in reversed(range(k)):
-                force = np.vecmat(force, transforms[j + 1])
-                M[..., j, k] = M[..., k, j] = force @ self._screws[j]
-            composite = _carried(composite, transforms[k])
-        return M
+        return composite_inertia(self._bodies(q), q.shape[:-1])
 
     def aba(self, q: ArrayLike, qd: ArrayLike, u: ArrayLike) -> np.ndarray:
         """q̈ = M⁻¹ (u − C q̇ − g − f), (n,), in a number of operations proportional to n.
@@ -302,45 +281,18 @@ class SerialChain(Manipulator):
         (2008), Rigid Body Dynamics Algorithms, chapter 9.
         """
         q, qd, u = state_vectors(self.n, q=q, qd=qd, u=u)
-        transforms = self._transforms(q)
-        v, drifts, biases = np.zeros(6), [], []
-        for k, (X, I) in enumerate(zip(transforms, self._inertias, strict=True)):
-            moved = self._screws[k] * qd[..., k : k + 1]
-            v = np.matvec(X, v) + moved
-            drifts.append(np.matvec(motion_cross(v), moved))
-            biases.append(np.matvec(force_cross(v), np.matvec(I, v)))
-        effort = u - self.f_vec(qd)
-        outwards: list = []
-        inertia, bias, armature = np.zeros((6, 6)), np.zeros(6), np.array(self.armature)
-        for k in reversed(range(self.n)):
-            inertia, bias = inertia + self._inertias[k], bias + biases[k]
-            held = inertia @ self._screws[k]
-            resistance = (held @ self._screws[k] + armature[k])[..., np.newaxis]
-            self._refuse_idle(k, resistance[..., 0], inertia)
-            free = (effort[..., k : k + 1] - (bias @ self._screws[k])[..., np.newaxis]) / resistance
-            drag = held / resistance
-            outwards.insert(0, (free, drag))
-            rest = inertia - held[..., :, np.newaxis] * drag[..., np.newaxis, :]
-            bias = bias + np.matvec(rest, drifts[k]) + held * free
-            bias = np.vecmat(bias, transforms[k])
-            inertia = _carried(rest, transforms[k])
-        qdd = np.empty(np.broadcast_shapes(q.shape, qd.shape, u.shape))
-        a = np.array([0.0, 0.0, 0.0, *(-np.array(self.gravity))])
-        for k, (free, drag) in enumerate(outwards):
-            a = np.matvec(transforms[k], a) + drifts[k]
-            qdd[..., k] = free[..., 0] - np.vecdot(drag, a)
-            a = a + self._screws[k] * qdd[..., k : k + 1]
-        return qdd
+        effort = u - self.f_vec(qd) + np.zeros(np.broadcast_shapes(q.shape, qd.shape, u.shape))
+        return articulated_acceleration(self._bodies(q), qd, effort)
 
-    def _refuse_idle(self, k, resistance, inertia) -> None:
-        # Against the entries of the same unit, so that a very small or large arm is not refused.
-        part = slice(0, 3) if self.links[k].joint == "revolute" else slice(3, 6)
-        size = np.max(np.abs(inertia[..., part, part]), axis=(-2, -1))
-        if np.any(resistance <= self.n * ROUNDING * size):
-            raise np.linalg.LinAlgError(
-                f"M(q) is singular: the links from joint {k + 1} outwards do not resist its motion, "
-                "so q̈ is not determined"
-            )
+    def _bodies(self, q: np.ndarray) -> Bodies:
+        return Bodies(
+            self._transforms(q),
+            self._inertias,
+            self._screws,
+            np.array(self.armature),
+            np.array(self.gravity),
+            tuple(link.joint == "revolute" for link in self.links),
+        )
 
     def derivation(self, inertial_symbols: bool = False, tolerance: float = 1e-9) -> "Derivation":
         """M, C, g, P and f in symbols, for `armdyn.codegen`: see `armdyn.derive.serial_chain`."""
@@ -385,8 +337,3 @@ class SerialChain(Manipulator):
             J = X @ J
             J[..., k] = self._screws[k]
             yield J
-
-
-def _carried(inertia, X) -> np.ndarray:
-    """The inertia in the coordinates of the link before, Xᵀ I X."""
-    return np.swapaxes(X, -1, -2) @ inertia @ X
