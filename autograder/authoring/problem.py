@@ -31,7 +31,7 @@ WHAT = {
         "The vector $g(q)$",
         "Write $g(q) = \\partial P / \\partial q$, on the **left** of the equation of motion. Predict "
         "its signs for one position before you run the check.",
-        "Gravity vector ∂P/∂q, ({n},).",
+        "∂P/∂q, ({n},): gravity and springs.",
     ),
     "C": (
         "The matrix $C(q, \\dot q)$",
@@ -81,7 +81,8 @@ def write_problem(root: Path, mechanism: Mechanism, asks: list[str]) -> Path:
 def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
     """The problem in nbgrader's source form, with model answers."""
     name = mechanism.name
-    total = sum(POINTS[answer] for answer in asks) + PROOF_POINTS
+    proof = "C" in asks  # what it asks about
+    total = sum(POINTS[answer] for answer in asks) + (PROOF_POINTS if proof else 0)
     cells = [
         new_markdown_cell(_title(mechanism, total), id=f"{name}-title"),
         new_markdown_cell(_symbols(mechanism), id=f"{name}-symbols"),
@@ -109,13 +110,16 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
                 metadata=_cell(f"{name}-{answer}", locked=True, grade=True, points=points),
             ),
         ]
+    if proof:
+        cells += [
+            new_markdown_cell(_proof_task("ABCDEFGH"[len(asks)]), id=f"{name}-proof-task"),
+            new_markdown_cell(
+                f"### BEGIN SOLUTION\n{PROOF}\n### END SOLUTION",
+                id=f"{name}-proof",
+                metadata=_cell(f"{name}-proof", solution=True, grade=True, points=PROOF_POINTS),
+            ),
+        ]
     cells += [
-        new_markdown_cell(_proof_task("ABCDEFGH"[len(asks)]), id=f"{name}-proof-task"),
-        new_markdown_cell(
-            f"### BEGIN SOLUTION\n{PROOF}\n### END SOLUTION",
-            id=f"{name}-proof",
-            metadata=_cell(f"{name}-proof", solution=True, grade=True, points=PROOF_POINTS),
-        ),
         new_markdown_cell(
             "## Before you hand in\n\nChoose *Kernel → Restart Kernel and Run All Cells*, look at every "
             "card, and press **Validate**. Then submit the notebook as your instructor says.",
@@ -143,7 +147,10 @@ def _symbols(mechanism: Mechanism) -> str:
         rows.append(f"| `q[{i}]` | ${_latex(c.name)}$: 0 is {c.zero} | {c.unit} |")
     for i, c in enumerate(mechanism.coordinates):
         rows.append(f"| `qd[{i}]` | $\\dot{{{_latex(c.name)}}}$ | {c.unit}/s |")
-    rows += [f"| `arm.{p.name}` | {p.doc} | {p.unit} |" for p in mechanism.parameters]
+    rows += [
+        f"| `arm.{p.name}` | {p.doc.replace('|', '&#124;')} | {p.unit} |"
+        for p in mechanism.parameters
+    ]
     alt = f"The mechanism {mechanism.name}, its links drawn as lines and its joints as circles."
     return f"![{alt}]({mechanism.name}.svg)\n\n" + "\n".join(rows)
 

@@ -20,12 +20,15 @@ class Mistake:
     """A physics mistake that people make: a wrong model, and the sentence that names it.
 
     wrong: takes the arguments of the student's function and gives what the mistaken one returns.
-    sentence: says where to look, never the formula.
+    sentence: says where to look, never the formula. whole: it is said only of an answer that it explains
+    altogether, as "twice the right one" is. combines: whether it may be one of two mistakes.
     """
 
     name: str
     wrong: Callable
     sentence: str
+    whole: bool = False
+    combines: bool = True
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,8 @@ def sentences(
             continue
         right, theirs = _part(k, expected), _part(k, given)
         wrong = [Known(mistake, _part(k, numbers)) for mistake, numbers in mistakes
-                 if mistake.sentence in said or not criterion.is_property]  # fmt: skip
+                 if not mistake.whole
+                 and (mistake.sentence in said or not criterion.is_property)]  # fmt: skip
         shown = mistakes_shown(right, theirs, wrong, criterion.allows(met=False))
         said += [mistake.sentence for mistake in shown]
         if not shown:
@@ -100,6 +104,7 @@ def mistakes_shown(
     for known in wrong:
         if same(known.values, given):
             return (known.of,)
+    wrong = [known for known in wrong if known.of.combines]
     if not wrong:
         return ()
     flat = np.array([_flat(known.values) for known in wrong])

@@ -12,26 +12,26 @@ def _cart(name: str, spring: bool) -> Mechanism:
     Control, chapter 3, for a point mass; here with the pole's inertia.
     """
     x = Coordinate("x", "m", "the cart at the middle of the rail")
-    q = Coordinate("q", "rad", "the pole upright; turning clockwise")
+    theta = Coordinate("theta", "rad", "the pole upright, positive clockwise")
     mc = Parameter("mc", "kg", "mass of the cart", 1.0, 5.0)
     m = Parameter("m", "kg", "mass of the pole", 0.3, 2.0)
     lc = Parameter("lc", "m", "hinge to the pole's centre of mass", 0.3, 1.0)
     I = Parameter("I", "kg·m²", "inertia of the pole about its centre of mass", 0.05, 0.5)
     g = Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0)
     k = Parameter("k", "N/m", "stiffness of the spring", 5.0, 40.0)
-    xd, qd, pole = x.velocity, q.velocity, m.symbol * lc.symbol
+    xd, qd, pole = x.velocity, theta.velocity, m.symbol * lc.symbol
     kinetic = (
         EnergyTerm("the motion of the cart", mc.symbol * xd**2 / 2),
-        EnergyTerm("the mass of the pole, carried by the cart", m.symbol * xd**2 / 2),
-        EnergyTerm("the coupling of cart and pole", pole * sp.cos(q.symbol) * xd * qd),
+        EnergyTerm("the mass of the pole on the cart", m.symbol * xd**2 / 2),
+        EnergyTerm("the coupling of cart and pole", pole * sp.cos(theta.symbol) * xd * qd),
         EnergyTerm("the centre of mass of the pole about the hinge", pole * lc.symbol * qd**2 / 2),
         EnergyTerm("the rotation of the pole", I.symbol * qd**2 / 2),
     )
-    weight = EnergyTerm("the weight of the pole", pole * g.symbol * sp.cos(q.symbol))
+    weight = EnergyTerm("the weight of the pole", pole * g.symbol * sp.cos(theta.symbol))
     energy = EnergyTerm("the spring", k.symbol * x.symbol**2 / 2)
     return Mechanism(
         name,
-        (x, q),
+        (x, theta),
         (mc, m, lc, I, g, k) if spring else (mc, m, lc, I, g),
         kinetic,
         (weight, energy) if spring else (weight,),

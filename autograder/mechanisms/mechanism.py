@@ -1,5 +1,7 @@
 """A mechanism: its coordinates, parameters and energies, from which M, C, g and all else follow."""
 
+import keyword
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -77,6 +79,25 @@ class Mechanism:
 
     def __post_init__(self):
         where = f"mechanism {self.name!r}"
+        if not re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", str(self.name)):
+            raise ValueError(
+                f"{where}: needs a name of small letters, digits and hyphens, as cart-pole"
+            )
+        for field, kind in _KINDS.items():
+            given = getattr(self, field)
+            if not isinstance(given, Sequence) or not all(isinstance(e, kind) for e in given):
+                raise ValueError(
+                    f"{where}: {field} needs a tuple of {kind.__name__}, as ({kind.__name__}(…),); "
+                    f"it is {given!r}"
+                )
+            object.__setattr__(self, field, tuple(given))
+        for entry in [*self.coordinates, *self.parameters]:
+            name = str(getattr(entry, "name", ""))
+            if not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*", name) or keyword.iskeyword(name):
+                raise ValueError(
+                    f"{where}: the name {name!r} needs letters and digits alone, and to be no word of "
+                    "Python's"
+                )
         names = [c.name for c in self.coordinates] + [p.name for p in self.parameters]
         names += [c.velocity.name for c in self.coordinates]
         _once(where, "symbols", names)
@@ -87,18 +108,69 @@ class Mechanism:
                     f"{where}: {coordinate.name} has the unit {coordinate.unit!r}, needs rad or m"
                 )
         for p in self.parameters:
-            if not 0 < p.low < p.high:
+            if not p.unit or not isinstance(p.unit, str):
+                raise ValueError(f"{where}: {p.name} needs a unit, as kg")
+            if (
+                not all(isinstance(x, int | float) for x in (p.low, p.high))
+                or not 0 < p.low < p.high
+            ):
                 raise ValueError(
                     f"{where}: {p.name} is drawn from {p.low} to {p.high}; needs 0 < low < high"
                 )
-        known = {*self.q, *self.qd, *(p.symbol for p in self.parameters)}
-        for term in (*self.kinetic, *self.potential):
-            unknown = sorted(s.name for s in sp.sympify(term.energy).free_symbols - known)
-            if unknown:
+        for term in self.kinetic:
+            self._refuse_foreign(where, "K", term)
+            self._refuse_other_than_quadratic(where, term)
+        for term in self.potential:
+            self._refuse_foreign(where, "P", term)
+            held = sorted(s.name for s in sp.sympify(term.energy).free_symbols & set(self.qd))
+            if held:
                 raise ValueError(
-                    f"{where}: {term.name!r} holds {', '.join(unknown)}, which is neither a "
-                    "coordinate, nor a velocity, nor a parameter of the mechanism"
+                    f"{where}: {term.name!r} of P holds {', '.join(held)}, a velocity; P is a "
+                    "function of the coordinates alone"
                 )
+        self._try_points(where)
+
+    def _refuse_foreign(self, where: str, energy: str, term: EnergyTerm) -> None:
+        try:
+            symbols = sp.sympify(term.energy).free_symbols
+        except (sp.SympifyError, TypeError, AttributeError) as error:
+            raise ValueError(
+                f"{where}: {term.name!r} of {energy} is no expression ({error}); it is made of "
+                "m.symbol, x.symbol and x.velocity"
+            ) from None
+        known = {*self.q, *self.qd, *(p.symbol for p in self.parameters)}
+        unknown = sorted(s.name for s in symbols - known)
+        if unknown:
+            raise ValueError(
+                f"{where}: {term.name!r} holds {', '.join(unknown)}, which is neither a "
+                "coordinate, nor a velocity, nor a parameter of the mechanism"
+            )
+
+    def _refuse_other_than_quadratic(self, where: str, term: EnergyTerm) -> None:
+        """Tried in numbers, as that is quick: twice the velocities give four times the energy."""
+        rng = np.random.default_rng(0)
+        at = {s: rng.uniform(0.5, 1.0) for s in sp.sympify(term.energy).free_symbols}
+
+        def energy(factor):
+            faster = {s: factor * x if s in self.qd else x for s, x in at.items()}
+            return complex(sp.sympify(term.energy).xreplace(faster).evalf())
+
+        once = energy(1.0)
+        if not np.allclose(
+            [energy(2.0), energy(-3.0)], [4 * once, 9 * once], rtol=1e-9, atol=1e-12
+        ):
+            raise ValueError(f"{where}: {term.name!r} of K is not quadratic in the velocities")
+
+    def _try_points(self, where: str) -> None:
+        rng = np.random.default_rng(0)
+        try:
+            points = np.array(self.points(self.placed(rng), self.drawn(rng)), dtype=float)
+        except Exception as error:  # whatever the author's function raises
+            raise ValueError(f"{where}: points raised {type(error).__name__}: {error}") from error
+        if points.ndim != 2 or points.shape[1] != 2:
+            raise ValueError(
+                f"{where}: points gave {points.shape}, needs one (x, y) for each point"
+            )
 
     @property
     def n(self) -> int:
@@ -143,6 +215,14 @@ class Mechanism:
     def moving(self, rng: np.random.Generator) -> np.ndarray:
         """A random q̇, (n,): either sign, none near zero."""
         return rng.choice([-1.0, 1.0], self.n) * rng.uniform(0.5, 3.0, self.n)
+
+
+_KINDS = {
+    "coordinates": Coordinate,
+    "parameters": Parameter,
+    "kinetic": EnergyTerm,
+    "potential": EnergyTerm,
+}
 
 
 def _once(where: str, kind: str, names: list[str]) -> None:

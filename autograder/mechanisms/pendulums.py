@@ -59,8 +59,8 @@ def _furuta() -> Mechanism:
     J1 = Parameter("J1", "kg·m²", "inertia of the arm about its vertical axis", 0.2, 1.0)
     l1 = Parameter("l1", "m", "length of the arm", 0.4, 1.0)
     m2 = Parameter("m2", "kg", "mass of the pendulum", 0.5, 2.0)
-    lc2 = Parameter("lc2", "m", "its pivot to its centre of mass", 0.15, 0.5)
-    I2 = Parameter("I2", "kg·m²", "its inertia about its centre of mass, across it", 0.05, 0.4)
+    lc2 = Parameter("lc2", "m", "pivot of the pendulum to its centre of mass", 0.15, 0.5)
+    I2 = Parameter("I2", "kg·m²", "inertia of the pendulum about its centre of mass", 0.05, 0.4)
     (w1, w2), m, l, c, I = (q1.velocity, q2.velocity), m2.symbol, l1.symbol, lc2.symbol, I2.symbol
     sine = sp.sin(q2.symbol)
     return Mechanism(
@@ -69,7 +69,7 @@ def _furuta() -> Mechanism:
         (J1, l1, m2, lc2, I2, G),
         (
             EnergyTerm("the rotation of the arm", J1.symbol * w1**2 / 2),
-            EnergyTerm("the mass of the pendulum, carried at its pivot", m * l**2 * w1**2 / 2),
+            EnergyTerm("the mass of the pendulum at its pivot", m * l**2 * w1**2 / 2),
             EnergyTerm("the rotation of the pendulum about its pivot", I * w2**2 / 2),
             EnergyTerm("the centre of mass of the pendulum about its pivot", m * c**2 * w2**2 / 2),
             EnergyTerm("the rotation of the pendulum about the vertical", I * sine**2 * w1**2 / 2),

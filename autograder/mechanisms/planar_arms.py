@@ -98,20 +98,20 @@ def _height(direction, zero, slope):
 
 def _carried(k: int, j: int, aside: bool) -> str:
     if j < k:
-        return f"the mass of link {k + 1}, carried at {PLACES[j + 2]}"
-    beside = ", beside its axis" if aside else ""
+        return f"the mass of link {k + 1} at {PLACES[j + 2]}"
+    beside = " beside its axis" if aside else ""
     return f"the centre of mass of link {k + 1} about {PLACES[k + 1]}{beside}"
 
 
 def _weight(k: int, j: int, aside: bool) -> str:
     if j < k:
         return f"the weight of link {k + 1} at {PLACES[j + 2]}"
-    beside = ", beside its axis" if aside else ""
+    beside = " beside its axis" if aside else ""
     return f"the weight of link {k + 1} beyond {PLACES[k + 1]}{beside}"
 
 
 def _coupling(k: int, i: int, j: int, n: int, aside: bool) -> str:
-    beside = ", beside its axis" if aside else ""
+    beside = " beside its axis" if aside else ""
     through = f" through the mass of link {k + 1}" if n > 2 else ""
     return f"the coupling of links {i + 1} and {j + 1}{through}{beside}"
 

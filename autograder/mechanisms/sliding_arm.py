@@ -25,9 +25,7 @@ def _sliding_arm() -> Mechanism:
             EnergyTerm("the rotation of link 1", I1.symbol * turn**2 / 2),
             EnergyTerm("the centre of mass of link 1", m1.symbol * lc1.symbol**2 * turn**2 / 2),
             EnergyTerm("the rotation of link 2", I2.symbol * turn**2 / 2),
-            EnergyTerm(
-                "the mass of link 2, carried around", m2.symbol * q2.symbol**2 * turn**2 / 2
-            ),
+            EnergyTerm("the mass of link 2 carried around", m2.symbol * q2.symbol**2 * turn**2 / 2),
             EnergyTerm("the sliding of link 2", m2.symbol * slide**2 / 2),
         ),
         (

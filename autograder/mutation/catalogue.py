@@ -26,13 +26,22 @@ OF_AN_ENTRY = ("dropped", "wrong sign", "doubled", "halved")
 
 @dataclass(frozen=True)
 class Mutant:
-    """A mistake: what was done to which term, in which entry ("" for all) or on which step."""
+    """A mistake: what was done to which term, in which entry ("" for all) or on which step.
+
+    in_energy: whether it was done to the energy, from which the answer was then derived.
+    """
 
     operator: str
     term: str = ""
     entry: str = ""
     put: str = ""
     instead_of: str = ""
+    in_energy: bool = False
+
+    @property
+    def is_step(self) -> bool:
+        """Whether it was done to the answer as a whole."""
+        return self.operator in {name for steps in STEPS.values() for name in steps}
 
 
 class Catalogue:
@@ -51,17 +60,19 @@ class Catalogue:
         self._kept = _each_once(every, numbers, right)
 
     def _rewritten(self):
-        """(term, rewriting, what it contributes): of each term's energy, then of its contribution."""
+        """(term, rewriting, what it contributes, whether it was made in the energy).
+
+        What was done to a term of the answer itself is the simpler reading, so it comes first.
+        """
         derived = self.answer.of_kinetic or self.answer.of_potential
         assert derived is not None
+        m = self.mechanism
         for k, term in enumerate(self.terms):
-            for rewriting in rewritings(sp.Tuple(term.energy), self.mechanism):
-                yield k, rewriting, derived(rewriting.expressions[0], self.mechanism), False
+            for rewriting in rewritings(sp.Tuple(*derived(term.energy, m)), m):
+                yield k, rewriting, list(rewriting.expressions), False
         for k, term in enumerate(self.terms):
-            for rewriting in rewritings(
-                sp.Tuple(*derived(term.energy, self.mechanism)), self.mechanism
-            ):
-                yield k, rewriting, list(rewriting.expressions), True
+            for rewriting in rewritings(sp.Tuple(term.energy), m):
+                yield k, rewriting, derived(rewriting.expressions[0], m), True
 
     @property
     def terms(self) -> tuple[EnergyTerm, ...]:
@@ -92,18 +103,21 @@ class Catalogue:
         others: list = []
         alike: dict[tuple, list[int]] = {}
         entries = []
-        for r, (k, done, _, later) in enumerate(self._wrong):
+        for r, (k, done, _, in_energy) in enumerate(self._wrong):
             name = self.terms[k].name
-            mutant = Mutant(done.operator, name, "", done.put, done.instead_of)
+            mutant = Mutant(done.operator, name, "", done.put, done.instead_of, in_energy)
             (plain if done.operator in OF_AN_ENTRY else others).append((mutant, ([r], None)))
             if done.operator in OF_AN_ENTRY:
                 for entry, mask in self._entries():
                     entries.append((Mutant(done.operator, name, entry), ([r], mask)))
             else:
-                alike.setdefault((done.operator, done.put, done.instead_of, later), []).append(r)
-        for (operator, put, instead_of, _), all_of_them in alike.items():
+                alike.setdefault((done.operator, done.put, done.instead_of, in_energy), []).append(
+                    r
+                )
+        for (operator, put, instead_of, in_energy), all_of_them in alike.items():
             if len({self._wrong[r][0] for r in all_of_them}) > 1:
-                others.append((Mutant(operator, "", "", put, instead_of), (all_of_them, None)))
+                mutant = Mutant(operator, "", "", put, instead_of, in_energy)
+                others.append((mutant, (all_of_them, None)))
         return plain + entries + others
 
     def _entries(self) -> list[tuple[str, np.ndarray]]:

@@ -11,8 +11,8 @@ from autograder.judging.diagnosis import Mistake
 from autograder.judging.quantities import Numbers, Quantities, array, each, one_number, vector
 from autograder.judging.terms import Term
 from autograder.mechanisms import Mechanism
-from autograder.mutation.answers import ANSWERS, Answer
-from autograder.mutation.catalogue import Catalogue
+from autograder.mutation.answers import ANSWERS, Answer, gradient, inertia
+from autograder.mutation.catalogue import Catalogue, Mutant
 from autograder.mutation.references import contribution, reference
 from autograder.mutation.sentences import sentence
 from autograder.protocol import Call
@@ -55,11 +55,21 @@ def mistakes_of(mechanism: Mechanism, answer: str) -> list[Mistake]:
     catalogue = catalogue_of(mechanism, answer)
     return [
         Mistake(
-            " / ".join(filter(None, (m.operator, m.term, m.entry, m.put, m.instead_of))),
+            " / ".join(filter(None, _places(m))),
             partial(_one, mechanism, catalogue, k),
             sentence(m, mechanism, ANSWERS[answer]),
+            whole=m.is_step,
+            combines=m.operator not in ("doubled", "halved"),
         )
         for k, m in enumerate(catalogue.mutants)
+    ]
+
+
+def _places(mutant: Mutant) -> list[str]:
+    where = "in the energy" if mutant.in_energy else ""
+    return [
+        *(mutant.operator, mutant.term, mutant.entry, mutant.put, mutant.instead_of),
+        where,
     ]
 
 
@@ -106,7 +116,7 @@ def _contribution(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarra
 def _hints(mechanism: Mechanism, asked: Answer) -> tuple[str, ...]:
     """Which energy, of which bodies, into which entries; never a formula."""
     energies = mechanism.kinetic if asked.of_kinetic else mechanism.potential
-    parts = ", ".join(term.name for term in energies)
+    parts = "; ".join(term.name for term in energies)
     moving = " and ".join(c.name for c in mechanism.coordinates)
     energy = "kinetic energy K" if asked.of_kinetic else "potential energy P"
     zeros = "; ".join(f"{c.name} = 0 is {c.zero}" for c in mechanism.coordinates)
@@ -130,17 +140,23 @@ def _hints(mechanism: Mechanism, asked: Answer) -> tuple[str, ...]:
 
 def _of_M(mechanism: Mechanism) -> tuple[Quantities, tuple[Criterion, ...]]:
     n = mechanism.n
+    entries = inertia(mechanism.K, mechanism)
     pairs = [(i, j) for i in range(n) for j in range(i, n)]
+    # An entry that is 0 earns nothing by itself: an empty matrix would have it right.
+    zero = [(i, j) for i, j in pairs if entries[i * n + j] == 0]
+    pairs = [pair for pair in pairs if pair not in zero]
 
     @each
-    def entries(call, value):
+    def parts(call, value):
         M = np.reshape(value, (1, 1)) if n == 1 and np.size(value) == 1 else array(value, n, n)
-        return tuple(M[i, i] if i == j else np.array([M[i, j], M[j, i]]) for i, j in pairs)
+        found = [M[[i, j], [j, i]] if i != j else M[[i], [i]] for i, j in pairs]
+        beside = [M[a, b] for i, j in zero for a, b in ((i, j), (j, i))]
+        return (np.array([*found[0], *beside]), *found[1:])
 
     names = [f"M{i + 1}{j + 1}" + (f" and M{j + 1}{i + 1}" if i != j else "") for i, j in pairs]
-    return entries, tuple(
-        Criterion(name if n > 1 else "M", _unit(mechanism, "kg·m²"), 1 / len(pairs))
-        for name in names
+    return parts, tuple(
+        Criterion(name if n > 1 else "M", _unit_of(mechanism, i, j), 1 / len(pairs))
+        for name, (i, j) in zip(names, pairs, strict=True)
     )
 
 
@@ -159,20 +175,32 @@ def _of_C(mechanism: Mechanism) -> tuple[Quantities, tuple[Criterion, ...]]:
         "form share the products of two velocities?"
     )
     return steps, (
-        Criterion("vector C q̇", _unit(mechanism, "N·m"), 0.5),
+        Criterion("vector C q̇", _mixed(mechanism, "N·m", "N"), 0.5),
         Criterion("power q̇ᵀC q̇ = ½ q̇ᵀṀ q̇", "W", 0.2, otherwise=energy, is_property=True),
         Criterion(
-            "sum C + Cᵀ = Ṁ", _unit(mechanism, "kg·m²/s"), 0.3, otherwise=skew, is_property=True
+            "sum C + Cᵀ = Ṁ",
+            _mixed(mechanism, "kg·m²/s", "kg/s"),
+            0.3,
+            otherwise=skew,
+            is_property=True,
         ),
     )
 
 
 def _of_g_vec(mechanism: Mechanism) -> tuple[Quantities, tuple[Criterion, ...]]:
     n = mechanism.n
-    torques = each(lambda call, value: tuple(vector(value, n)))
+    entries = gradient(mechanism.P, mechanism)
+    judged = [i for i in range(n) if entries[i] != 0] or list(range(n))
+    zero = [i for i in range(n) if i not in judged]
+
+    @each
+    def parts(call, value):
+        g = vector(value, n)
+        return (np.array([g[judged[0]], *g[zero]]), *(g[[i]] for i in judged[1:]))
+
     units = ["N·m" if c.unit == "rad" else "N" for c in mechanism.coordinates]
-    return torques, tuple(
-        Criterion(f"g{i + 1}" if n > 1 else "g", unit, 1 / n) for i, unit in enumerate(units)
+    return parts, tuple(
+        Criterion(f"g{i + 1}" if n > 1 else "g", units[i], 1 / len(judged)) for i in judged
     )
 
 
@@ -185,9 +213,18 @@ def _of_potential_energy(mechanism: Mechanism) -> tuple[Quantities, tuple[Criter
     return changes, (Criterion("change of P between two places", "J"),)
 
 
-def _unit(mechanism: Mechanism, unit: str) -> str:
-    """The unit, where all coordinates are angles; a matrix of mixed units has none of its own."""
-    return unit if all(c.unit == "rad" for c in mechanism.coordinates) else "SI units"
+def _unit_of(mechanism: Mechanism, i: int, j: int) -> str:
+    """The unit of M_ij: a length among the coordinates takes one metre from it."""
+    slides = [mechanism.coordinates[k].unit for k in (i, j)].count("m")
+    return ("kg·m²", "kg·m", "kg")[slides]
+
+
+def _mixed(mechanism: Mechanism, turning: str, sliding: str) -> str:
+    """The unit of a vector or matrix, where its entries may have several."""
+    kinds = {c.unit for c in mechanism.coordinates}
+    if kinds == {"rad"}:
+        return turning
+    return sliding if kinds == {"m"} else f"{turning} or {sliding}"
 
 
 _JUDGED: dict[str, Callable] = {

@@ -53,6 +53,14 @@ def wrong_parameter(term, mechanism):
         yield Rewriting("wrong parameter", wrong, other.name, parameter.name)
 
 
+def parameter_added(term, mechanism):
+    """A sum of two parameters where one stands alone, as a mass is carried along that is not."""
+    for parameter, other in _pairs(term, mechanism):
+        total = parameter.symbol + other.symbol
+        wrong = term.xreplace({parameter.symbol: total})
+        yield Rewriting("parameter added", wrong, other.name, parameter.name)
+
+
 def parameters_exchanged(term, mechanism):
     for a, b in _pairs(term, mechanism):
         exchanged = term.xreplace({a.symbol: b.symbol, b.symbol: a.symbol})
@@ -63,14 +71,15 @@ def parameters_exchanged(term, mechanism):
 def wrong_angle(term, mechanism):
     """One angle alone for a sum, a sum for one angle, a difference for a sum, another angle."""
     angles = [c.symbol for c in mechanism.coordinates if c.unit == "rad"]
-    candidates = [*angles]
+    candidates = {a: a.name for a in angles}
     for i, a in enumerate(angles):
-        candidates += [e for b in angles[i + 1 :] for e in (a + b, a - b, b - a)]
+        for b in angles[i + 1 :]:
+            candidates |= {a + b: f"{a} + {b}", a - b: f"{a} − {b}", b - a: f"{b} − {a}"}
     for argument in _angles(term):
-        for angle in candidates:
+        for angle, name in candidates.items():
             if angle != argument:
                 changes = {w: w.func(angle) for w in _waves(term) if w.args[0] == argument}
-                yield Rewriting("wrong angle", term.xreplace(changes), str(angle), str(argument))
+                yield Rewriting("wrong angle", term.xreplace(changes), name, str(argument))
 
 
 def sine_for_cosine(term, mechanism):
@@ -142,6 +151,7 @@ OPERATORS: tuple[Operator, ...] = (
     doubled,
     halved,
     wrong_parameter,
+    parameter_added,
     parameters_exchanged,
     wrong_angle,
     sine_for_cosine,

@@ -76,22 +76,24 @@ GENERAL = {
     "is which?",
     "wrong angle": "In your {where}, {term} takes {put} for its angle. What does each angle measure, "
     "and from where?",
-    "sine for cosine": "In your {where}, {term} has a sine where a cosine belongs. What is its value "
-    "where the angle is 0?",
-    "cosine for sine": "In your {where}, {term} has a cosine where a sine belongs. What is its value "
-    "where the angle is 0?",
-    "velocity left out": "In your {where}, {term} moves with {put} alone. Which joints move it?",
+    "sine for cosine": "In your {where}, {term} has a sine where a cosine belongs. What is the sine of "
+    "0, and what should this term be there?",
+    "cosine for sine": "In your {where}, {term} has a cosine where a sine belongs. What is the sine of "
+    "0, and what should this term be there?",
+    "velocity left out": "In your {where}, {term} depends on {put} alone. Which joints move it?",
     "square lost": "In your {where}, the units of {term} do not come out {right}. Look at the power of "
     "{put}.",
     "wave lost": "In your {where}, {term} does not change with the angle. Should it?",
-    "parameter left out": "In your {where}, the units of {term} do not come out {right}. Look for "
-    "{instead_of}.",
+    "parameter added": "In your {where}, {term} has {put} beside {instead_of}. Does {put} "
+    "({put_doc}) have a part in it?",
+    "parameter left out": "In your {where}, {instead_of} does not appear in {term}. Do its units "
+    "come out {right}?",
     "gravity of Earth": "Your {where} is right only on Earth: you typed 9.81 into it. Which "
     "parameter of {arm} gives the gravitational acceleration?",
     "small angle": "In your {where}, {term} is right for small angles only. The joint turns all the "
     "way round.",
-    "radians converted": "In your {where}, you convert the angle of {term} to radians. It comes in "
-    "radians.",
+    "radians converted": "In your {where}, you convert the angle of {term} to radians. It is in "
+    "radians already.",
     "angle in degrees": "In your {where}, you convert the angle of {term} to degrees. np.sin and "
     "np.cos take radians.",
     "half of the whole": "Your {where} is half of the right one. Is there a ½ too many?",
@@ -138,19 +140,28 @@ THROUGHOUT = {
     "parameters exchanged": "In your {where}, you swapped {put} and {instead_of}. Which is which?",
     "wrong angle": "Your {where} takes {put} for an angle throughout. What does each angle measure, and "
     "from where?",
-    "sine for cosine": "Your {where} has sines where cosines belong. What is its value where the angles "
-    "are 0?",
-    "cosine for sine": "Your {where} has cosines where sines belong. What is its value where the angles "
-    "are 0?",
+    "sine for cosine": "Your {where} has sines where cosines belong. What is the sine of 0, and what "
+    "should your answer be there?",
+    "cosine for sine": "Your {where} has cosines where sines belong. What is the sine of 0, and what "
+    "should your answer be there?",
+    "parameter added": "Your {where} has {put} beside {instead_of}. Does {put} ({put_doc}) have a part "
+    "in it?",
     "velocity left out": "In your {where}, everything moves with {put} alone. Which joints move which "
     "body?",
     "square lost": "The units of your {where} do not come out {right}. Look at the power of {put}.",
     "wave lost": "Your {where} does not change with the angle {instead_of}. Should it?",
-    "parameter left out": "The units of your {where} do not come out {right}. Look for {instead_of}.",
+    "parameter left out": "Your {where} lacks {instead_of}. Do its units come out {right}?",
     "small angle": "Your {where} is right for small angles only. The joints turn all the way round.",
-    "radians converted": "You convert the angles to radians. They come in radians.",
+    "radians converted": "You convert the angles to radians. They are in radians already.",
     "angle in degrees": "You convert the angles to degrees. np.sin and np.cos take radians.",
 }
+
+# What an answer follows from, where the mistake was made there.
+DERIVED = {
+    "g_vec": "the derivative of a wrong P",
+    "C": "the Christoffel matrix of a wrong M",
+}
+ENERGIES = {"g_vec": "P", "C": "M"}
 
 
 def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
@@ -175,6 +186,13 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
     )
     general = GENERAL if mutant.term else GENERAL | THROUGHOUT
     template = rows[0].sentence if rows else general[mutant.operator]
+    if mutant.in_energy and answer.name in DERIVED:
+        words["where"], source = ENERGIES[answer.name], DERIVED[answer.name]
+        said = template.format(**words)
+        # It is the student's answer, but not the student's P.
+        said = said.replace(f"In your {words['where']}", f"In this {words['where']}")
+        said = said.replace(f"Your {words['where']}", f"This {words['where']}")
+        return f"Your {head} looks like {source}. {said}"
     return template.format(**words)
 
 

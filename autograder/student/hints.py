@@ -2,7 +2,7 @@
 
 from html import escape
 
-from autograder.problems import known_check
+from autograder.problems import CHECKS, known_check
 
 _given: dict[str, int] = {}
 
@@ -21,7 +21,9 @@ def hint(id: str | None = None) -> None:
     elif given < len(hints):
         left = f'Hint {given} of {len(hints)}. For the next one, run hint("{id}") again.'
     else:
-        left = "That was the last hint. The matching lesson has the rest."
+        left = "That was the last hint."
+        if id in CHECKS:
+            left += " The matching lesson has the rest."
     _show(hints[:given], f"Hints for {id}", left)
 
 

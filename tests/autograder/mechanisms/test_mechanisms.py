@@ -131,7 +131,47 @@ def test_what_is_no_mechanism_is_refused(changes, said):
     assert said in str(refused.value)
 
 
-def test_an_energy_that_is_not_quadratic_is_refused_by_name():
-    odd = replace(PENDULUM, kinetic=(EnergyTerm("the turn", PENDULUM.qd[0] ** 3),))
-    with pytest.raises(ValueError, match="mechanism 'pendulum': K"):
-        _ = odd.derivation
+V = PENDULUM.qd[0]
+WEIGHT = PENDULUM.potential[0]
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"kinetic": (EnergyTerm("the turn", V**3),)}, "'the turn' of K is not quadratic in the"),
+        ({"kinetic": (EnergyTerm("the turn", V**2 + V),)}, "'the turn' of K is not quadratic"),
+        ({"kinetic": (EnergyTerm("the turn", sp.cos(Q)),)}, "'the turn' of K is not quadratic"),
+        (
+            {"potential": (EnergyTerm("the spring", V**2),)},
+            "'the spring' of P holds qd, a velocity",
+        ),
+        (
+            {"potential": (EnergyTerm("the spring", PENDULUM.parameters[0]),)},
+            "'the spring' of P is no expression",
+        ),
+        ({"potential": WEIGHT}, "potential needs a tuple of EnergyTerm, as (EnergyTerm(…),)"),
+        ({"name": "my block"}, "needs a name of small letters, digits and hyphens, as cart-pole"),
+        (
+            {"parameters": (*PENDULUM.parameters, Parameter("lambda", "N/m", "spring", 1, 2))},
+            "the name 'lambda' needs letters and digits alone, and to be no word of Python's",
+        ),
+        (
+            {"parameters": (*PENDULUM.parameters, Parameter("k 1", "N/m", "spring", 1, 2))},
+            "the name 'k 1' needs letters and digits",
+        ),
+        (
+            {"parameters": (*PENDULUM.parameters, Parameter("k", "", "spring", 1, 2))},
+            "k needs a unit",
+        ),
+        ({"points": lambda q, arm: [(q[1], 0.0)]}, "points raised IndexError"),
+        ({"points": lambda q, arm: [q[0]]}, "points gave (1,), needs one (x, y)"),
+    ],
+)
+def test_what_would_fail_later_is_refused_at_once(changes, said):
+    with pytest.raises(ValueError, match=r"^mechanism ") as refused:
+        replace(PENDULUM, **changes)
+    assert said in str(refused.value)
+
+
+def test_lists_are_taken_for_tuples():
+    assert replace(PENDULUM, kinetic=list(PENDULUM.kinetic)).kinetic == PENDULUM.kinetic

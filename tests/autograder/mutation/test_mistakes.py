@@ -95,7 +95,7 @@ def test_every_operator_and_step_has_a_sentence():
     steps = {name for of in STEPS.values() for name in of}
     assert made <= GENERAL.keys()
     assert GENERAL.keys() <= made | steps
-    assert THROUGHOUT.keys() <= GENERAL.keys()
+    assert THROUGHOUT.keys() | {row.operator for row in ROWS} <= GENERAL.keys()
     assert len(operators.OPERATORS) <= len(made)
 
 
@@ -106,6 +106,54 @@ def test_a_sentence_holds_no_formula(template):
     """No product or function of parameters: the names of the parameters come alone."""
     assert not re.search(r"\{\w+\}\s*[*·+/^²]", template)
     assert not re.search(r"\b[mIlg](c)?[12]\b|cos\(|sin\(", template)
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "answer", "wrong", "said"),
+    [
+        (
+            "cart-pole",
+            "g_vec",
+            lambda q, arm: [0.0, -arm.m * arm.g * arm.lc * np.cos(q[1])],
+            "has a cosine where a sine belongs",
+        ),
+        (
+            "planar-2r",
+            "g_vec",
+            lambda q, arm: [
+                (arm.m1 * arm.lc1 + arm.m2 * arm.l1) * arm.g * np.sin(q[0])
+                + arm.m2 * arm.lc2 * arm.g * np.sin(q[0] + q[1]),
+                arm.m2 * arm.lc2 * arm.g * np.sin(q[0] + q[1]),
+            ],
+            "Your g has sines where cosines belong",
+        ),
+        (
+            "cart-pole",
+            "g_vec",
+            lambda q, arm: [0.0, -(arm.m + arm.mc) * arm.g * arm.lc * np.sin(q[1])],
+            "has mc beside m",
+        ),
+        (
+            "planar-2r",
+            "M",
+            lambda q, arm: right_M(q, arm) / (1 + np.eye(2)),
+            "In your M11, every value",
+        ),
+    ],
+)
+def test_what_a_student_did_is_said_as_the_student_sees_it(mechanism, answer, wrong, said):
+    """In g a cosine for a sine is that, though P then has a sine for a cosine."""
+    (first, *_) = judged(check_of(MECHANISMS[mechanism], answer), wrong).diagnosis
+    assert said in first
+
+
+def right_M(q, arm):
+    return check_of(MECHANISMS["planar-2r"], "M").reference(q, arm)
+
+
+def test_what_is_0_earns_nothing_by_itself():
+    check = check_of(MECHANISMS["cart-pole"], "g_vec")
+    assert judged(check, lambda q, arm: [0.0, 0.0]).credit == 0
 
 
 def test_a_teachers_row_is_said_where_it_fits_best():
