@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from armdyn.manipulator import Manipulator
+from armdyn.manipulator import Manipulator, own_term
 from armdyn.parameters import state_vector, state_vectors
 
 # Order 8: truncation h⁸ and rounding EPS/h balance near here.
@@ -63,6 +63,11 @@ def inverse_dynamics_slopes(
     Algorithms, Robotics: Science and Systems, for what is asked for.
     """
     q, qd, qdd = np.broadcast_arrays(*state_vectors(model.n, q=q, qd=qd, qdd=qdd))
+    if own_term(model, Manipulator, ("bias",)):
+        raise ValueError(
+            f"model: this {type(model).__name__} has its own bias, and the slopes are those of C q̇, g "
+            "and f; needs a model that says in C, g_vec and f_vec what acts on it"
+        )
     M = model.M(q)
     h = model.christoffel_symbols(q)
     by_velocity = model.C(q, qd) + np.einsum("...ijk,...j->...ik", h, qd)

@@ -161,16 +161,18 @@ class NumpyModel(Manipulator):
 
 
 _M, _C, _G, _F = NumpyModel.M, NumpyModel.C, NumpyModel.g_vec, NumpyModel.f_vec
+_B = NumpyModel.bias
 
 
 def generated_terms(model: Manipulator) -> bool:
-    """Whether M, C, g and f are the generated ones, whatever others could have come in their place."""
+    """Whether M, C, g, f and bias are the generated ones, whatever others could have come."""
     cls = type(model)
     return (
         cls.M is _M
         and cls.C is _C
         and cls.g_vec is _G
         and cls.f_vec is _F
+        and cls.bias is _B
         and TERMS.isdisjoint(vars(model))
     )
 
