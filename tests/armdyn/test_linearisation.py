@@ -91,6 +91,40 @@ def test_against_the_derivation(name):
     np.testing.assert_allclose(rubbing, viscous, atol=1e-12)
 
 
+class Contact(Manipulator):
+    """Springs, and a stiff ground below x1 = 0."""
+
+    n = 5
+
+    def M(self, q):
+        return np.broadcast_to(np.eye(5), (*np.shape(q), 5))
+
+    def C(self, q, qd):
+        return np.zeros((*np.broadcast_shapes(np.shape(q), np.shape(qd)), 5))
+
+    def potential_energy(self, q):
+        q = np.asarray(q)
+        return 5000 * np.maximum(0, q[..., 0]) ** 2 + np.sum(q**2, axis=-1)
+
+    def g_vec(self, q):
+        q = np.asarray(q)
+        return 2 * q + 10000 * np.maximum(0, q[..., :1]) * np.eye(5)[0]
+
+
+@pytest.mark.parametrize("x1", [-1.0, -0.06, -0.02, -1e-3, 2e-4, 0.01, 0.03, 0.5])
+def test_a_contact_nearby_is_not_felt(x1):
+    q = np.array([[0.5, 0.1, 0.2, 0.3, 0.4], [x1, 0.1, 0.2, 0.3, 0.4]])
+    found = inverse_dynamics_slopes(Contact(), q, np.zeros(5), np.zeros(5)).q
+    ground = np.where(q[:, 0] > 0, 10000, 0)[:, np.newaxis, np.newaxis] * np.diag(np.eye(5)[0])
+    np.testing.assert_allclose(found, 2 * np.eye(5) + ground, atol=1e-5 if x1 > 0 else 1e-8)
+
+
+@pytest.mark.parametrize("x1", [0.0, 3e-7, -2e-6, 2e-5])
+def test_where_contact_begins_there_is_no_slope(x1):
+    with pytest.raises(ValueError, match=r"^q: the torque has a kink near .* coordinate 1"):
+        linearise(Contact(), [x1, 0.1, 0.2, 0.3, 0.4, *[0.0] * 5], np.zeros(5))
+
+
 @a_few
 @given(arms_and_states(smooth))
 def test_against_differences_of_the_motion(case):
