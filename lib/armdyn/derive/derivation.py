@@ -98,9 +98,8 @@ class Derivation:
         qdd = _listed("qdd", qdd, self.n)
         rest = self.C * sp.Matrix(self.qd) + self.g_vec if self.bias is None else self.bias
         left = self.M * sp.Matrix(qdd) + rest
-        held = {jump: sp.Dummy() for jump in self.f_vec.atoms(sp.sign)}
-        friction = self.f_vec.xreplace(held).jacobian(self.qd)
-        friction = friction.xreplace({dummy: jump for jump, dummy in held.items()})
+        entries, back = graph.held(self.f_vec)
+        friction = sp.Matrix(entries).jacobian(self.qd).xreplace(back)
         by_q, by_qd = (self.slopes(left, symbols) for symbols in (self.q, self.qd))
         return by_q, (by_qd + friction).as_immutable()
 
@@ -109,11 +108,17 @@ class Derivation:
     ) -> sp.ImmutableMatrix:
         """∂e_i/∂s_j of expressions of this derivation, one row each.
 
-        Part by part where they share their parts: written out, those of a robot are long.
+        Part by part where they share their parts: written out, those of a robot are long. A sign or a
+        Heaviside step counts as constant, as it is but where it jumps.
         """
+        entries, back = graph.held(entries)
         if self.bias is None:
-            return sp.Matrix(entries).jacobian(symbols).as_immutable()
-        return sp.ImmutableMatrix(graph.slopes(list(entries), symbols))
+            found = sp.Matrix(entries).jacobian(symbols)
+        else:
+            found = sp.Matrix(graph.slopes(entries, symbols))
+        if back:
+            found = sp.Matrix(*found.shape, graph.replaced(list(found), back))
+        return found.as_immutable()
 
     def equations(self, qdd: Sequence[sp.Expr], u: Sequence[sp.Expr]) -> tuple[sp.Eq, ...]:
         """The n equations of motion (M q̈ + C q̇ + g + f)_i = u_i.
