@@ -178,7 +178,7 @@ def christoffel_symbols(M: sp.Matrix, q: Sequence[sp.Symbol]) -> sp.ImmutableDen
     Manipulation, chapter 4.
     """
     n = len(q)
-    upper = {(i, j): [M[i, j].diff(x) for x in q] for i in range(n) for j in range(i, n)}
+    upper = {(i, j): [_whole(M[i, j]).diff(x) for x in q] for i in range(n) for j in range(i, n)}
 
     def slope(i, j, k):
         return upper[min(i, j), max(i, j)][k]
@@ -201,8 +201,20 @@ def from_inertia(
     n = len(q)
     h = christoffel_symbols(M, q)
     C = sp.ImmutableMatrix(n, n, lambda i, j: sum(h[i, j, k] * qd[k] for k in range(n)))
-    gradient = sp.ImmutableMatrix(n, 1, [P.diff(x) for x in q])
+    gradient = sp.ImmutableMatrix(n, 1, [_whole(P).diff(x) for x in q])
     return Derivation(tuple(q), tuple(qd), tuple(parameters), sp.ImmutableMatrix(M), C, gradient, P)
+
+
+def _whole(e):
+    """With sinc by its series near 0: SymPy's derivative, cos(x)/x − sin(x)/x², has a hole there."""
+    if not e.has(sp.sinc):
+        return e
+
+    def sinc(x):
+        series = sum((-1) ** k * x ** (2 * k) / sp.factorial(2 * k + 1) for k in range(7))
+        return sp.Piecewise((sp.sin(x) / x, x**2 > sp.Rational(1, 16)), (series, True))
+
+    return e.replace(sp.sinc, sinc)
 
 
 def parameters_of(
