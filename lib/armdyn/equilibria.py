@@ -12,6 +12,9 @@ from armdyn.parameters import all_finite, real_array
 STARTS = 8  # per coordinate, at first
 ROUNDS = 3
 ITERATIONS = 60
+FULL = 20  # steps of full length after those, which lead out of the range
+FARTHEST = 1e6  # from 0, in units of a range over 2π: beyond, differences are rounding
+FLAT = 1e-9  # ∂g/∂q far out, of what g and the range make of it: there g only fades away
 REACH = 10.0  # of the starts along a coordinate that is not an angle, either way, in its unit
 # Of a turn of 2π, which stands for the whole of `within` along a coordinate that is not an angle.
 LONGEST = 0.5  # step of Newton's method
@@ -59,7 +62,8 @@ def equilibria(model: Manipulator, within: ArrayLike | None = None) -> tuple[Equ
     some q, leaves g as it was; the q returned are then brought into (−π, π]. No other coordinate is
     wrapped, be it a slide's or a joint's with a spring.
     within: (n, 2), where to search along the coordinates that are not angles, lowest and highest;
-    ±10 where not given. A q beyond may be found too; one that is far beyond is not.
+    ±10 where not given. A q beyond is found too, however far, where g leads Newton's method to it, as
+    that of a spring does.
 
     Newton's method, from a grid of starts that grows. If a full turn of every joint leaves P as it was
     too, until the count agrees with the Poincaré–Hopf theorem: on a torus, equilibria with an even and
@@ -126,22 +130,50 @@ class _Search:
         q = self.low + self.span * np.array(list(itertools.product(share, repeat=self.model.n)))
         length = np.full((len(q), 1), np.inf)
         for _ in range(ITERATIONS):
-            H = self.scale[:, np.newaxis] * _stiffness(self.model, q, self.scale) * self.scale
-            # The pseudo-inverse, for starts where the stiffness is singular.
-            inverse = np.linalg.pinv(H, hermitian=True)
-            step = np.matvec(inverse, self.scale * self.model.g_vec(q))
-            length = np.linalg.norm(step, axis=-1, keepdims=True)
+            step, length = self._newton(q)
             q = q - self.scale * step * np.minimum(1, LONGEST / np.maximum(length, SMALL))
         # Where g only fades away, as e^−q, the steps do not.
-        q = q[length[:, 0] <= SAME]
+        there = length[:, 0] <= SAME
+        q = np.concatenate([q[there], self._from_afar(q[~there])])
         q = np.where(self.angle, np.pi - (np.pi - q) % (2 * np.pi), q)
         # What is returned, and not only where it was found, is tried.
         q = q[np.all(np.abs(self.model.g_vec(q)) <= SMALL * self.size, axis=-1)]
         distinct: list[np.ndarray] = []
         for one in q:
-            if all(np.any(self._apart(one, other) > SAME) for other in distinct):
+            # ∂g/∂q is that of both sides: where g is flat, as of x⁴, zeros so near are one.
+            if all(np.any(self._apart(one, other) > 2 * DIFFERENCE) for other in distinct):
                 distinct.append(one)
         return distinct
+
+    def _newton(self, q) -> tuple[np.ndarray, np.ndarray]:
+        """A step of Newton's method, (..., n), in units of the scale, and its length, (..., 1)."""
+        H = self.scale[:, np.newaxis] * _stiffness(self.model, q, self.scale) * self.scale
+        # The pseudo-inverse, for starts where the stiffness is singular.
+        inverse = np.linalg.pinv(H, hermitian=True)
+        step = np.matvec(inverse, self.scale * self.model.g_vec(q))
+        return step, np.linalg.norm(step, axis=-1, keepdims=True)
+
+    def _from_afar(self, q) -> np.ndarray:
+        """Where full steps lead those that short ones left on their way, (k, n)."""
+        if self.closed or len(q) == 0:
+            return q[:0]
+        there = np.zeros(len(q), bool)
+        with np.errstate(all="ignore"):
+            for _ in range(FULL):
+                step, length = self._newton(q)
+                # In units of the distance, which is what rounding is relative to.
+                away = np.maximum(1, np.max(np.abs(q) / self.scale, axis=-1))
+                there = length[:, 0] <= SAME * away
+                moved = q - self.scale * step
+                good = np.all(np.isfinite(moved) & (np.abs(moved) < FARTHEST * self.scale), axis=-1)
+                q, there = moved[good], there[good]
+                if len(q) == 0:
+                    break
+            else:
+                even = np.sqrt(self.scale / self.size)
+                H = even[:, np.newaxis] * _stiffness(self.model, q, self.scale) * even
+                there &= np.min(np.abs(np.linalg.eigvalsh(H)), axis=-1) > FLAT
+        return q[there]
 
     def _apart(self, one, other) -> np.ndarray:
         turned = (one - other + np.pi) % (2 * np.pi) - np.pi

@@ -7,7 +7,7 @@ from functools import singledispatch
 import numpy as np
 from numpy.typing import ArrayLike
 
-from armdyn.manipulator import Manipulator
+from armdyn.manipulator import Manipulator, own_term
 from armdyn.models import Pendulum, Planar2R, PlanarChain, SerialChain
 
 PLANAR = ("m{0}", "m{0} cx{0}", "m{0} cy{0}", "J{0}")
@@ -80,17 +80,17 @@ def geometry(model: Manipulator) -> PlanarGeometry | SpatialGeometry:
     """The geometry of a model.
 
     Raises ValueError for one without links that π belongs to, and for a subclass or an arm with an M,
-    C or g of its own, to which Y would not belong.
+    C, g or bias of its own, to which Y would not belong.
     """
     found = _geometry(model)
     for known in (Pendulum, Planar2R, PlanarChain, SerialChain):
         if isinstance(model, known):
-            for term in ("M", "C", "g_vec"):
-                if term in vars(model) or getattr(type(model), term) is not getattr(known, term):
-                    raise ValueError(
-                        f"model: this {type(model).__name__} has its own {term}, and the regressor "
-                        f"is that of a {known.__name__}; needs one whose M, C and g_vec are unchanged"
-                    )
+            term = own_term(model, known, ("M", "C", "g_vec", "bias"))
+            if term:
+                raise ValueError(
+                    f"model: this {type(model).__name__} has its own {term}, and the regressor is "
+                    f"that of a {known.__name__}; needs one whose M, C, g_vec and bias are unchanged"
+                )
     return found
 
 

@@ -9,6 +9,7 @@ that one state and a million states are the same call.
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +21,15 @@ from armdyn.parameters import state_vector, state_vectors
 ROUNDING = 8 * np.finfo(float).eps
 
 # What a model says of its motion.
-TERMS = frozenset({"M", "C", "g_vec", "f_vec"})
+TERMS = frozenset({"M", "C", "g_vec", "f_vec", "bias"})
+
+
+def own_term(model: "Manipulator", known: type, terms: Iterable[str]) -> str | None:
+    """The first of `terms` that is another than the class `known` has: of a subclass, or set anew."""
+    for term in terms:
+        if term in vars(model) or getattr(type(model), term) is not getattr(known, term):
+            return term
+    return None
 
 
 class Manipulator(ABC):
@@ -85,8 +94,7 @@ class Manipulator(ABC):
         q, qd, u = state_vectors(self.n, q=q, qd=qd, u=u)
         M = self.M(q)
         _refuse_singular(M, q)
-        rest = u - np.matvec(self.C(q, qd), qd) - self.g_vec(q) - self.f_vec(qd)
-        return np.linalg.solve(M, rest[..., np.newaxis])[..., 0]
+        return np.linalg.solve(M, (u - self.bias(q, qd))[..., np.newaxis])[..., 0]
 
     def kinetic_energy(self, q: ArrayLike, qd: ArrayLike) -> np.ndarray:
         """K = ½ q̇ᵀ M q̇, scalar, J."""

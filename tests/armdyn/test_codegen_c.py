@@ -248,6 +248,15 @@ class SpringModel(Springs, CompiledModel):
     pass
 
 
+class Wind:
+    def bias(self, q, qd):
+        return super().bias(q, qd) + 5.0
+
+
+class WindyModel(Wind, CompiledModel):
+    pass
+
+
 class SpringNumpyModel(Springs, NumpyModel):
     pass
 
@@ -261,9 +270,9 @@ def test_a_subclass_moves_by_its_own_terms_in_every_call(arm):
     """Loops and floats too: none of them may still have the generated gravity in it."""
     q, qd, u = states(2, (3,))
     at_rest = np.concatenate([q, qd], axis=-1)
-    for kind in (SpringModel, SpringNumpyModel, Damped):
+    for kind in (SpringModel, WindyModel, SpringNumpyModel, Damped):
         other = kind(arm.derivation, arm.values)
-        pulled = u - (3 * qd if kind is Damped else 40 * q)
+        pulled = u - {Damped: 3 * qd, WindyModel: 5.0}.get(kind, 40 * q)
         expected = arm.dynamics(q, qd, pulled)
         np.testing.assert_allclose(other.dynamics(q, qd, u), expected, rtol=1e-9)
         np.testing.assert_allclose(other.dynamics(q[0], qd[0], u[0]), expected[0], rtol=1e-9)

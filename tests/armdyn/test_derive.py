@@ -1,9 +1,11 @@
 from dataclasses import replace
 
+import numpy as np
 import pytest
 import sympy as sp
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
+from armdyn.codegen import numpy_model
 from armdyn.derive import (
     Link,
     christoffel_symbols,
@@ -310,3 +312,16 @@ def test_bad_friction_is_named(friction, complaint):
 def test_friction_depends_on_velocities_and_parameters_alone(f, complaint):
     with pytest.raises(ValueError, match=complaint):
         replace(planar_2r(), f_vec=f)
+
+
+@pytest.mark.parametrize("x", [0.0, 1e-9, -1e-4, 0.2, 0.25, 0.3, -3.0])
+def test_sinc_has_slopes_everywhere(x):
+    q, v = sp.symbols("q v", real=True)
+    d = from_energies((2 + sp.sinc(q)) * v**2, 5 * sp.sinc(q), [q], [v])
+    model = numpy_model(d, {})
+    near = sp.series(sp.sin(q) / q, q, 0, 30).removeO()
+    first, second = (float(near.diff(q, k).subs(q, sp.Rational(x))) for k in (1, 2))
+    assert model.g_vec([x]) == pytest.approx([5 * first], abs=1e-14)
+    assert model.C([x], [2.0]) == pytest.approx(np.array([[2 * first]]), abs=1e-14)
+    slope = model.slope_in_q([x], [0.0], [0.0])
+    assert slope == pytest.approx(np.array([[5 * second]]), abs=1e-12)

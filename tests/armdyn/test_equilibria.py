@@ -214,3 +214,29 @@ def test_the_range_of_a_slide_may_be_given():
 def test_a_range_that_is_none_is_named(within, says):
     with pytest.raises(ValueError, match=says):
         equilibria(Pendulum(m=1.0, lc=0.5, I=0.3), within)
+
+
+def along_a_slide(P):
+    x, xd = sp.symbols("x xd", real=True)
+    return numpy_model(from_energies(xd**2, P(x), [x], [xd]), {})
+
+
+@pytest.mark.parametrize("rest", [-5000.0, -40.0, 3.0, 95.0, 300.0, 1000.0, 5000.0])
+def test_a_spring_far_away_is_found(rest):
+    (found,) = equilibria(along_a_slide(lambda x: 5 * (x - rest) ** 2))
+    assert found.q == pytest.approx([rest], rel=1e-9)
+    assert found.kind == "minimum"
+
+
+@pytest.mark.parametrize("at", [0.0, 2.0, -30.0])
+def test_a_flat_bottom_is_one_equilibrium(at):
+    (found,) = equilibria(along_a_slide(lambda x: (x - at) ** 4))
+    assert found.q == pytest.approx([at], abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("P", "many"),
+    [(lambda x: sp.exp(-x), 0), (lambda x: -sp.exp(-(x**2)), 1), (lambda x: 1 / (1 + x**2), 1)],
+)
+def test_where_a_force_only_fades_away_there_is_none(P, many):
+    assert len(equilibria(along_a_slide(P))) == many

@@ -1,5 +1,6 @@
 """Slopes of the dynamics: against symbols, against differences of the motion, and against C."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 from armdyn import Manipulator, Pendulum, Planar2R
 from armdyn.codegen import NumpyModel, numpy_model
+from armdyn.derive.derivation import from_inertia
 from armdyn.linearisation import forward_dynamics_slopes, inverse_dynamics_slopes, linearise
 from armdyn.properties import christoffel_form
 from tests.armdyn.arms import a_few, arms, arms_and_states, assert_close, rate
@@ -89,6 +91,67 @@ def test_against_the_derivation(name):
     rubbing = numbers(with_friction - by_qd, d, given, q, qd)
     viscous = np.diag([given[f"d{i + 1}"] for i in range(d.n)])
     np.testing.assert_allclose(rubbing, viscous, atol=1e-12)
+
+
+class Contact(Manipulator):
+    """Springs, and a stiff ground below x1 = 0."""
+
+    n = 5
+
+    def M(self, q):
+        return np.broadcast_to(np.eye(5), (*np.shape(q), 5))
+
+    def C(self, q, qd):
+        return np.zeros((*np.broadcast_shapes(np.shape(q), np.shape(qd)), 5))
+
+    def potential_energy(self, q):
+        q = np.asarray(q)
+        return 5000 * np.maximum(0, q[..., 0]) ** 2 + np.sum(q**2, axis=-1)
+
+    def g_vec(self, q):
+        q = np.asarray(q)
+        return 2 * q + 10000 * np.maximum(0, q[..., :1]) * np.eye(5)[0]
+
+
+@pytest.mark.parametrize("x1", [-1.0, -0.06, -0.02, -1e-3, 2e-4, 0.01, 0.03, 0.5])
+def test_a_contact_nearby_is_not_felt(x1):
+    q = np.array([[0.5, 0.1, 0.2, 0.3, 0.4], [x1, 0.1, 0.2, 0.3, 0.4]])
+    found = inverse_dynamics_slopes(Contact(), q, np.zeros(5), np.zeros(5)).q
+    ground = np.where(q[:, 0] > 0, 10000, 0)[:, np.newaxis, np.newaxis] * np.diag(np.eye(5)[0])
+    np.testing.assert_allclose(found, 2 * np.eye(5) + ground, atol=1e-5 if x1 > 0 else 1e-8)
+
+
+q = sp.Symbol("q", real=True)
+
+
+@pytest.mark.parametrize("sharing", [False, True])
+@pytest.mark.parametrize(
+    ("P", "at", "stiffness"),
+    [
+        (500 * sp.Max(0, q) ** 2, 0.5, 1000),
+        (500 * sp.Max(0, q) ** 2, -0.5, 0),
+        (sp.Abs(q) ** 3, -0.5, 3),
+        (3 * sp.Abs(q), 0.5, 0),
+        (sp.Abs(sp.Abs(q) - 1) ** 3, 0.5, 3),
+    ],
+)
+def test_beside_a_kink_of_a_derivation(P, at, stiffness, sharing):
+    d = from_inertia(sp.Matrix([[2 + sp.Abs(q)]]), P, (q,), (sp.Symbol("v", real=True),), ())
+    if sharing:
+        d = replace(d, bias=(d.C * sp.Matrix(d.qd) + d.g_vec).as_immutable())
+    model = numpy_model(d, {})
+    assert model.slope_in_q([at], [0.0], [0.0]) is not None
+    found = linearise(model, [at, 0.0], model.g_vec([at]))
+    np.testing.assert_allclose(found.A[1, 0], -stiffness / (2 + abs(at)), atol=1e-9)
+    by_q = inverse_dynamics_slopes(model, [at], [3.0], [1.5]).q
+    by_differences = inverse_dynamics_slopes(Plain(model), [at], [3.0], [1.5]).q
+    np.testing.assert_allclose(by_q, by_differences, atol=1e-7)
+
+
+@pytest.mark.parametrize("x1", [0.0, 3e-7, -2e-6, 2e-5])
+def test_where_contact_begins_there_is_no_slope(x1):
+    with pytest.raises(ValueError, match=r"^q: the torque has a kink near .* coordinate 1"):
+        linearise(Contact(), [x1, 0.1, 0.2, 0.3, 0.4, *[0.0] * 5], np.zeros(5))
 
 
 @a_few

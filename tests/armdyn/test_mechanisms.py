@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
+from armdyn import Link, SerialChain
 from armdyn.codegen import numpy_model
 from armdyn.derive import elastic_joints, mechanisms, planar_2r, planar_chain, slider_crank
 from armdyn.properties import christoffel_form, gravity_gradient, power_balance
@@ -222,3 +223,16 @@ def test_one_symbol_may_serve_all_joints_and_friction_stays():
     assert arm.f_vec[:2, :] == rigid.f_vec
     assert arm.n == 4
     assert numpy_model(arm, values(arm)).M([0.1, 0.2, 0.3, 0.4]).shape == (4, 4)
+
+
+def test_the_motors_of_a_chain_go_to_the_rotors_and_count_once():
+    """As the docstring says: stiff, the joints move as the chain does with its armature."""
+    link = Link("revolute", 2.0, com=(0.4, 0, 0), inertia=np.diag([0.0, 0.1, 0.1]), axis=(0, 1, 0))
+    chain = SerialChain([link], armature=[0.2])
+    motors = [sp.Float(a) for a in chain.armature]
+    bare = replace(chain, armature=None).derivation()
+    arm = elastic_joints(bare, [sp.Integer(10**6)], motors)
+    M = numpy_model(arm, {}).M([0.3, 0.3])
+    np.testing.assert_allclose(M, np.diag([2.0 * 0.4**2 + 0.1, 0.2]), rtol=1e-12)
+    # Of the motion in which spring and rotor go together.
+    np.testing.assert_allclose(np.ones(2) @ M @ np.ones(2), chain.M([0.3])[0, 0], rtol=1e-12)

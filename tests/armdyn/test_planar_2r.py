@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from armdyn import Manipulator, Pendulum, Planar2R
+from armdyn.linearisation import linearise
 from armdyn.properties import positive_definiteness
 from tests.armdyn.arms import (
     a_few,
@@ -216,6 +217,17 @@ class Rubbing:
         return 3.0 * np.asarray(qd)
 
 
+class Blown:
+    """Wind on top of what the arm says; `inverse_dynamics` asks for it, too."""
+
+    def bias(self, q, qd):
+        return super().bias(q, qd) + 5.0
+
+
+class Windy(Blown, Planar2R):
+    pass
+
+
 class Before(NoGravity, Planar2R):
     pass
 
@@ -269,6 +281,17 @@ class Tipper(Planar2R):
 def general(arm, q, qd, u):
     """q̈ from what the model says of its motion, and nothing else."""
     return np.linalg.solve(arm.M(q), u - arm.C(q, qd) @ qd - arm.g_vec(q) - arm.f_vec(qd))
+
+
+def test_another_bias_counts_both_ways():
+    arm = Windy(*PARAMETERS)
+    q, qd, u = STATE
+    found = arm.dynamics(q, qd, u)
+    np.testing.assert_allclose(arm.inverse_dynamics(q, qd, found), u, atol=1e-12)
+    plain = Planar2R(*PARAMETERS)
+    np.testing.assert_allclose(found, plain.dynamics(q, qd, u - 5.0), rtol=1e-12)
+    with pytest.raises(ValueError, match=r"^model: this Windy has its own bias"):
+        linearise(arm, np.concatenate([q, qd]), u)
 
 
 PARAMETERS = (1.0, 0.8, 0.5, 0.4, 3.0, 2.0, 0.25, 0.11)

@@ -364,3 +364,49 @@ def test_a_bad_q_is_named(method):
 def test_a_bad_last_argument_is_named(method, last):
     with pytest.raises(ValueError, match=rf"^{last}\[0\] = nan"):
         getattr(SerialChain(RP), method)([0, 0], [0, 0], [np.nan, 0])
+
+
+class Floating:
+    def g_vec(self, q):
+        return np.zeros_like(np.asarray(q, dtype=float))
+
+
+class Heavier:
+    def M(self, q):
+        return 2 * super().M(q)
+
+
+class Slippery:
+    def f_vec(self, qd):
+        return 3 * np.asarray(qd)
+
+
+class Space(Floating, SerialChain):
+    pass
+
+
+class Loaded(Heavier, SerialChain):
+    pass
+
+
+class Oiled(Slippery, SerialChain):
+    pass
+
+
+def test_the_algorithms_on_the_links_refuse_another_term():
+    q, qd, u = np.array([0.3, 0.4]), np.array([1.0, 2.0]), np.array([0.1, 0.2])
+    for kind, term in ((Space, "g_vec"), (Loaded, "M")):
+        arm = kind(RP)
+        says = f"is of the links; this {kind.__name__} has another {term}: use"
+        for name in ("aba", "rnea"):
+            with pytest.raises(ValueError, match=f"^{name} {says}"):
+                getattr(arm, name)(q, qd, u)
+        with pytest.raises(ValueError, match=f"^derivation {says}"):
+            arm.derivation()
+    with pytest.raises(ValueError, match=r"^crba is of the links; this Loaded"):
+        Loaded(RP).crba(q)
+    np.testing.assert_allclose(Space(RP).crba(q), Space(RP).M(q))
+    oiled = Oiled(RP)
+    np.testing.assert_allclose(oiled.aba(q, qd, u), oiled.dynamics(q, qd, u), rtol=1e-12)
+    with pytest.raises(ValueError, match=r"^derivation is of the links; this Oiled"):
+        oiled.derivation()

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from armdyn.codegen import straight_line
 from armdyn.codegen.numpy_function import NumpyFunction
-from armdyn.codegen.vocabulary import writable
+from armdyn.codegen.vocabulary import writable, written
 from armdyn.derive import Derivation
 from armdyn.manipulator import TERMS, Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
@@ -96,10 +96,11 @@ class NumpyModel(Manipulator):
     def slope_in_q(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> np.ndarray | None:
         """∂(M q̈ + C q̇ + g)/∂q, (n, n), from the derivation's own derivatives; q, qd, qdd: (n,).
 
-        None where they would take long to derive, with more than four coordinates, and where M, C or
-        g is another than the derivation's. `armdyn.linearisation` is the way to it.
+        None where they would take long to derive, with more than four coordinates, where they have no
+        code, and where M, C or g is another than the derivation's. `armdyn.linearisation` is the way
+        to it.
         """
-        if self.n > EXACT_UP_TO or not generated_terms(self):
+        if self.n > EXACT_UP_TO or not generated_terms(self) or self._slopes is None:
             return None
         q, qd, qdd = state_vectors(self.n, q=q, qd=qd, qdd=qdd)
         inertia, rest = self._slopes
@@ -108,14 +109,18 @@ class NumpyModel(Manipulator):
 
     @cached_property
     def _slopes(self):
-        """∂M_ij/∂q_k as (n, n, n), by i, k, j; ∂(C q̇ + g)_i/∂q_k, (n, n)."""
+        """∂M_ij/∂q_k as (n, n, n), by i, k, j; ∂(C q̇ + g)_i/∂q_k, (n, n); None without code."""
         d, n = self._written, self.n
         rest = d.C * sp.Matrix(d.qd) + d.g_vec if d.bias is None else d.bias
-        by_q = d.slopes(list(d.M), d.q)
-        entries = [by_q[i * n + j, k] for i in range(n) for k in range(n) for j in range(n)]
-        inertia = self._callable("q", entries)
-        inertia.shape = (n,) * 3
-        return inertia, self._callable("qv", d.slopes(rest, d.q))
+        try:
+            by_q, rest = (d.slopes(list(part), d.q) for part in (d.M, rest))
+            entries = [by_q[i * n + j, k] for i in range(n) for k in range(n) for j in range(n)]
+            entries, rest = (written("∂u/∂q", part, "NumPy") for part in (entries, rest))
+        except ValueError:
+            return None
+        inertia, others = self._callable("q", entries), self._callable("qv", rest)
+        inertia.shape, others.shape = (n,) * 3, (n, n)
+        return inertia, others
 
     @cached_property
     def _written(self):
@@ -161,16 +166,18 @@ class NumpyModel(Manipulator):
 
 
 _M, _C, _G, _F = NumpyModel.M, NumpyModel.C, NumpyModel.g_vec, NumpyModel.f_vec
+_B = NumpyModel.bias
 
 
 def generated_terms(model: Manipulator) -> bool:
-    """Whether M, C, g and f are the generated ones, whatever others could have come in their place."""
+    """Whether M, C, g, f and bias are the generated ones, whatever others could have come."""
     cls = type(model)
     return (
         cls.M is _M
         and cls.C is _C
         and cls.g_vec is _G
         and cls.f_vec is _F
+        and cls.bias is _B
         and TERMS.isdisjoint(vars(model))
     )
 

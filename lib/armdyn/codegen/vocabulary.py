@@ -88,6 +88,12 @@ def writable(derivation: Derivation, language: str) -> Derivation:
     return replace(derivation, **written)
 
 
+def written(name: str, expressions, language: str) -> list[sp.Expr]:
+    """The expressions as `writable` has them; its ValueError says `name`."""
+    writing = _Writing(language)
+    return [writing(name, e) for e in expressions]
+
+
 @dataclass
 class _Writing:
     """Rewrites expressions, each node once, however often it is shared."""

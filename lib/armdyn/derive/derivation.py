@@ -98,9 +98,8 @@ class Derivation:
         qdd = _listed("qdd", qdd, self.n)
         rest = self.C * sp.Matrix(self.qd) + self.g_vec if self.bias is None else self.bias
         left = self.M * sp.Matrix(qdd) + rest
-        held = {jump: sp.Dummy() for jump in self.f_vec.atoms(sp.sign)}
-        friction = self.f_vec.xreplace(held).jacobian(self.qd)
-        friction = friction.xreplace({dummy: jump for jump, dummy in held.items()})
+        entries, back = graph.held(self.f_vec)
+        friction = sp.Matrix(entries).jacobian(self.qd).xreplace(back)
         by_q, by_qd = (self.slopes(left, symbols) for symbols in (self.q, self.qd))
         return by_q, (by_qd + friction).as_immutable()
 
@@ -109,11 +108,17 @@ class Derivation:
     ) -> sp.ImmutableMatrix:
         """∂e_i/∂s_j of expressions of this derivation, one row each.
 
-        Part by part where they share their parts: written out, those of a robot are long.
+        Part by part where they share their parts: written out, those of a robot are long. A sign or a
+        Heaviside step counts as constant, as it is but where it jumps.
         """
+        entries, back = graph.held(entries)
         if self.bias is None:
-            return sp.Matrix(entries).jacobian(symbols).as_immutable()
-        return sp.ImmutableMatrix(graph.slopes(list(entries), symbols))
+            found = sp.Matrix(entries).jacobian(symbols)
+        else:
+            found = sp.Matrix(graph.slopes(entries, symbols))
+        if back:
+            found = sp.Matrix(*found.shape, graph.replaced(list(found), back))
+        return found.as_immutable()
 
     def equations(self, qdd: Sequence[sp.Expr], u: Sequence[sp.Expr]) -> tuple[sp.Eq, ...]:
         """The n equations of motion (M q̈ + C q̇ + g + f)_i = u_i.
@@ -173,7 +178,7 @@ def christoffel_symbols(M: sp.Matrix, q: Sequence[sp.Symbol]) -> sp.ImmutableDen
     Manipulation, chapter 4.
     """
     n = len(q)
-    upper = {(i, j): [M[i, j].diff(x) for x in q] for i in range(n) for j in range(i, n)}
+    upper = {(i, j): [_whole(M[i, j]).diff(x) for x in q] for i in range(n) for j in range(i, n)}
 
     def slope(i, j, k):
         return upper[min(i, j), max(i, j)][k]
@@ -196,8 +201,20 @@ def from_inertia(
     n = len(q)
     h = christoffel_symbols(M, q)
     C = sp.ImmutableMatrix(n, n, lambda i, j: sum(h[i, j, k] * qd[k] for k in range(n)))
-    gradient = sp.ImmutableMatrix(n, 1, [P.diff(x) for x in q])
+    gradient = sp.ImmutableMatrix(n, 1, [_whole(P).diff(x) for x in q])
     return Derivation(tuple(q), tuple(qd), tuple(parameters), sp.ImmutableMatrix(M), C, gradient, P)
+
+
+def _whole(e):
+    """With sinc by its series near 0: SymPy's derivative, cos(x)/x − sin(x)/x², has a hole there."""
+    if not e.has(sp.sinc):
+        return e
+
+    def sinc(x):
+        series = sum((-1) ** k * x ** (2 * k) / sp.factorial(2 * k + 1) for k in range(7))
+        return sp.Piecewise((sp.sin(x) / x, x**2 > sp.Rational(1, 16)), (series, True))
+
+    return e.replace(sp.sinc, sinc)
 
 
 def parameters_of(

@@ -104,6 +104,26 @@ def slopes(expressions, symbols) -> list[list[sp.Expr]]:
     return [[column[e] for column in columns] for e in expressions]
 
 
+def held(expressions) -> tuple[list[sp.Expr], dict[sp.Symbol, sp.Expr]]:
+    """(expressions, back): signs and steps as symbols, since they are constant but where they jump.
+
+    |x| becomes x sign(x). `replaced(…, back)` undoes it; without a sign or step nothing changes.
+    """
+    expressions = list(expressions)
+    new: dict[sp.Basic, sp.Expr] = {}
+    back: dict[sp.Symbol, sp.Expr] = {}
+    jumps = (sp.sign, sp.Heaviside, sp.floor, sp.ceiling)
+    for e in parts(expressions):
+        if isinstance(e, (*jumps, sp.Abs)):
+            jump = sp.sign(e.args[0]) if isinstance(e, sp.Abs) else e
+            if jump not in new:
+                new[jump] = sp.Dummy(real=True)
+                back[new[jump]] = jump
+            if isinstance(e, sp.Abs):
+                new[e] = replaced([e.args[0]], new)[0] * new[jump]
+    return (replaced(expressions, new), back) if new else (expressions, {})
+
+
 def _slopes(every, symbol):
     found: dict[sp.Basic, sp.Expr] = {}
     for e in every:

@@ -28,6 +28,11 @@ def elastic_joints(
     where a rotor's kinetic energy is that of its own spin alone (Spong's assumption, right for a
     large gear ratio). As K grows, this is the rigid arm with the inertia D + J.
 
+    Give the rigid arm without armature: D is the inertia of the links, and J that of the motors. A
+    derivation cannot know what its M is made of, so that motors in both D and J would count twice:
+    of a SerialChain, take `replace(chain, armature=None).derivation()` and give its armature as
+    rotor_inertia.
+
     Raises ValueError, naming the argument, for another number of entries, for one that depends on q
     or q̇, and for a symbol of `rigid` with the name of a motor angle.
 

@@ -106,8 +106,8 @@ class Planar2R(Manipulator):
 
         One state without friction is summed in plain floats, and M solved by Cramer's rule: for two
         joints NumPy's calls would cost ten times the arithmetic. All else goes the general way: what
-        is near a singular M or not finite, to be judged there, and an arm whose M, C, g or f is
-        another than this class's, from wherever it came.
+        is near a singular M or not finite, to be judged there, and an arm whose M, C, g, f or
+        bias is another than this class's, from wherever it came.
         """
         cls = type(self)
         own = self.__dict__
@@ -119,6 +119,7 @@ class Planar2R(Manipulator):
                 and cls.f_vec is _F
                 and cls.C is _C
                 and cls.M is _M
+                and cls.bias is _B
                 and (len(own) == PLAIN or TERMS.isdisjoint(own))
             ):
                 q1, q2 = q.tolist()  # type: ignore[union-attr]
@@ -170,15 +171,16 @@ class Planar2R(Manipulator):
 
 
 # What `dynamics` writes out in closed form, and the number of entries of an arm that has no others.
-_M, _C, _G, _F = Planar2R.M, Planar2R.C, Planar2R.g_vec, Planar2R.f_vec
+_M, _C, _G, _F, _B = Planar2R.M, Planar2R.C, Planar2R.g_vec, Planar2R.f_vec, Planar2R.bias
 FLOAT = np.dtype(float)
 PLAIN = len(fields(Planar2R)) + 1  # and what is lumped
 
 
 def as_written(arm: Planar2R) -> bool:
-    """Whether M, C, g and f of the arm are those of Planar2R, and its parameters say all of it."""
-    terms = type(arm).M, type(arm).C, type(arm).g_vec, type(arm).f_vec
-    return terms == (_M, _C, _G, _F) and TERMS.isdisjoint(vars(arm))
+    """Whether M, C, g, f and bias are those of Planar2R, and its parameters say all of it."""
+    cls = type(arm)
+    terms = cls.M, cls.C, cls.g_vec, cls.f_vec, cls.bias
+    return terms == (_M, _C, _G, _F, _B) and TERMS.isdisjoint(vars(arm))
 
 
 def _matrix(a11, a12, a21, a22) -> np.ndarray:

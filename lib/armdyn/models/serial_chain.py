@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from armdyn.friction import joint_friction
-from armdyn.manipulator import Manipulator
+from armdyn.manipulator import Manipulator, own_term
 from armdyn.models.dh import Convention, dh_links
 from armdyn.models.link import Link
 from armdyn.models.recursive import (
@@ -31,6 +31,9 @@ from armdyn.spatial import (
 
 if TYPE_CHECKING:
     from armdyn.derive import Derivation
+
+# What the algorithms on the links compute by themselves; friction they take as the arm says it.
+MOTION = ("M", "C", "g_vec", "bias")
 
 
 @dataclass(frozen=True)
@@ -254,8 +257,10 @@ class SerialChain(Manipulator):
 
         The recursive Newton–Euler algorithm. Source: J. Y. S. Luh, M. W. Walker, R. P. C. Paul
         (1980), On-Line Computational Scheme for Mechanical Manipulators, Journal of Dynamic Systems,
-        Measurement, and Control 102(2).
+        Measurement, and Control 102(2). Raises ValueError for a subclass with another M, C, g_vec or
+        bias than that of its links.
         """
+        self._of_the_links("rnea", MOTION, "inverse_dynamics")
         q, qd, qdd = state_vectors(self.n, q=q, qd=qd, qdd=qdd)
         friction = self.f_vec(qd) + np.zeros(np.broadcast_shapes(q.shape, qd.shape, qdd.shape))
         return newton_euler(self._bodies(q), qd, qdd, friction)
@@ -264,8 +269,9 @@ class SerialChain(Manipulator):
         """M, (n, n), from the inertias of the links from k outwards taken as one body.
 
         The composite-rigid-body algorithm. Source: R. Featherstone (2008), Rigid Body Dynamics
-        Algorithms, section 6.2.
+        Algorithms, section 6.2. Raises ValueError for a subclass with another M.
         """
+        self._of_the_links("crba", ("M",), "M")
         q = state_vector("q", q, self.n)
         return composite_inertia(self._bodies(q), q.shape[:-1])
 
@@ -274,15 +280,23 @@ class SerialChain(Manipulator):
 
         The articulated-body algorithm. Raises numpy.linalg.LinAlgError, naming the joint, where
         the links from that joint outwards and its motor put up no resistance to its motion, to
-        rounding.
+        rounding; ValueError for a subclass with another M, C, g_vec or bias than that of its links.
 
         Source: R. Featherstone (1983), The Calculation of Robot Dynamics Using Articulated-Body
         Inertias, International Journal of Robotics Research 2(1); for motors, R. Featherstone
         (2008), Rigid Body Dynamics Algorithms, chapter 9.
         """
+        self._of_the_links("aba", MOTION, "dynamics")
         q, qd, u = state_vectors(self.n, q=q, qd=qd, u=u)
         effort = u - self.f_vec(qd) + np.zeros(np.broadcast_shapes(q.shape, qd.shape, u.shape))
         return articulated_acceleration(self._bodies(q), qd, effort)
+
+    def _of_the_links(self, what: str, terms: tuple[str, ...], instead: str) -> None:
+        """Refuses a class with terms that the algorithms on the links know nothing of."""
+        if term := own_term(self, SerialChain, terms):
+            raise ValueError(
+                f"{what} is of the links; this {type(self).__name__} has another {term}: use {instead}"
+            )
 
     def _bodies(self, q: np.ndarray) -> Bodies:
         return Bodies(
@@ -295,7 +309,13 @@ class SerialChain(Manipulator):
         )
 
     def derivation(self, inertial_symbols: bool = False, tolerance: float = 1e-9) -> "Derivation":
-        """M, C, g, P and f in symbols, for `armdyn.codegen`: see `armdyn.derive.serial_chain`."""
+        """M, C, g, P and f in symbols, for `armdyn.codegen`: see `armdyn.derive.serial_chain`.
+
+        Raises ValueError for a subclass with another M, C, g_vec, f_vec, bias or potential_energy
+        than that of its links.
+        """
+        said = (*MOTION, "f_vec", "potential_energy")
+        self._of_the_links("derivation", said, "derive.from_energies")
         from armdyn.derive import serial_chain  # the one door from models to derive
 
         return serial_chain(self, inertial_symbols, tolerance)
