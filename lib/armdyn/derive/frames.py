@@ -93,7 +93,8 @@ def _new_frames(links, gravity, tolerance, length):
         for link, up in zip(links, upright, strict=True)
     ]
     base = placed[0]
-    transforms, moved = [], []
+    transforms: list[np.ndarray] = []
+    moved: list[np.ndarray] = []
     for k, link in enumerate(links):
         at = np.linalg.inv(moved[k - 1]) @ placed[k] if k else np.eye(4)
         if k + 1 < len(links):
