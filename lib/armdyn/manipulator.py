@@ -10,6 +10,7 @@ that one state and a million states are the same call.
 
 import reprlib
 from abc import ABC, abstractmethod
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -110,7 +111,7 @@ class Manipulator(ABC):
         return np.concatenate([np.broadcast_to(qd, qdd.shape), qdd], axis=-1)
 
 
-def model_given(name: str, value):
+def model_given(name: str, value: Any) -> Manipulator:
     """The value; ValueError, naming the argument, if it is no model (a Derivation is none yet)."""
     if isinstance(value, Manipulator) or callable(getattr(value, "M", None)):
         return value

@@ -166,7 +166,7 @@ class Derivation:
         )
 
 
-def derivation_given(name: str, value) -> Derivation:
+def derivation_given(name: str, value: object) -> Derivation:
     """The value; ValueError, naming the argument, if it is no Derivation."""
     if isinstance(value, Derivation):
         return value
