@@ -21,7 +21,8 @@ def energy_regressor(model: Manipulator, q: ArrayLike, qd: ArrayLike) -> np.ndar
     """The row Y_E with K + P = Y_E π, (..., 4n) for planar arms, (..., 10n) for spatial chains.
 
     q, qd: (..., n), rad, rad/s (m, m/s for a prismatic joint). P is 0 where the model's
-    `potential_energy` is. Raises ValueError for states of the wrong shape or not finite, and for a
+    `potential_energy` is. The motors' part of K, Σ ½ a_i q̇_i² with the armature a, is not in it: a
+    model's `energy` has it. Raises ValueError for states of the wrong shape or not finite, and for a
     model without links.
     """
     return kinetic_energy_regressor(model, q, qd) + potential_energy_regressor(model, q)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from armdyn.manipulator import Manipulator
+from armdyn.manipulator import Manipulator, model_given
 from armdyn.parameters import all_finite, real_array
 
 STARTS = 8  # per coordinate, at first
@@ -69,11 +69,13 @@ def equilibria(model: Manipulator, within: ArrayLike | None = None) -> tuple[Equ
     too, until the count agrees with the Poincaré–Hopf theorem: on a torus, equilibria with an even and
     with an odd number of negative stiffnesses are equally many. Otherwise, until a finer grid finds no
     more; there may be none, and then the result is empty.
-    Raises ValueError for more joints, for a `within` of another shape, and where equilibria are not
-    isolated (no gravity, or a joint on which none acts); RuntimeError where the counts never agree.
+    Raises ValueError for more joints, for what is no model, for a `within` of another shape, and where
+    equilibria are not isolated (no gravity, or a joint on which none acts); RuntimeError where the
+    counts never agree.
 
     Source: J. Milnor (1965), Topology from the Differentiable Viewpoint, section 6.
     """
+    model_given("model", model)
     if model.n > 3:
         raise ValueError(f"model: needs up to 3 joints, has {model.n}")
     search = _Search(model, _ranges(within, model.n))

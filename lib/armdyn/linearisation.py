@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from armdyn.manipulator import Manipulator, own_term
+from armdyn.manipulator import Manipulator, model_given, own_term
 from armdyn.parameters import state_vector, state_vectors
 
 # Order 8: truncation h⁸ and rounding EPS/h balance near here.
@@ -66,7 +66,9 @@ def inverse_dynamics_slopes(
     Source: J. Carpentier, N. Mansard (2018), Analytical Derivatives of Rigid Body Dynamics
     Algorithms, Robotics: Science and Systems, for what is asked for.
     """
-    q, qd, qdd = np.broadcast_arrays(*state_vectors(model.n, q=q, qd=qd, qdd=qdd))
+    q, qd, qdd = np.broadcast_arrays(
+        *state_vectors(model_given("model", model).n, q=q, qd=qd, qdd=qdd)
+    )
     if own_term(model, Manipulator, ("bias",)):
         raise ValueError(
             f"model: this {type(model).__name__} has its own bias, and the slopes are those of C q̇, g "
@@ -98,7 +100,7 @@ def forward_dynamics_slopes(
     q, qd, u: (..., n). Raises as `inverse_dynamics_slopes`, and numpy.linalg.LinAlgError where M is
     singular.
     """
-    q, qd, u = np.broadcast_arrays(*state_vectors(model.n, q=q, qd=qd, u=u))
+    q, qd, u = np.broadcast_arrays(*state_vectors(model_given("model", model).n, q=q, qd=qd, u=u))
     slopes = inverse_dynamics_slopes(model, q, qd, model.dynamics(q, qd, u))
     inverse = np.linalg.inv(slopes.qdd)
     return ForwardSlopes(-inverse @ slopes.q, -inverse @ slopes.qd, inverse)
@@ -109,7 +111,7 @@ def linearise(model: Manipulator, x: ArrayLike, u: ArrayLike) -> Linearisation:
 
     Raises as `forward_dynamics_slopes`.
     """
-    n = model.n
+    n = model_given("model", model).n
     x = state_vector("x", x, 2 * n)
     slopes = forward_dynamics_slopes(model, x[..., :n], x[..., n:], u)
     batch = slopes.u.shape[:-2]

@@ -8,8 +8,10 @@ Every method takes leading batch axes: arguments of shape (..., n) broadcast aga
 that one state and a million states are the same call.
 """
 
+import reprlib
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -115,6 +117,16 @@ class Manipulator(ABC):
         q, qd = x[..., : self.n], x[..., self.n :]
         qdd = self.dynamics(q, qd, u)
         return np.concatenate([np.broadcast_to(qd, qdd.shape), qdd], axis=-1)
+
+
+def model_given(name: str, value: Any) -> Manipulator:
+    """The value; ValueError, naming the argument, if it is no model (a Derivation is none yet)."""
+    if isinstance(value, Manipulator) or callable(getattr(value, "M", None)):
+        return value
+    raise ValueError(
+        f"{name} = {reprlib.repr(value)}: needs a model, such as a Planar2R, a SerialChain, or "
+        "codegen.numpy_model(derivation, values)"
+    )
 
 
 def _refuse_singular(M, q) -> None:

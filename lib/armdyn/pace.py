@@ -7,8 +7,9 @@ MANY = 1e6  # calls: minutes, if there is another sign that something is wrong
 FAR_TOO_MANY = 1e8  # hours, whatever the reason
 SLOWER = 1000
 ADVICE = (
-    'where f jumps, as Coulomb friction does at rest, use method="rk4" with times close together; '
-    'where f is stiff, "LSODA", or "implicit_midpoint" with times close together'
+    'where f jumps, as Coulomb friction does at rest, use method="rk4" with times so close that '
+    "dt k / M_ii, k being the Coulomb torque, is a velocity that does not matter; where f is stiff "
+    'without jumps, "LSODA"'
 )
 
 

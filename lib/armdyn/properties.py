@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from armdyn.manipulator import ROUNDING, Manipulator
+from armdyn.manipulator import ROUNDING, Manipulator, model_given
 from armdyn.parameters import state_vectors
 
 EPS = np.finfo(float).eps
@@ -202,7 +202,7 @@ def power_balance(model: Manipulator, q: ArrayLike, qd: ArrayLike, u: ArrayLike)
 
 
 def _states(model, **named) -> tuple[np.ndarray, ...]:
-    arrays = np.broadcast_arrays(*state_vectors(model.n, **named))
+    arrays = np.broadcast_arrays(*state_vectors(model_given("model", model).n, **named))
     if arrays[0].size == 0:
         raise ValueError(f"{', '.join(named)}: got shape {arrays[0].shape}, needs at least 1 state")
     return arrays

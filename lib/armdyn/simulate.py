@@ -1,5 +1,6 @@
 """Simulates ẋ = f(x, u) with fixed-step methods, or with SciPy's solvers behind the same call."""
 
+import reprlib
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ from scipy import integrate
 
 from armdyn.events import Event, Trajectory, Watch, listed
 from armdyn.integrators import INTEGRATORS, rk4
-from armdyn.manipulator import Manipulator
+from armdyn.manipulator import Manipulator, model_given
 from armdyn.pace import ADVICE, Pace
 from armdyn.parameters import all_finite, finite, nonnegative, positive, real_array, state_vector
 from armdyn.progress import progress_bar
@@ -97,6 +98,8 @@ def simulate(
     if method in INTEGRATORS and INTEGRATORS[method].of_model and not isinstance(f, Manipulator):
         raise ValueError(f"f: {method} needs the arm, a Manipulator, and not its state_derivative")
     rtol, atol = positive("rtol", rtol, "1"), nonnegative("atol", atol, "unit of x")
+    if not callable(f) and not isinstance(f, Manipulator):
+        raise ValueError(f"f = {reprlib.repr(f)}: needs a function f(x, u), or the arm")
     rate = Rate(f, u, t)
     try:
         all_finite("ẋ", rate(t[0], x0))
@@ -124,7 +127,7 @@ def energy_drift(model: Manipulator, x: ArrayLike) -> np.ndarray:
 
     Zero for exact motion without input and friction. Raises ValueError for another shape.
     """
-    x = state_vector("x", x, 2 * model.n)
+    x = state_vector("x", x, 2 * model_given("model", model).n)
     if x.ndim < 2 or x.shape[-2] == 0:
         raise ValueError(f"x: got shape {x.shape}, needs states over time, (..., T, {2 * model.n})")
     energy = model.energy(x[..., : model.n], x[..., model.n :])

@@ -9,7 +9,7 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from armdyn import PlanarChain, SerialChain, codegen, derive, ports, regressor
+from armdyn import Link, PlanarChain, SerialChain, codegen, derive, ports, regressor
 from armdyn.codegen import straight_line
 from armdyn.codegen.vocabulary import writable
 from armdyn.derive import graph
@@ -207,6 +207,19 @@ def test_what_a_file_leaves_of_moments_is_cleared():
     )
     assert found == right
     assert more > 1.3 * right
+
+
+@pytest.mark.parametrize("place", [0.0, 1e5, 5e5, 1e7])
+@pytest.mark.parametrize(("joint", "axis"), [("revolute", (0, 1, 0)), ("prismatic", (0, 0, 1))])
+def test_a_small_robot_may_stand_far_away(joint, axis, place):
+    first = Link(joint, 2.0, (4e-4, 0, 1e-3), axis=axis, translation=(place, 4 * place, 0))
+    second = Link("revolute", 1.0, (1e-3, 1e-4, 0), translation=(1e-3, 0, 2e-3))
+    chain = SerialChain([first, second])
+    model = codegen.numpy_model(chain.derivation(), {})
+    q, qd = [0.3, 0.4], [1.0, 2.0]
+    for ours, own in ((model.M(q), chain.M(q)), (model.g_vec(q), chain.g_vec(q))):
+        np.testing.assert_allclose(ours, own, rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(model.C(q, qd), chain.C(q, qd), rtol=1e-12, atol=1e-17)
 
 
 def test_seven_numbers_are_left_of_a_turning_link():

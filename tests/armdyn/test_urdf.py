@@ -122,7 +122,7 @@ BAD = {
     "no such link": ((*TWO, joint("j1", "base", "x", A)), "joint 'j1': there is no link 'x'"),
     "two roots": ((*TWO, ONE), r"\['base', 'b'\] have no parent joint"),
     "no root": ((link("a", A), link("b", B), joint("j1", "a", "b", A), joint("j2", "b", "a", B)),
-                r"links \[\] have no parent joint"),
+                r"joints form a loop: needs one link without"),
     "apart": (
         (BASE, link("a", A), link("b", B), joint("j1", "a", "b", A), joint("j2", "b", "a", B)),
         "link 'a': no joints lead to it",
@@ -290,3 +290,8 @@ def test_an_impossible_inertia_is_read_with_a_warning(principal):
     np.testing.assert_array_equal(np.diag(arm.links[1].inertia), principal)
     with pytest.raises(ValueError, match=r"^inertia = 'ignore': needs 'error' or 'warn'"):
         read_urdf(text, inertia="ignore")
+
+
+def test_a_folder_is_no_file(tmp_path):
+    with pytest.raises(IsADirectoryError, match="a folder; needs the URDF file in it"):
+        read_urdf(tmp_path)

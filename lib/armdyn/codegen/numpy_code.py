@@ -12,6 +12,7 @@ from armdyn.codegen import straight_line
 from armdyn.codegen.numpy_function import NumpyFunction
 from armdyn.codegen.vocabulary import writable, written
 from armdyn.derive import Derivation
+from armdyn.derive.derivation import derivation_given
 from armdyn.manipulator import TERMS, Manipulator
 from armdyn.parameters import finite, state_vector, state_vectors
 
@@ -44,6 +45,7 @@ class NumpyModel(Manipulator):
     values: Mapping[str, float] = field(metadata={"doc": "a number for each parameter"})
 
     def __post_init__(self):
+        derivation_given("derivation", self.derivation)
         object.__setattr__(self, "values", _checked(self.derivation, self.values))
         _ = self._written
 

@@ -10,6 +10,7 @@ from sympy.simplify.fu import TR8
 from armdyn.codegen.naming import TermNames, checked_name, identifiers, meaning
 from armdyn.codegen.vocabulary import writable
 from armdyn.derive import graph
+from armdyn.derive.derivation import derivation_given
 
 # Beyond this, combining products of sines would take seconds, so it is left out.
 COMBINED_UP_TO = 120
@@ -83,6 +84,7 @@ def program(
     "whole" if no part of one may be a step, since computing a case that does not hold is an error.
     Raises ValueError, naming it, for a symbol or a name that cannot be written, and as `writable`.
     """
+    derivation_given("derivation", derivation)
     checked_name(name, reserved)
     derivation = writable(derivation, language)
     given = (*derivation.q, *derivation.qd, *derivation.parameters)

@@ -188,6 +188,11 @@ class _Writing:
     def _error(self, e, needs=""):
         if not needs:
             needs = f"it has no {type(e).__name__}"
+            if isinstance(e, sp.DiracDelta):
+                needs = (
+                    "it is the slope of a jump, of sign or Heaviside; write the energy without a jump, "
+                    "with Abs or Piecewise, as Abs(x) for x*sign(x)"
+                )
             if isinstance(e, AppliedUndef | sp.Derivative | sp.Subs | sp.Integral):
                 needs = "needs functions whose values are known"
             elif isinstance(e, Boolean):

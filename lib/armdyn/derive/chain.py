@@ -32,9 +32,9 @@ def serial_chain(chain, inertial_symbols: bool = False, tolerance: float = 1e-9)
     Jyy1, Jxz1, Jyz1, Jzz1, in the order and meaning of `armdyn.regressor.parameters(chain)`.
 
     What is at most `tolerance` times the largest of its kind is taken for 0, and the cosine of an angle
-    as near to 1 for 1: entries of rotations, distances beside the longest one, and moments of a link
-    beside its others. 1e-9 clears what a file with ten digits leaves of a right angle; a file that
-    writes 1.5708 needs 1e-5.
+    as near to 1 for 1: entries of rotations, distances beside the longest one (the first joint's place
+    does not count), and moments of a link beside its others. 1e-9 clears what a file with ten digits
+    leaves of a right angle; a file that writes 1.5708 needs 1e-5.
 
     The expressions share their parts. The code that `armdyn.codegen` makes of them is short; written
     out, they are a thousand times as long. So for six joints or more do not print or simplify them,

@@ -1,6 +1,7 @@
 """Holds the result of a derivation: the terms of M q̈ + C q̇ + g + f = u as SymPy expressions."""
 
 import re
+import reprlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -168,6 +169,17 @@ class Derivation:
         return replace(
             self, parameters=(*self.parameters, *new), f_vec=sp.ImmutableMatrix(self.n, 1, f)
         )
+
+
+def derivation_given(name: str, value: object) -> Derivation:
+    """The value; ValueError, naming the argument, if it is no Derivation."""
+    if isinstance(value, Derivation):
+        return value
+    kind, has = type(value).__name__, getattr(value, "derivation", None)
+    where = f"; a {kind} has one: " if has is not None else ""
+    if where:
+        where += "model.derivation" if isinstance(has, Derivation) else "chain.derivation()"
+    raise ValueError(f"{name} = {reprlib.repr(value)}: needs a Derivation{where}")
 
 
 def christoffel_symbols(M: sp.Matrix, q: Sequence[sp.Symbol]) -> sp.ImmutableDenseNDimArray:

@@ -68,7 +68,8 @@ def frames(links, gravity, masses, tolerance: float) -> Frames:
     J of each link in its own frame, (4, 4, p). What is at most `tolerance` times the largest of its
     kind is taken for 0.
     """
-    places = [place for link in links for place in (link.translation, link.com)]
+    # Where the robot stands changes nothing but P's constant: the first joint's place does not count.
+    places = [link.com for link in links] + [link.translation for link in links[1:]]
     length = float(np.max(np.abs(places))) or 1.0
     gravity = np.array(gravity, dtype=float)
     base, transforms, moved = _new_frames(links, gravity, tolerance, length)
@@ -91,10 +92,11 @@ def _new_frames(links, gravity, tolerance, length):
         _transform(link.rotation, link.translation) @ up
         for link, up in zip(links, upright, strict=True)
     ]
-    base = before = placed[0]
-    transforms, moved = [], []
+    base = placed[0]
+    transforms: list[np.ndarray] = []
+    moved: list[np.ndarray] = []
     for k, link in enumerate(links):
-        at = np.linalg.inv(before) @ placed[k]
+        at = np.linalg.inv(moved[k - 1]) @ placed[k] if k else np.eye(4)
         if k + 1 < len(links):
             following = np.linalg.inv(upright[k]) @ placed[k + 1]
             choice = _towards(following, link.joint, tolerance, length)
@@ -102,15 +104,16 @@ def _new_frames(links, gravity, tolerance, length):
             choice = _shortest(at, link.joint)
         if k == 0:
             # The base's frame is as free as a link's.
-            base = base @ choice
+            start = choice
             if link.joint == "revolute":
-                across = base[:3, :2].T @ gravity
+                across = (base @ start)[:3, :2].T @ gravity
                 if np.linalg.norm(across) > tolerance * np.linalg.norm(gravity):
-                    base = base @ _transform(_about_z(np.arctan2(across[1], across[0])))
-            at = np.linalg.inv(base) @ placed[0]
+                    start = start @ _transform(_about_z(np.arctan2(across[1], across[0])))
+            base = base @ start
+            # Not from `base`, whose place may be large beside the robot.
+            at = np.linalg.inv(start)
         transforms.append(at @ choice)
         moved.append(upright[k] @ choice)
-        before = moved[k]
     return base, transforms, moved
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from armdyn.derive.derivation import Derivation, parameters_of
+from armdyn.derive.derivation import Derivation, derivation_given, parameters_of
 from armdyn.derive.energies import from_energies
 from armdyn.derive.names import refuse_taken
 
@@ -33,8 +33,8 @@ def elastic_joints(
     of a SerialChain, take `replace(chain, armature=None).derivation()` and give its armature as
     rotor_inertia.
 
-    Raises ValueError, naming the argument, for another number of entries, for one that depends on q
-    or q̇, and for a symbol of `rigid` with the name of a motor angle.
+    Raises ValueError, naming the argument, for a `rigid` that is no Derivation, for another number of
+    entries, for one that depends on q or q̇, and for a symbol of `rigid` with the name of a motor angle.
 
     Source: M. W. Spong (1987), Modeling and Control of Elastic Joint Robots, Journal of Dynamic
     Systems, Measurement, and Control 109(4).
@@ -44,7 +44,7 @@ def elastic_joints(
     >>> [equation.lhs for equation in arm.equations((0, 0), (0, 0))][1]
     -k1*(q1 - theta1)
     """
-    n = rigid.n
+    n = derivation_given("rigid", rigid).n
     theta, thetad = (sp.symbols(f"{name}1:{n + 1}", real=True) for name in ("theta", "thetad"))
     known = {*rigid.q, *rigid.qd, *rigid.parameters}
     given = {s.name: "a motor angle or its velocity" for s in (*theta, *thetad)}
@@ -102,7 +102,9 @@ def slider_crank() -> Derivation:
     q1: the crank's angle from the line of the slider, which is the x axis through the crank's joint;
     y is up. Symbols: lengths l1 of the crank and l2 of the rod, distances lc1 and lc2 of their centres
     of mass, from the crank's joint and from the crank pin; masses m1, m2 and m3 of crank, rod and
-    slider; inertias I1 and I2 about the centres of mass; and g. It turns all round if l1 < l2.
+    slider; inertias I1 and I2 about the centres of mass; and g. With l1 < l2 it turns all round. With
+    l1 > l2 the rod does not reach the slider's line at every q1: numbers are NaN there, with NumPy's
+    warning.
 
     M depends on q1, since the slider moves most for a turn of the crank halfway: C = ½ M′(q1) q̇1.
 

@@ -1,6 +1,7 @@
 """`run` and `simulate` build a model's program, if it is not kept from before, and ask it."""
 
 import dataclasses
+import reprlib
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from armdyn.codegen.build import cache_folder
 from armdyn.derive import Derivation, planar_chain
+from armdyn.derive.derivation import derivation_given
 from armdyn.models import Planar2R
 from armdyn.models.planar_2r import as_written
 from armdyn.parameters import finite, state_vector
@@ -33,7 +35,10 @@ def built(language: str, derivation: Derivation | None = None) -> Path:
 
     Built now or kept from before; what the compiler said is in compiler.txt. Raises as `start`.
     """
-    toolchain = _module(language).toolchain()
+    module = _module(language)
+    if derivation is not None:
+        derivation_given("derivation", derivation)
+    toolchain = module.toolchain()
     return build(_files(language, derivation), toolchain.compile, cache_folder() / "ports")
 
 
@@ -133,9 +138,13 @@ def _listed(given, kind, name, numbers):
         return numbers(given)
     if isinstance(given, Sequence) and given and all(isinstance(g, kind) for g in given):
         return np.array([numbers(g) for g in given])
-    wanted = {"model": "a Planar2R, a sequence of them, or a Derivation"}
+    wanted = {
+        "model": "a Planar2R, a sequence of them, or a Derivation (of a SerialChain, "
+        "chain.derivation())"
+    }
     raise ValueError(
-        f"{name} = {given!r}: needs {wanted.get(name, 'a mapping of names to numbers, or several')}"
+        f"{name} = {reprlib.repr(given)}: needs "
+        f"{wanted.get(name, 'a mapping of names to numbers, or several')}"
     )
 
 

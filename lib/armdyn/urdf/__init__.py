@@ -59,7 +59,8 @@ def read_urdf(
     links and joints that are not one tree; for names that the file does not have; where the chain
     branches, or has joints that are floating or planar or mimic another; where a joint beside it
     mimics one that moves; where no joint moves; and for masses, inertias and friction that are not
-    physical, as `Link` and `SerialChain` do. Raises FileNotFoundError where there is no such file.
+    physical, as `Link` and `SerialChain` do. Raises FileNotFoundError where there is no such file,
+    and IsADirectoryError for a folder.
     """
     if inertia not in ("error", "warn"):
         raise ValueError(f"inertia = {inertia!r}: needs 'error' or 'warn'")

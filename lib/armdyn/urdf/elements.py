@@ -64,8 +64,8 @@ class Robot:
 def robot_of(source) -> Robot:
     """The robot in a file (its path, or the file open for reading) or in a text.
 
-    Raises FileNotFoundError where there is no such file, and ValueError, naming the element, for
-    what is not URDF.
+    Raises FileNotFoundError where there is no such file, IsADirectoryError for a folder, and
+    ValueError, naming the element, for what is not URDF.
     """
     text, where = _text(source)
     root = _root_element(text, where)
@@ -88,6 +88,8 @@ def _text(source) -> tuple[bytes | str, str]:
     if not isinstance(source, str | os.PathLike):
         raise ValueError(f"source = {source!r}: needs a path, a URDF text or an open file")
     path = os.fspath(source)
+    if os.path.isdir(path):
+        raise IsADirectoryError(f"{path}: a folder; needs the URDF file in it")
     if not os.path.isfile(path):
         raise FileNotFoundError(f"{path}: no such file")
     with open(path, "rb") as file:

@@ -36,6 +36,11 @@ class Tree:
             self.carrier[joint.child] = joint
             self.below[joint.parent].append(joint)
         roots = [link for link in self.links if link not in self.carrier]
+        if not roots:
+            raise ValueError(
+                "every link has a parent joint, so the joints form a loop: needs one link without, "
+                "the root"
+            )
         if len(roots) != 1:
             raise ValueError(
                 f"the links {reprlib.repr(roots)} have no parent joint: needs one such link, the "
