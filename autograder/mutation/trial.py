@@ -2,6 +2,7 @@
 
 import importlib.util
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -69,8 +70,8 @@ def tried(mechanism: Mechanism) -> Iterator[tuple[str, bool]]:
         refused = f", but not {', '.join(wrong_styles)}" if wrong_styles else ""
         yield f"{check.id}: the right answer is correct{refused}", not wrong_styles
         known = mistakes_of(mechanism, answer)
-        for mistake in known:
-            verdict = _verdict(check, mistake.wrong)
+        for k, mistake in enumerate(known):
+            verdict = _asked(check, partial(_given, check, k))
             named = verdict.diagnosis == (mistake.sentence,)
             yield (
                 f"  {' '.join(verdict.diagnosis) or f'(nothing is said of {mistake.name})'}",
@@ -80,7 +81,20 @@ def tried(mechanism: Mechanism) -> Iterator[tuple[str, bool]]:
 
 
 def _verdict(check: Check, function: Callable) -> Verdict:
+    return _asked(
+        check, lambda calls: [read(call, function(*map(real, call.args))) for call in calls]
+    )
+
+
+def _given(check: Check, k: int, calls: list[Call]) -> list:
+    """What the k-th mistake returns for all calls, in one step."""
+    assert check.catalogue is not None
+    _, values = check.catalogue(calls)[k]
+    return values
+
+
+def _asked(check: Check, answers: Callable[[list[Call]], list]) -> Verdict:
     def ask(calls: list[Call]) -> list[Reply]:
-        return [Reply(value=read(call, function(*map(real, call.args)))) for call in calls]
+        return [Reply(value=value) for value in answers(calls)]
 
     return check.run(ask, np.random.default_rng(20260101), VISIBLE_CASES)

@@ -17,7 +17,7 @@ from autograder.mutation.trial import STYLES
 from autograder.protocol import Reply, read, real
 
 # All of them take minutes (`autograder try` does it); here a few of each answer, spread over all kinds.
-TRIED = 12
+TRIED = 8
 ASKED = [(m, answer) for m in MECHANISMS.values() for answer in ANSWERS]
 EVERY = pytest.mark.parametrize(
     ("mechanism", "answer"), ASKED, ids=[f"{m.name}-{a}" for m, a in ASKED]
@@ -38,8 +38,13 @@ def test_every_mistake_is_named_by_its_sentence(mechanism, answer):
     assert known
     stride = max(1, len(known) // TRIED)
     start = list(MECHANISMS).index(mechanism.name) % stride
-    for mistake in known[start::stride]:
-        verdict = judged(check, mistake.wrong)
+    for k in range(start, len(known), stride):
+        mistake = known[k]
+
+        def ask(calls, k=k):  # the numbers of all calls at once
+            return [Reply(value=value) for value in check.catalogue(calls)[k][1]]
+
+        verdict = check.run(ask, np.random.default_rng(0), VISIBLE_CASES)
         if verdict.problem.endswith("which is not a finite number."):
             continue  # a square root of less than nothing, of a slider-crank
         assert verdict.state in (State.INCORRECT, State.PARTLY_CORRECT), mistake.name
