@@ -221,15 +221,16 @@ class Check:
         for mistake, numbers in wrong:
             if explains_all(self.criteria, numbers, given, met):
                 return (mistake.sentence,)
-        found: list = []  # of calls that are made once, and only where something is left to explain
+
+        @cache  # calls are made once, and only where something is left to explain
+        def tried() -> tuple[list[dependence.Probe], Numbers, Numbers] | None:
+            return self._tried(ask, calls[-1]) if ask else None
 
         def elsewhere(k: int) -> str:
-            if not found:
-                found.append(self._tried(ask, calls[-1]) if ask else None)
             criterion = self.criteria[k]
-            if found[0] is None or not criterion.unit or criterion.is_property:
+            if not criterion.unit or criterion.is_property or (found := tried()) is None:
                 return ""
-            return dependence.sentence(criterion.text, k, *found[0])
+            return dependence.sentence(criterion.text, k, *found)
 
         @cache
         def parts() -> list[tuple[Term, Numbers]]:

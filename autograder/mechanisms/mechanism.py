@@ -4,13 +4,10 @@ import keyword
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from types import SimpleNamespace
 
 import numpy as np
 import sympy as sp
-
-from armdyn.derive import Derivation, from_energies
 
 UNITS_OF_COORDINATES = ("rad", "m")
 
@@ -67,7 +64,7 @@ class Mechanism:
 
     ValueError, naming what is wrong: for names that are given twice; a coordinate that is no angle (rad)
     or length (m); a range that is empty or not positive; a symbol in an energy that is none of the
-    mechanism's; energies that `armdyn.derive.from_energies` refuses.
+    mechanism's; a term of K that is not quadratic in q̇, or one of P that holds q̇; `points` that fail.
     """
 
     name: str
@@ -191,14 +188,6 @@ class Mechanism:
     @property
     def P(self) -> sp.Expr:
         return sp.Add(*(term.energy for term in self.potential))
-
-    @cached_property
-    def derivation(self) -> Derivation:
-        """M, C (Christoffel) and g of the energies; ValueError as `from_energies`."""
-        try:
-            return from_energies(self.K, self.P, self.q, self.qd)
-        except ValueError as error:
-            raise ValueError(f"mechanism {self.name!r}: {error}") from None
 
     def drawn(self, rng: np.random.Generator) -> SimpleNamespace:
         """Random parameters from their ranges, by their names."""

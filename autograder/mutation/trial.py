@@ -64,8 +64,7 @@ def tried(mechanism: Mechanism) -> Iterator[tuple[str, bool]]:
         wrong_styles = [
             style
             for style, given in STYLES.items()
-            if _verdict(check, lambda *args, given=given: given(check.reference(*args))).state  # noqa: B023
-            is not State.CORRECT
+            if _asked(check, partial(_right, check, given)).state is not State.CORRECT
         ]
         refused = f", but not {', '.join(wrong_styles)}" if wrong_styles else ""
         yield f"{check.id}: the right answer is correct{refused}", not wrong_styles
@@ -80,10 +79,9 @@ def tried(mechanism: Mechanism) -> Iterator[tuple[str, bool]]:
         yield f"  {len(known)} mistakes", True
 
 
-def _verdict(check: Check, function: Callable) -> Verdict:
-    return _asked(
-        check, lambda calls: [read(call, function(*map(real, call.args))) for call in calls]
-    )
+def _right(check: Check, style: Callable, calls: list[Call]) -> list:
+    """The right answers in this style, read as a student's are."""
+    return [read(call, style(check.reference(*map(real, call.args)))) for call in calls]
 
 
 def _given(check: Check, k: int, calls: list[Call]) -> list:
