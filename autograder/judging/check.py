@@ -16,7 +16,7 @@ import numpy as np
 
 from autograder.judging import changes, dependence
 from autograder.judging.criterion import Criterion, relative_errors
-from autograder.judging.diagnosis import Mistake, explains_all, sentences
+from autograder.judging.diagnosis import Catalogue, Mistake, explains_all, sentences
 from autograder.judging.faults import NUMBERS, describe_fault, describe_second_fault
 from autograder.judging.quantities import (
     Numbers,
@@ -54,9 +54,9 @@ class Check:
     id: the grade_id of its cell. signature: how the function is called. reference: the right answer,
     with the same arguments. calls(rng, count): the calls to try. quantities(calls, values): what is
     judged in the values, for each call one array a criterion; by default the one number that came
-    back. mistakes: tried in order on each criterion that is not met. catalogue(calls): more of them,
-    made when they are needed, each with what it returns for each call. terms: the parts of the right
-    answer, of which an error may be made that no mistake explains. hints: from a nudge to nearly
+    back. mistakes: tried in order on each criterion that is not met. catalogue: more of them, made when
+    they are needed. terms: the parts of the right answer, of which an error may be made that no mistake
+    explains; or a function that gives them. hints: from a nudge to nearly
     the way. pose(call): the joints of the arm in a call, to be drawn beside the worst case.
 
     ValueError where the shares of the criteria do not add up to 1, or where two criteria have one
@@ -69,9 +69,9 @@ class Check:
     calls: Callable[[np.random.Generator, int], list[Call]]
     criteria: tuple[Criterion, ...]
     mistakes: tuple[Mistake, ...] = ()
-    catalogue: Callable[[list[Call]], list[tuple[Mistake, list]]] | None = None
+    catalogue: Catalogue | None = None
     quantities: Quantities = one_number
-    terms: tuple[Term, ...] = ()
+    terms: tuple[Term, ...] | Callable[[], tuple[Term, ...]] = ()
     hints: tuple[str, ...] = ()
     pose: Callable[[Call], list] | None = None
 
@@ -84,11 +84,17 @@ class Check:
         for kind, names in (
             ("criteria", [criterion.text for criterion in self.criteria]),
             ("mistakes", [mistake.name for mistake in self.mistakes]),
-            ("terms", [term.name for term in self.terms]),
+            ("terms", [term.name for term in self.terms] if isinstance(self.terms, tuple) else []),
             ("hints", self.hints),
         ):
             if doubled := [name for name, count in Counter(names).items() if count > 1]:
                 raise ValueError(f"check {self.id}: two of its {kind} are {doubled[0]!r}")
+
+    @property
+    def known_mistakes(self) -> tuple[Mistake, ...]:
+        """Those that are written, and those of the catalogue, which is made for it."""
+        made = self.catalogue.mistakes() if self.catalogue else ()
+        return (*self.mistakes, *made)
 
     @property
     def name(self) -> str:
@@ -234,7 +240,8 @@ class Check:
 
         @cache
         def parts() -> list[tuple[Term, Numbers]]:
-            return [(term, self._quantities_of(term.model, calls)) for term in self.terms]
+            terms = self.terms if isinstance(self.terms, tuple) else self.terms()
+            return [(term, self._quantities_of(term.model, calls)) for term in terms]
 
         return sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
 

@@ -6,6 +6,7 @@ or those of two mistakes at once. If none matches, `findings` says what is true 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from autograder.judging import findings
 from autograder.judging.criterion import TOLERANCE, Criterion, relative_errors
 from autograder.judging.quantities import Numbers
 from autograder.judging.terms import Term
+from autograder.protocol import Call
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,14 @@ class Mistake:
     sentence: str
     whole: bool = False
     combines: bool = True
+
+
+class Catalogue(Protocol):
+    """Mistakes that are made when they are needed: called, each with what it returns for each call."""
+
+    def mistakes(self) -> list[Mistake]: ...
+
+    def __call__(self, calls: list[Call], /) -> list[tuple[Mistake, list]]: ...
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from autograder.judging.terms import Term
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS, Answer, gradient, inertia
 from autograder.mutation.catalogue import Catalogue, Mutant
+from autograder.mutation.generated import Generated
 from autograder.mutation.references import contribution, reference
 from autograder.mutation.sentences import sentence
 from autograder.protocol import Call
@@ -37,8 +38,8 @@ def check_of(mechanism: Mechanism, answer: str) -> Check:
         calls=partial(_calls, mechanism, asked),
         quantities=quantities,
         criteria=criteria,
-        terms=tuple(_terms(mechanism, asked)),
-        catalogue=partial(_mistakes, mechanism, answer),
+        terms=partial(terms_of, mechanism, answer),
+        catalogue=Generated(mechanism, answer),
         hints=_hints(mechanism, asked),
         pose=lambda call: list(mechanism.points(call.args[0], call.args[-1])),
     )
@@ -50,6 +51,7 @@ def catalogue_of(mechanism: Mechanism, answer: str) -> Catalogue:
     return Catalogue(mechanism, answer)
 
 
+@lru_cache(maxsize=64)
 def mistakes_of(mechanism: Mechanism, answer: str) -> list[Mistake]:
     """Every mistake of an answer with its sentence."""
     catalogue = catalogue_of(mechanism, answer)
@@ -73,9 +75,21 @@ def _places(mutant: Mutant) -> list[str]:
     ]
 
 
-def _mistakes(mechanism: Mechanism, answer: str, calls: list[Call]) -> list[tuple[Mistake, list]]:
-    numbers = catalogue_of(mechanism, answer).numbers(*_columns(mechanism, [c.args for c in calls]))
-    return list(zip(mistakes_of(mechanism, answer), map(list, numbers), strict=True))
+def numbers_of(mechanism: Mechanism, answer: str, calls: list[Call]) -> np.ndarray:
+    """What each mistake returns for each call, (mistakes, calls, …)."""
+    columns = _columns(mechanism, [call.args for call in calls])
+    return catalogue_of(mechanism, answer).numbers(*columns)
+
+
+@lru_cache(maxsize=64)
+def terms_of(mechanism: Mechanism, answer: str) -> tuple[Term, ...]:
+    """The parts of the right answer, by the terms of the energy that they come from."""
+    asked = ANSWERS[answer]
+    energies = mechanism.kinetic if asked.of_kinetic else mechanism.potential
+    return tuple(
+        Term(term.name, partial(_contribution, mechanism, answer, k))
+        for k, term in enumerate(energies)
+    )
 
 
 def _one(mechanism: Mechanism, catalogue: Catalogue, k: int, *args) -> np.ndarray:
@@ -101,12 +115,6 @@ def _calls(mechanism: Mechanism, asked: Answer, rng: np.random.Generator, count:
         if asked.name == "potential_energy":
             found.append(Call(asked.name, (mechanism.placed(rng), arm)))
     return found
-
-
-def _terms(mechanism: Mechanism, asked: Answer):
-    energies = mechanism.kinetic if asked.of_kinetic else mechanism.potential
-    for k, term in enumerate(energies):
-        yield Term(term.name, partial(_contribution, mechanism, asked.name, k))
 
 
 def _contribution(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:

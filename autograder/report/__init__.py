@@ -83,7 +83,7 @@ def mistakes_made(students: Iterable[Student]) -> list[Made]:
 
 def _name_of(check: str, sentence: str) -> str:
     known = check_for(check)
-    mistakes = known.mistakes if known else ()
+    mistakes = known.known_mistakes if known else ()
     return next((mistake.name for mistake in mistakes if mistake.sentence == sentence), "")
 
 

@@ -228,7 +228,7 @@ def _problem(path, prepared_by, to):
             if graded.get("grade"):
                 check = CHECKS.get(graded["grade_id"])
                 how = f"`{graded['grade_id']}`" + ("" if check else ", read by a person")
-                known = len(check.mistakes) if check else ""
+                known = len(check.known_mistakes) if check else ""
                 yield f"| {_cell(part.title)} | {how} | {graded['points']:g} | {known} |"
 
 

@@ -1,0 +1,73 @@
+"""What follows from a mechanism for one answer: the right one, its terms and its mistakes.
+
+A check of a problem is declared with it. Nothing is derived, and SymPy is not imported, before an
+answer is asked for.
+"""
+
+from __future__ import annotations
+
+import fnmatch
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from autograder.judging.diagnosis import Mistake
+from autograder.judging.terms import Term
+from autograder.protocol import Call
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
+
+
+class Generated:
+    """mechanism: its name, or itself. answer: one of `ANSWERS`. rows: a teacher's sentences, each by the
+    name of its mistake, in which `*` stands for anything; the most specific counts.
+    """
+
+    def __init__(
+        self, mechanism: str | Mechanism, answer: str, rows: Mapping[str, str] | None = None
+    ):
+        self.given, self.answer, self.rows = mechanism, answer, dict(rows or {})
+
+    @cached_property
+    def mechanism(self) -> Mechanism:
+        if not isinstance(self.given, str):
+            return self.given
+        from autograder.mechanisms import MECHANISMS
+
+        return MECHANISMS[self.given]
+
+    def reference(self, *args):
+        """The right answer, with the arguments of the student's function."""
+        from autograder.mutation.references import reference
+
+        return reference(self.mechanism, self.answer)(*args)
+
+    def terms(self) -> tuple[Term, ...]:
+        from autograder.mutation.checks import terms_of
+
+        return terms_of(self.mechanism, self.answer)
+
+    def mistakes(self) -> list[Mistake]:
+        """Every mistake, with the sentence of its row, or else of its operator."""
+        from autograder.mutation.checks import mistakes_of
+
+        return [self._said(mistake) for mistake in mistakes_of(self.mechanism, self.answer)]
+
+    def __call__(self, calls: list[Call]) -> list[tuple[Mistake, list]]:
+        """Every mistake, with what it returns for each call."""
+        from autograder.mutation.checks import numbers_of
+
+        numbers = numbers_of(self.mechanism, self.answer, calls)
+        return list(zip(self.mistakes(), map(list, numbers), strict=True))
+
+    def _said(self, mistake: Mistake) -> Mistake:
+        fitting = [row for row in self.rows if fnmatch.fnmatchcase(mistake.name, row)]
+        if not fitting:
+            return mistake
+        return replace(mistake, sentence=self.rows[max(fitting, key=_specific)])
+
+
+def _specific(pattern: str) -> int:
+    return len(pattern.replace("*", ""))
