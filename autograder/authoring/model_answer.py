@@ -11,10 +11,7 @@ from autograder.mutation.answers import ANSWERS
 def model_answer(mechanism: Mechanism, answer: str) -> list[str]:
     """The lines of the function's body: a name for each entry that is not 0, then what is returned."""
     asked = ANSWERS[answer]
-    derived = asked.of_kinetic or asked.of_potential
-    assert derived is not None
-    energy = mechanism.K if asked.of_kinetic else mechanism.P
-    texts = [_python(mechanism, entry) for entry in derived(energy, mechanism)]
+    texts = [_python(mechanism, entry) for entry in asked.entries(mechanism)]
     shape = asked.shape(mechanism.n)
     if not shape:
         return [f"return {texts[0]}"]

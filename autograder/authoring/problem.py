@@ -12,7 +12,7 @@ from autograder.files import put_in_place
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
 
-POINTS = {"potential_energy": 2, "M": 3, "g_vec": 2, "C": 4}
+POINTS = {"potential_energy": 2, "M": 3, "M_dot": 3, "g_vec": 2, "C": 4}
 PROOF_POINTS = 4
 WHAT = {
     "potential_energy": (
@@ -26,6 +26,11 @@ WHAT = {
         "$K = \\tfrac12 \\dot q^{\\mathsf T} M(q)\\, \\dot q$. "
         "Before you run the check, say which of its entries change with $q$.",
         "Inertia matrix, ({n}, {n}).",
+    ),
+    "M_dot": (
+        "The rate of the inertia matrix",
+        "Write $\\dot M(q, \\dot q)$, the derivative of $M(q(t))$ with respect to time along a motion.",
+        "dM/dt along qd, ({n}, {n}).",
     ),
     "g_vec": (
         "The vector $g(q)$",

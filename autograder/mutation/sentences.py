@@ -5,12 +5,13 @@ Where a teacher has written a better one for a place (ROWS), that one is said.
 """
 
 import fnmatch
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from autograder.mechanisms import Mechanism
-from autograder.mutation.answers import Answer
-from autograder.mutation.catalogue import Mutant
+from autograder.mutation.answers import ANSWERS, Answer
+from autograder.mutation.mutant import Mutant
 
+PLURALS = {"m": "lengths", "kg": "masses", "kg·m²": "inertias"}
 KINDS = {
     "m": "length",
     "kg": "mass",
@@ -132,6 +133,73 @@ GENERAL = {
     "velocity of the row": "You multiply h_ijk by the velocity of its row. Over which index does the "
     "sum run?",
     "joints exchanged": "Your {where} has the entries of the joints in the wrong order.",
+    "wrong velocity": "In your {where}, {term} has the velocity {put} where {instead_of} belongs. Which "
+    "joint's motion makes it?",
+    "absolute angle": "Your {where} is right for an angle {put} that is measured from the same line as "
+    "{instead_of}. From where is {put} measured here?",
+    "relative angle": "Your {where} is right for an angle {put} that is measured from the link before. "
+    "From where is {put} measured here?",
+    "parallel axis added": "In your {where}, {term} has more than {instead_of}: you applied the "
+    "parallel-axis theorem with {put}. About which point is {instead_of} taken, and what moves that "
+    "point?",
+    "parallel axis taken off": "In your {where}, {term} has less than {instead_of}. About which point "
+    "is {instead_of} taken, and about which does the body turn?",
+    "point mass": "In your {where}, {term} is that of a point mass. The body has a size: which "
+    "parameter tells how its mass is spread?",
+    "mass for inertia": "In your {where}, {term} has the mass {put} where an inertia belongs. The "
+    "coordinate is an angle: what resists an angular acceleration?",
+    "kind left out": "In your {where}, the {all_of_them} do not appear in {term}. Do its units come out "
+    "{right}?",
+    "astray": "In your {where}, {term} appears, as it does in {put}. Does it belong there too?",
+    "moved": "In your {where} stands {term}, and in {put} it is missing. Which coordinate moves it?",
+    "product dropped": "In {where} of your C q̇, the product of velocities {put} is missing. Which "
+    "derivatives of M does it come with?",
+    "product of the wrong sign": "In {where} of your C q̇, the product of velocities {put} has the "
+    "wrong sign. Which derivatives of M does it come with?",
+    "product halved": "In {where} of your C q̇, the product of velocities {put} is half of what it "
+    "should be. In how many places of the sum over j and k does it appear?",
+    "product doubled": "In {where} of your C q̇, the product of velocities {put} counts twice. In how "
+    "many places of the sum over j and k does it appear?",
+    "lower triangle alone": "Your {where} is 0 above its diagonal. Which property do inertia "
+    "matrices have?",
+    "sign below the diagonal": "In your {where}, what is below the diagonal has the wrong sign. Which "
+    "property do inertia matrices have?",
+    "mixed terms not shared": "What is beside the diagonal of your {where} is twice what it should be. "
+    "Multiply q̇ᵀ M q̇ out: how often does each mixed product appear?",
+    "mixed terms in one triangle": "The energy of your {where} is right, but the mixed terms are in one "
+    "triangle of it. How must two entries share them for {where} to be symmetric?",
+    "velocities exchanged": "You swapped the velocities in your {where}. Which velocity goes with the "
+    "derivative by which coordinate?",
+    "sum of the velocities": "You multiply each derivative of M by the sum of the velocities. In the "
+    "chain rule, which velocity goes with which derivative?",
+    "chain rule forgotten": "Your {where} holds derivatives by the coordinates, and no velocity. It is "
+    "a derivative with respect to time: what does the chain rule add?",
+    "C": "You return C. It is made of the same derivatives as Ṁ, but M is symmetric: can its derivative "
+    "be anything else?",
+    "twice C": "You return 2C. It does the same work as Ṁ, but the two matrices differ: compare them "
+    "entry by entry.",
+    "constants differentiated": "You multiply M by a velocity, where its derivative belongs. What is "
+    "the derivative of the constant parts of M?",
+    "product with the velocities": "You multiply the entries of M by the velocities. How fast does each "
+    "entry change?",
+    "torque for C": "You return the vector C q̇, or a matrix made of it. Which square matrix gives this "
+    "vector when you multiply it by q̇?",
+    "C times ones": "You return C times a vector of ones, which sums its rows. Which matrix is asked "
+    "for?",
+    "second derivative twice": "Your C gives the right C q̇, but it is not the Christoffel form: one of "
+    "the two derivatives with a plus counts twice, and the other is not there.",
+    "products in the later column": "Your C gives the right C q̇, but it is not the Christoffel form: "
+    "each product of two velocities stands in one column. How do the entries of a row share it?",
+    "products in the earlier column": "Your C gives the right C q̇, but it is not the Christoffel "
+    "form: each product of two velocities stands in one column. How do the entries of a row share it?",
+    "second kind": "Your Christoffel symbols are of the second kind: you multiplied them by the inverse "
+    "of M. Does that inverse have a place in the equation of motion as it is written here?",
+    "gravity for C": "You return what gravity and springs do. It does not depend on q̇: where does it "
+    "belong in the equation of motion?",
+    "momentum for C": "You return the momentum M q̇. C comes from how M changes with q.",
+    "energy for its derivative": "You return the potential energy. What turns P(q) into g(q)?",
+    "divided by M": "You return an acceleration: you divided by the inertia already. In the equation "
+    "of motion, what does M multiply?",
 }
 
 # Of a mistake that is made in all terms alike.
@@ -150,6 +218,20 @@ THROUGHOUT = {
     "body?",
     "square lost": "The units of your {where} do not come out {right}. Look at the power of {put}.",
     "wave lost": "Your {where} does not change with the angle {instead_of}. Should it?",
+    "wrong velocity": "Your {where} has the velocity {put} where {instead_of} belongs. Which joint's "
+    "motion makes it?",
+    "parallel axis added": "Your {where} has more than {instead_of}: you applied the parallel-axis "
+    "theorem with {put}. About which point is {instead_of} taken?",
+    "parallel axis taken off": "Your {where} has less than {instead_of}. About which point is "
+    "{instead_of} taken, and about which does the body turn?",
+    "point mass": "Your {where} is that of a point mass in place of {instead_of}. The body has a size: "
+    "which parameter tells how its mass is spread?",
+    "mass for inertia": "Your {where} has the mass {put} where an inertia belongs. What resists an "
+    "angular acceleration?",
+    "kind left out": "The {all_of_them} are missing from your {where}. Do its units come out {right}?",
+    "astray": "In your {where} stands what belongs in {put}. Does it belong there too?",
+    "moved": "In your {where} stands what belongs in {put}, where it is missing. Which coordinate moves "
+    "what?",
     "parameter left out": "Your {where} lacks {instead_of}. Do its units come out {right}?",
     "small angle": "Your {where} is right for small angles only. The joints turn all the way round.",
     "radians converted": "You convert the angles to radians. They are in radians already.",
@@ -157,16 +239,19 @@ THROUGHOUT = {
 }
 
 # What an answer follows from, where the mistake was made there.
-DERIVED = {
-    "g_vec": "the derivative of a wrong P",
-    "C": "the Christoffel matrix of a wrong M",
+DERIVED = {"g_vec": "the derivative of a wrong P"}
+ENERGIES = {"g_vec": "P"}
+
+# Of an answer, what is wrong with it where one of its parts is.
+FOLLOWS = {
+    "C": {"M": "Your C looks like the Christoffel matrix of a wrong M."},
+    "M_dot": {"M": "Your Ṁ looks like the rate of a wrong M."},
 }
-ENERGIES = {"g_vec": "P", "C": "M"}
 
 
 def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
     """What to say of a mistake: a teacher's row, the most specific first, or the operator's sentence."""
-    head = answer.name.removesuffix("_vec").replace("potential_energy", "P")
+    head = answer.head
     turning = all(c.unit == "rad" for c in mechanism.coordinates)
     docs = {p.name: p for p in mechanism.parameters}
     put = docs.get(mutant.put)
@@ -175,12 +260,15 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
         "term": mutant.term,
         "put": mutant.put,
         "instead_of": mutant.instead_of,
+        "all_of_them": PLURALS.get(mutant.instead_of, "parameters"),
         "put_doc": put.doc if put else "",
         "kind": KINDS.get(put.unit, "parameter") if put else "",
         "right": f"as {answer.unit}" if turning else "right",
         "arm": answer.arguments[-1],
     }
     rows = [row for row in ROWS if _fits(row, mutant, mechanism, answer)]
+    if mutant.source and not any(row.answer == answer.name for row in rows):
+        return f"{FOLLOWS[answer.name][mutant.source]} {_of_source(mutant, mechanism)}"
     rows.sort(
         key=lambda row: -sum(len(p.replace("*", "")) for p in (row.term, row.entry, row.mechanism))
     )
@@ -194,6 +282,16 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
         said = said.replace(f"Your {words['where']}", f"This {words['where']}")
         return f"Your {head} looks like {source}. {said}"
     return template.format(**words)
+
+
+def _of_source(mutant: Mutant, mechanism: Mechanism) -> str:
+    """What is said of the answer in which the mistake was made, of which only this one shows."""
+    said = sentence(replace(mutant, source=""), mechanism, ANSWERS[mutant.source])
+    return (
+        said.replace("Your ", "This ", 1).replace("your ", "this ", 1)
+        if said.startswith(("Your ", "In your "))
+        else said.replace("You return ", "You use ", 1)
+    )
 
 
 def _fits(row: Row, mutant: Mutant, mechanism: Mechanism, answer: Answer) -> bool:

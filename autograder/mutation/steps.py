@@ -1,7 +1,7 @@
 """What people do wrong on the way from the terms to the answer: with derivatives, indices and order.
 
 Each step is a function of the mechanism's right numbers: M (…, n, n), its slopes ∂M_ij/∂q_k
-(…, n, n, n), q̇, C, g and P. It gives what the answer then is.
+(…, n, n, n), q̇, g and P. It gives what the answer then is.
 """
 
 from collections.abc import Callable
@@ -17,13 +17,20 @@ class Right:
     M: np.ndarray
     slopes: np.ndarray
     qd: np.ndarray
-    C: np.ndarray
     g_vec: np.ndarray
     P: np.ndarray
 
     @property
+    def C(self) -> np.ndarray:
+        return np.einsum("...ijk,...k->...ij", self.christoffel(), self.qd)
+
+    @property
     def M_dot(self) -> np.ndarray:
         return np.einsum("...ijk,...k->...ij", self.slopes, self.qd)
+
+    @property
+    def K(self) -> np.ndarray:
+        return np.einsum("...i,...ij,...j->...", self.qd, self.M, self.qd) / 2
 
     def christoffel(self, first=0.5, second=0.5, third=0.5) -> np.ndarray:
         """h_ijk with these weights on ∂M_ij/∂q_k, ∂M_ik/∂q_j and −∂M_jk/∂q_i."""
@@ -42,6 +49,31 @@ def _transposed(array: np.ndarray) -> np.ndarray:
     return np.swapaxes(array, -1, -2)
 
 
+def _diagonal(vector: np.ndarray) -> np.ndarray:
+    """A vector in the place of a matrix; read so where a check asks for C."""
+    return vector[..., np.newaxis] * np.eye(vector.shape[-1])
+
+
+def _times(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    return np.einsum("...ij,...j->...i", matrix, vector)
+
+
+def _in_one_column(later: bool) -> Step:
+    """Each product q̇_j q̇_k of C q̇ whole in the column of one of its two velocities."""
+
+    def step(right: Right) -> np.ndarray:
+        n = right.M.shape[-1]
+        apart = 2 * (np.tril(np.ones((n, n)), -1) if later else np.triu(np.ones((n, n)), 1))
+        shared = right.christoffel() * (apart + np.eye(n))
+        return np.einsum("...ijk,...k->...ij", shared, right.qd)
+
+    return step
+
+
+def _solved(M: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    return np.linalg.solve(M, rest[..., np.newaxis])[..., 0]
+
+
 STEPS: dict[str, dict[str, Step]] = {
     "M": {
         "half of the whole": lambda right: right.M / 2,
@@ -50,9 +82,35 @@ STEPS: dict[str, dict[str, Step]] = {
         "inverse": lambda right: np.linalg.inv(right.M),
         "diagonal alone": lambda right: right.M * np.eye(right.M.shape[-1]),
         "upper triangle alone": lambda right: np.triu(right.M),
+        "lower triangle alone": lambda right: np.tril(right.M),
+        "sign below the diagonal": lambda right: np.triu(right.M) - np.tril(right.M, -1),
+        "mixed terms not shared": lambda right: 2 * right.M - right.M * np.eye(right.M.shape[-1]),
+        "mixed terms in one triangle": lambda right: np.triu(right.M) + np.triu(right.M, 1),
+        "joints exchanged": lambda right: right.M[..., ::-1, ::-1],
+    },
+    "M_dot": {
+        "sign of the whole": lambda right: -right.M_dot,
+        "half of the whole": lambda right: right.M_dot / 2,
+        "twice the whole": lambda right: 2 * right.M_dot,
+        "velocities exchanged": lambda right: np.einsum(
+            "...ijk,...k->...ij", right.slopes, right.qd[..., ::-1]
+        ),
+        "sum of the velocities": lambda right: (
+            np.sum(right.slopes, axis=-1) * np.sum(right.qd, axis=-1)[..., None, None]
+        ),
+        "chain rule forgotten": lambda right: np.sum(right.slopes, axis=-1),
+        "zero": lambda right: np.zeros_like(right.M),
+        "C": lambda right: right.C,
+        "twice C": lambda right: 2 * right.C,
+        "M": lambda right: right.M,
+        "constants differentiated": lambda right: right.M * right.qd[..., -1, None, None],
+        "product with the velocities": lambda right: right.M * right.qd[..., None, :],
+        "diagonal alone": lambda right: right.M_dot * np.eye(right.M.shape[-1]),
+        "upper triangle alone": lambda right: np.triu(right.M_dot),
     },
     "C": {
         "sign of the whole": lambda right: -right.C,
+        "half of the whole": lambda right: right.C / 2,
         "twice the whole": lambda right: 2 * right.C,
         "transposed": lambda right: _transposed(right.C),
         "rate of M": lambda right: right.M_dot,
@@ -60,12 +118,17 @@ STEPS: dict[str, dict[str, Step]] = {
         "rate of M less 2C": lambda right: right.M_dot - 2 * right.C,
         "M": lambda right: right.M,
         "zero": lambda right: np.zeros_like(right.C),
+        "torque for C": lambda right: _diagonal(_times(right.C, right.qd)),
+        "C times ones": lambda right: _diagonal(np.sum(right.C, axis=-1)),
         "last derivative missing": _weighted(third=0),
         "sign of the last derivative": _weighted(third=-0.5),
         "last derivative not halved": _weighted(third=1),
         "second derivative missing": _weighted(second=0),
         "first derivative missing": _weighted(first=0),
         "not symmetrised": _weighted(first=1, second=0),
+        "second derivative twice": _weighted(first=0, second=1),
+        "products in the later column": _in_one_column(later=True),
+        "products in the earlier column": _in_one_column(later=False),
         "summed over the first index": lambda right: np.einsum(
             "...kij,...k->...ij", right.christoffel(), right.qd
         ),
@@ -76,6 +139,12 @@ STEPS: dict[str, dict[str, Step]] = {
         "velocity of the row": lambda right: (
             np.sum(right.christoffel(), axis=-1) * right.qd[..., :, np.newaxis]
         ),
+        "velocities exchanged": lambda right: np.einsum(
+            "...ijk,...k->...ij", right.christoffel(), right.qd[..., ::-1]
+        ),
+        "second kind": lambda right: np.linalg.solve(right.M, right.C),
+        "gravity for C": lambda right: _diagonal(right.g_vec),
+        "momentum for C": lambda right: _diagonal(_times(right.M, right.qd)),
     },
     "g_vec": {
         "sign of the whole": lambda right: -right.g_vec,
@@ -83,10 +152,27 @@ STEPS: dict[str, dict[str, Step]] = {
         "twice the whole": lambda right: 2 * right.g_vec,
         "joints exchanged": lambda right: right.g_vec[..., ::-1],
         "zero": lambda right: np.zeros_like(right.g_vec),
+        "energy for its derivative": lambda right: np.broadcast_to(
+            right.P[..., np.newaxis], right.g_vec.shape
+        ),
+        "divided by M": lambda right: _solved(right.M, right.g_vec),
     },
     "potential_energy": {
         "sign of the whole": lambda right: -right.P,
         "half of the whole": lambda right: right.P / 2,
         "twice the whole": lambda right: 2 * right.P,
+    },
+    "lagrangian": {
+        "energy for L": lambda right: right.K + right.P,
+        "sign of the whole": lambda right: right.P - right.K,
+        "half of the whole": lambda right: (right.K - right.P) / 2,
+        "twice the whole": lambda right: 2 * (right.K - right.P),
+        "½ of K missing": lambda right: 2 * right.K - right.P,
+        "½ of K twice": lambda right: right.K / 2 - right.P,
+        "K missing": lambda right: -right.P,
+        "P missing": lambda right: right.K,
+        "diagonal of M alone": lambda right: (
+            np.einsum("...ii,...i->...", right.M, right.qd**2) / 2 - right.P
+        ),
     },
 }

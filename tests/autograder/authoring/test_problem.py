@@ -94,9 +94,7 @@ def test_nothing_is_written_over(tmp_path):
 
 @pytest.mark.parametrize("asks", [[], ["M", "M"], ["m"], ["M", ""]])
 def test_answers_that_cannot_be_asked(tmp_path, asks):
-    with pytest.raises(
-        ProblemError, match="needs some of M, C, g_vec, potential_energy, each once"
-    ):
+    with pytest.raises(ProblemError, match=f"needs some of {', '.join(ANSWERS)}, each once"):
         write_problem(tmp_path, CART, asks)
     assert not (tmp_path / "solutions").exists()
 

@@ -10,7 +10,8 @@ from autograder.judging.verdict import State
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation import operators
 from autograder.mutation.answers import ANSWERS
-from autograder.mutation.checks import catalogue_of, check_of, mistakes_of
+from autograder.mutation.checks import check_of, mistakes_of
+from autograder.mutation.composed import catalogue_of
 from autograder.mutation.sentences import GENERAL, ROWS, THROUGHOUT
 from autograder.mutation.steps import STEPS
 from autograder.mutation.trial import STYLES
