@@ -198,6 +198,44 @@ GENERAL = {
     "belong in the equation of motion?",
     "momentum for C": "You return the momentum M q̇. C comes from how M changes with q.",
     "energy for its derivative": "You return the potential energy. What turns P(q) into g(q)?",
+    "halves of ẋ swapped": "You swapped the two halves of ẋ. Which half of x is q, and which half of ẋ "
+    "is its rate of change?",
+    "q for its rate": "The first half of your ẋ is q itself. What is the rate of change of q, and where "
+    "in x does it stand?",
+    "state read as q̇ and q": "Your accelerations come out as if x were [q̇; q]. Which half of x do you "
+    "call q?",
+    "state interleaved": "You read x as if each velocity stood beside its coordinate. In which order "
+    "are the entries of x?",
+    "states interleaved": "You read x, and write ẋ, as if each velocity stood beside its coordinate. "
+    "In which order are the entries of x?",
+    "M not inverted": "You multiply by M. In M q̈ = ..., how do you get q̈ alone?",
+    "torque for acceleration": "The second half of your ẋ is a torque or force. What resists it?",
+    "divided by the diagonal of M": "You divide by the diagonal of M, as if the joints did not feel "
+    "each other. What do the other entries do?",
+    "entries of M inverted": "You invert each entry of M by itself, which does not invert the matrix. "
+    "Which NumPy function solves a linear system?",
+    "divided by M entry by entry": "You divide by M entry by entry. Which NumPy function solves a "
+    "linear system?",
+    "C times ones in the torque": "Your Coriolis torque is the sum of each row of C. What must C "
+    "multiply?",
+    "not divided by M": "You do not divide {term} by M, as you do the rest. Is it an acceleration, or "
+    "what makes one?",
+    "quadratic friction": "In your {where}, {term} grows with the square of the speed. Look at the unit "
+    "of its coefficient.",
+    "friction in one direction": "In your {where}, {term} always acts in the same direction. What "
+    "decides the direction of friction?",
+    "absolute value for sign": "In your {where}, {term} has the size of the velocity where its sign "
+    "belongs: it grows with the speed and never changes direction.",
+    "velocity for its sign": "In your {where}, {term} grows with the speed. Dry friction does not "
+    "depend on how fast a joint moves: what does it depend on?",
+    "sign of the coordinate": "In your {where}, {term} has the sign of the coordinate. Does friction "
+    "depend on where a joint is, or on how it moves?",
+    "smooth sign": "In your {where}, {term} fades out at low speed, as a tanh does. In this model it "
+    "jumps: how large is dry friction at 0.001 rad/s?",
+    "friction at rest": "In your {where}, {term} is not zero in a joint at rest. In which direction "
+    "would it push there? What does NumPy's own sign give for 0?",
+    "coefficients exchanged": "You swapped the two coefficients of {term}. Which of them is a torque or "
+    "force by itself, and which must be multiplied by a velocity?",
     "divided by M": "You return an acceleration: you divided by the inertia already. In the equation "
     "of motion, what does M multiply?",
 }
@@ -246,6 +284,12 @@ ENERGIES = {"g_vec": "P"}
 FOLLOWS = {
     "C": {"M": "Your C looks like the Christoffel matrix of a wrong M."},
     "M_dot": {"M": "Your Ṁ looks like the rate of a wrong M."},
+    "f": {
+        "M": "Your accelerations look like those of a wrong M.",
+        "C": "Your accelerations look like those of a wrong C.",
+        "g_vec": "Your accelerations look like those of a wrong g.",
+        "M and C": "Your accelerations look like those of another arm: M is wrong, and C with it.",
+    },
 }
 
 
@@ -286,7 +330,7 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
 
 def _of_source(mutant: Mutant, mechanism: Mechanism) -> str:
     """What is said of the answer in which the mistake was made, of which only this one shows."""
-    said = sentence(replace(mutant, source=""), mechanism, ANSWERS[mutant.source])
+    said = sentence(replace(mutant, source=""), mechanism, ANSWERS[mutant.source.partition(" ")[0]])
     return (
         said.replace("Your ", "This ", 1).replace("your ", "this ", 1)
         if said.startswith(("Your ", "In your "))

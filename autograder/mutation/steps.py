@@ -38,7 +38,36 @@ class Right:
         return first * D + second * np.swapaxes(D, -1, -2) - third * np.moveaxis(D, -1, -3)
 
 
-Step = Callable[[Right], np.ndarray]
+@dataclass(frozen=True)
+class Driven(Right):
+    """What also makes a motion: q, the input u and the friction, (…, n) each."""
+
+    q: np.ndarray
+    u: np.ndarray
+    friction: np.ndarray
+
+    @property
+    def torques(self) -> dict[str, np.ndarray]:
+        """What adds up to M q̈, by name."""
+        return {
+            "the input u": self.u,
+            "C q̇": -times(self.C, self.qd),
+            "g(q)": -self.g_vec,
+            "the friction": -self.friction,
+        }
+
+    @property
+    def rest(self) -> np.ndarray:
+        """u − C q̇ − g − f."""
+        return sum(self.torques.values(), np.zeros_like(self.u))
+
+    @property
+    def acceleration(self) -> np.ndarray:
+        return solved(self.M, self.rest)
+
+
+# Of any answer; those of f take what drives the motion too.
+Step = Callable[..., np.ndarray]
 
 
 def _weighted(**weights) -> Step:
@@ -54,7 +83,7 @@ def _diagonal(vector: np.ndarray) -> np.ndarray:
     return vector[..., np.newaxis] * np.eye(vector.shape[-1])
 
 
-def _times(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+def times(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
     return np.einsum("...ij,...j->...i", matrix, vector)
 
 
@@ -70,8 +99,21 @@ def _in_one_column(later: bool) -> Step:
     return step
 
 
-def _solved(M: np.ndarray, rest: np.ndarray) -> np.ndarray:
-    return np.linalg.solve(M, rest[..., np.newaxis])[..., 0]
+def solved(M: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """M⁻¹ times vectors, (…, n); not a number where a wrong M has no inverse."""
+    volume = np.linalg.det(M)
+    good = (np.isfinite(volume) & (volume != 0))[..., np.newaxis, np.newaxis]
+    some = np.where(good, M, np.eye(M.shape[-1]))
+    return np.where(good[..., 0], np.linalg.solve(some, rest[..., np.newaxis])[..., 0], np.nan)
+
+
+def rate(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """ẋ of its two halves, (…, 2n)."""
+    return np.concatenate(np.broadcast_arrays(first, second), axis=-1)
+
+
+def _accelerating(acceleration: Callable[[Driven], np.ndarray]) -> Step:
+    return lambda driven: rate(driven.qd, acceleration(driven))
 
 
 STEPS: dict[str, dict[str, Step]] = {
@@ -118,7 +160,7 @@ STEPS: dict[str, dict[str, Step]] = {
         "rate of M less 2C": lambda right: right.M_dot - 2 * right.C,
         "M": lambda right: right.M,
         "zero": lambda right: np.zeros_like(right.C),
-        "torque for C": lambda right: _diagonal(_times(right.C, right.qd)),
+        "torque for C": lambda right: _diagonal(times(right.C, right.qd)),
         "C times ones": lambda right: _diagonal(np.sum(right.C, axis=-1)),
         "last derivative missing": _weighted(third=0),
         "sign of the last derivative": _weighted(third=-0.5),
@@ -144,7 +186,7 @@ STEPS: dict[str, dict[str, Step]] = {
         ),
         "second kind": lambda right: np.linalg.solve(right.M, right.C),
         "gravity for C": lambda right: _diagonal(right.g_vec),
-        "momentum for C": lambda right: _diagonal(_times(right.M, right.qd)),
+        "momentum for C": lambda right: _diagonal(times(right.M, right.qd)),
     },
     "g_vec": {
         "sign of the whole": lambda right: -right.g_vec,
@@ -155,7 +197,7 @@ STEPS: dict[str, dict[str, Step]] = {
         "energy for its derivative": lambda right: np.broadcast_to(
             right.P[..., np.newaxis], right.g_vec.shape
         ),
-        "divided by M": lambda right: _solved(right.M, right.g_vec),
+        "divided by M": lambda right: solved(right.M, right.g_vec),
     },
     "potential_energy": {
         "sign of the whole": lambda right: -right.P,
@@ -173,6 +215,22 @@ STEPS: dict[str, dict[str, Step]] = {
         "P missing": lambda right: right.K,
         "diagonal of M alone": lambda right: (
             np.einsum("...ii,...i->...", right.M, right.qd**2) / 2 - right.P
+        ),
+    },
+    "f": {
+        "halves of ẋ swapped": lambda driven: rate(driven.acceleration, driven.qd),
+        "q for its rate": lambda driven: rate(driven.q, driven.acceleration),
+        "M not inverted": _accelerating(lambda driven: times(driven.M, driven.rest)),
+        "torque for acceleration": _accelerating(lambda driven: driven.rest),
+        "divided by the diagonal of M": _accelerating(
+            lambda driven: driven.rest / np.einsum("...ii->...i", driven.M)
+        ),
+        "entries of M inverted": _accelerating(lambda driven: times(1 / driven.M, driven.rest)),
+        "divided by M entry by entry": _accelerating(
+            lambda driven: np.sum(driven.rest[..., np.newaxis, :] / driven.M, axis=-2)
+        ),
+        "C times ones in the torque": _accelerating(
+            lambda driven: solved(driven.M, driven.rest + times(driven.C, driven.qd - 1))
         ),
     },
 }

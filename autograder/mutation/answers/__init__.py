@@ -7,6 +7,7 @@ made of these (`composition.py`).
 
 from autograder.mutation.answers.answer import Answer
 from autograder.mutation.answers.coriolis import CORIOLIS
+from autograder.mutation.answers.first_order import FIRST_ORDER
 from autograder.mutation.answers.gravity import GRAVITY
 from autograder.mutation.answers.inertia_matrix import INERTIA_MATRIX
 from autograder.mutation.answers.inertia_rate import INERTIA_RATE
@@ -16,7 +17,14 @@ __all__ = ["ANSWERS", "PARTS", "Answer"]
 
 ANSWERS = {
     answer.name: answer
-    for answer in (INERTIA_MATRIX, CORIOLIS, INERTIA_RATE, GRAVITY, POTENTIAL_ENERGY)
+    for answer in (
+        INERTIA_MATRIX,
+        CORIOLIS,
+        INERTIA_RATE,
+        GRAVITY,
+        POTENTIAL_ENERGY,
+        FIRST_ORDER,
+    )
 }
 # What others are made of, and no student is asked for.
 PARTS: dict[str, Answer] = {}

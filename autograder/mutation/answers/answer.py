@@ -31,9 +31,9 @@ class Answer:
     criteria of its check. case(mechanism, rng, k): the arguments of the k-th call or calls. hints: all
     three, or the last alone, which says how to derive it. of_kinetic, of_potential: what a term of K
     or of P contributes to its entries, in a row; None where it contributes nothing. symmetric: whether
-    the entries ij and ji are one. position: q of a call's arguments. composition(mechanism): how it is
-    made of other answers, where it is not linear in the energies, or where a mistake in another answer
-    shows in it.
+    the entries ij and ji are one. friction: whether its arms have friction. position: q of a call's
+    arguments. composition(mechanism): how it is made of other answers, where it is not linear in the
+    energies, or where a mistake in another answer shows in it.
     """
 
     name: str
@@ -46,6 +46,7 @@ class Answer:
     of_kinetic: Derived | None = None
     of_potential: Derived | None = None
     symmetric: bool = False
+    friction: bool = False
     position: Callable[[tuple], np.ndarray] = lambda args: args[0]
     composition: "Callable[[Mechanism], Composition] | None" = None
 

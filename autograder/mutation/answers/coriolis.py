@@ -1,6 +1,7 @@
 """C(q, q̇): the Coriolis and centrifugal matrix in Christoffel form."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import combinations_with_replacement
 
 import numpy as np
@@ -74,23 +75,35 @@ def of_wrong_inertia(
         own, inertia = catalogue(name), catalogue("M")
         yield Group(own.mutants, own.numbers)
         if name == "C":
-            yield _wrong_products(mechanism)
-        terms = [k for k, mutant in enumerate(inertia.mutants) if not mutant.is_step]
-
-        def numbers(q, qd, arms):
-            def wrong(at):
-                some = arms * (len(at) // len(arms))
-                return inertia.numbers(at, np.zeros(at.shape), some)[terms]
-
-            D = slopes(wrong, q)
-            return follows(Right(D[..., 0], D, qd, qd, qd[:, 0]))
-
-        yield Group([inertia.mutants[k].within("M") for k in terms], numbers)
+            yield wrong_products(mechanism)
+        terms, wrong = propagated(mechanism, inertia)
+        yield Group(
+            [inertia.mutants[k].within("M") for k in terms],
+            lambda q, qd, arms: follows(wrong(q, qd, arms)),
+        )
 
     return Composition(states, lambda q, qd, arms: follows(right(q, qd, arms)), groups)
 
 
-def _wrong_products(mechanism: Mechanism) -> Group:
+def propagated(mechanism: Mechanism, inertia) -> tuple[list[int], Callable[..., Right]]:
+    """The mistakes of M's catalogue that are made in a term; and from q, q̇ and the arms the numbers of
+    an arm with such an M, (mutants, cases, …).
+    """
+    terms = [k for k, mutant in enumerate(inertia.mutants) if not mutant.is_step]
+    right = whole(mechanism)
+
+    def numbers(q, qd, arms) -> Right:
+        def wrong(at):
+            some = arms * (len(at) // len(arms))
+            return inertia.numbers(at, np.zeros(at.shape), some)[terms]
+
+        known = right(q, qd, arms)
+        return replace(known, M=wrong(q), slopes=slopes(wrong, q))
+
+    return terms, numbers
+
+
+def wrong_products(mechanism: Mechanism) -> Group:
     """One product of two velocities, in one row of C q̇, that is missing, or not there once."""
     n, right = mechanism.n, whole(mechanism)
     names = [v.name for v in mechanism.qd]
