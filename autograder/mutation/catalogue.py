@@ -54,8 +54,8 @@ class Catalogue:
                 copies, moves = self._copies(), len(self.answer.shape(m.n)) == 1
                 for rewriting in astray(entries, names, copies, moves):
                     yield k, rewriting, list(rewriting.expressions), False
-        if self.answer.composition:
-            return  # what is done to an energy is seen in the part that follows from it
+        if self.answer.composition or not self.answer.shape(m.n):
+            return  # it shows in the part that follows from the energy, or is done to it above
         for k, (term, derived) in enumerate(self._derived):
             for rewriting in rewritings(sp.Tuple(term.energy), m):
                 yield k, rewriting, derived(rewriting.expressions[0], m), True
@@ -206,10 +206,13 @@ def each_once(every, numbers, right) -> list:
     """Those with numbers of their own, in their order: not the right ones, nor an earlier one's."""
     scale = np.max(np.abs(right))
     flat = numbers.reshape(len(every), -1)
+    found = np.empty((len(every) + 1, flat.shape[1]))
+    found[0] = right.ravel()
     kept: list[int] = []
     for i, own in enumerate(flat):
-        others = np.array([right.ravel(), *flat[kept]])
         size = max(scale, np.max(np.abs(own)))
-        if np.all(np.isfinite(own)) and np.all(np.max(np.abs(others - own), axis=1) > SAME * size):
+        apart = np.max(np.abs(found[: len(kept) + 1] - own), axis=1)
+        if np.all(np.isfinite(own)) and np.all(apart > SAME * size):
             kept.append(i)
+            found[len(kept)] = own
     return [every[i] for i in kept]

@@ -65,6 +65,16 @@ ROWS = (
         "Your {where} has the wrong sign. Does it rise when a body is lifted or a spring stretched?",
         "potential_energy",
     ),
+    Row(
+        "sign of the whole",
+        "Your {where} has the wrong sign. Is L the sum of K and P, or which of them less the other?",
+        "lagrangian",
+    ),
+    Row(
+        "sign of the whole",
+        "Your {where} has the wrong sign. Is it positive or negative when the energy grows?",
+        "energy_drift",
+    ),
 )
 
 GENERAL = {
@@ -198,6 +208,36 @@ GENERAL = {
     "belong in the equation of motion?",
     "momentum for C": "You return the momentum M q̇. C comes from how M changes with q.",
     "energy for its derivative": "You return the potential energy. What turns P(q) into g(q)?",
+    "energy for L": "You return the energy. Is L the sum of K and P, or their difference?",
+    "L for the energy": "Your {where} has P with the wrong sign. Is E the sum of K and P, and does "
+    "your P grow as a body rises or a spring is stretched?",
+    "½ of K missing": "The kinetic energy in your {where} is twice the right one. Which factor belongs "
+    "in front of a kinetic energy?",
+    "½ of K twice": "The kinetic energy in your {where} is half of the right one. Is there a ½ too "
+    "many?",
+    "K missing": "The kinetic energy is missing from your {where}. What does the mechanism gain as it "
+    "moves faster?",
+    "P missing": "The potential energy is missing from your {where}. What does the mechanism gain as "
+    "bodies rise or springs are stretched?",
+    "diagonal of M alone": "Your kinetic energy uses only the diagonal of M. What does the energy gain "
+    "when several joints move at once?",
+    "M of the start": "Your kinetic energy uses the M of the first state in every row. What does M "
+    "depend on?",
+    "C in the energy": "There is a term with C in your energy. Which two energies does the mechanism "
+    "have?",
+    "C for M": "You make the kinetic energy with C. Which matrix gives the kinetic energy?",
+    "torque times coordinate": "Your P is a torque or force times the coordinate. One that changes on "
+    "the way must be summed along it: how high are the bodies, how far are springs stretched?",
+    "from the row before": "You return the change from each row to the next. From which state do you "
+    "count the drift?",
+    "size of the drift": "You return the size of the drift without its sign. Does the motion gain "
+    "energy or lose it?",
+    "energy for its drift": "You return the energy itself. By how much has it changed since the first "
+    "row?",
+    "from the mean": "You subtract the mean of the energy. From which state do you count the drift?",
+    "from the end": "You subtract the energy of the last row. From which state do you count the drift?",
+    "share for the drift": "You divide by the energy at the start. That ratio depends on where P is "
+    "zero, but the drift in J does not.",
     "halves of ẋ swapped": "You swapped the two halves of ẋ. Which half of x is q, and which half of ẋ "
     "is its rate of change?",
     "q for its rate": "The first half of your ẋ is q itself. What is the rate of change of q, and where "

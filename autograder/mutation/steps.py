@@ -5,7 +5,7 @@ Each step is a function of the mechanism's right numbers: M (…, n, n), its slo
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -66,7 +66,23 @@ class Driven(Right):
         return solved(self.M, self.rest)
 
 
-# Of any answer; those of f take what drives the motion too.
+@dataclass(frozen=True)
+class Run(Right):
+    """The numbers along motions: the rows are the last of the leading axes. q: (…, rows, n)."""
+
+    q: np.ndarray
+
+    @property
+    def E(self) -> np.ndarray:
+        return self.K + self.P
+
+
+def drift(energy: np.ndarray) -> np.ndarray:
+    """What an energy has gained since the first row, (…, rows)."""
+    return energy - energy[..., :1]
+
+
+# Of any answer; those of f take what drives the motion, those of energy_drift a motion.
 Step = Callable[..., np.ndarray]
 
 
@@ -216,6 +232,31 @@ STEPS: dict[str, dict[str, Step]] = {
         "diagonal of M alone": lambda right: (
             np.einsum("...ii,...i->...", right.M, right.qd**2) / 2 - right.P
         ),
+    },
+    "energy_drift": {
+        "sign of the whole": lambda run: -drift(run.E),
+        "half of the whole": lambda run: drift(run.E) / 2,
+        "twice the whole": lambda run: 2 * drift(run.E),
+        "½ of K missing": lambda run: drift(2 * run.K + run.P),
+        "½ of K twice": lambda run: drift(run.K / 2 + run.P),
+        "K missing": lambda run: drift(run.P),
+        "P missing": lambda run: drift(run.K),
+        "L for the energy": lambda run: drift(run.K - run.P),
+        "diagonal of M alone": lambda run: drift(
+            np.einsum("...ii,...i->...", run.M, run.qd**2) / 2 + run.P
+        ),
+        "M of the start": lambda run: drift(replace(run, M=run.M[..., :1, :, :]).K + run.P),
+        "C in the energy": lambda run: drift(run.E + replace(run, M=run.C).K),
+        "C for M": lambda run: drift(replace(run, M=run.C).K + run.P),
+        "torque times coordinate": lambda run: drift(
+            run.K + np.einsum("...i,...i->...", run.g_vec, run.q)
+        ),
+        "from the row before": lambda run: np.diff(run.E, axis=-1, prepend=run.E[..., :1]),
+        "size of the drift": lambda run: np.abs(drift(run.E)),
+        "energy for its drift": lambda run: run.E,
+        "from the mean": lambda run: run.E - np.mean(run.E, axis=-1, keepdims=True),
+        "from the end": lambda run: run.E - run.E[..., -1:],
+        "share for the drift": lambda run: drift(run.E) / run.E[..., :1],
     },
     "f": {
         "halves of ẋ swapped": lambda driven: rate(driven.acceleration, driven.qd),

@@ -7,10 +7,12 @@ made of these (`composition.py`).
 
 from autograder.mutation.answers.answer import Answer
 from autograder.mutation.answers.coriolis import CORIOLIS
+from autograder.mutation.answers.energy_drift import ENERGY, ENERGY_DRIFT
 from autograder.mutation.answers.first_order import FIRST_ORDER
 from autograder.mutation.answers.gravity import GRAVITY
 from autograder.mutation.answers.inertia_matrix import INERTIA_MATRIX
 from autograder.mutation.answers.inertia_rate import INERTIA_RATE
+from autograder.mutation.answers.lagrangian import LAGRANGIAN
 from autograder.mutation.answers.potential_energy import POTENTIAL_ENERGY
 
 __all__ = ["ANSWERS", "PARTS", "Answer"]
@@ -24,7 +26,9 @@ ANSWERS = {
         GRAVITY,
         POTENTIAL_ENERGY,
         FIRST_ORDER,
+        LAGRANGIAN,
+        ENERGY_DRIFT,
     )
 }
 # What others are made of, and no student is asked for.
-PARTS: dict[str, Answer] = {}
+PARTS = {ENERGY.name: ENERGY}

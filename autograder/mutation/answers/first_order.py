@@ -35,12 +35,12 @@ def _judged(mechanism: Mechanism) -> Judged:
 
 
 def _case(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]:
-    """All joints moving; then one at rest; then one slow: what tells a sign from what looks like it."""
+    """All joints moving; one at rest; one slow, each joint in turn: what tells a sign from its like."""
     n = mechanism.n
     arm = mechanism.drawn(rng, friction=True)
     q, qd = mechanism.placed(rng), mechanism.moving(rng)
     if mechanism.friction:
-        qd[rng.integers(n)] *= (1.0, 0.0, 0.001)[k % 3]
+        qd[k // 3 % n] *= (1.0, 0.0, 0.001)[k % 3]
     u = rng.choice([-1.0, 1.0], n) * rng.uniform(1.0, 8.0, n)
     return [(np.concatenate([q, qd + 0.0]), u, arm)]  # and no -0.0
 
