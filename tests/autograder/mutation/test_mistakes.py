@@ -20,7 +20,15 @@ from autograder.protocol import Reply, read, real
 
 # All of them take minutes (`autograder try` does it); here a few of each answer, spread over all kinds.
 TRIED = 8
-ASKED = [(m, answer) for m in MECHANISMS.values() for answer in ANSWERS]
+# All answers of some; of each other mechanism a few answers, so that each answer comes with several.
+ALL = ("pendulum", "planar-2r", "cart-pole", "turn-and-slide")
+OTHERS = 4
+ASKED = [
+    (m, answer)
+    for i, m in enumerate(MECHANISMS.values())
+    for k, answer in enumerate(ANSWERS)
+    if m.name in ALL or (i + k) % OTHERS == 0
+]
 EVERY = pytest.mark.parametrize(
     ("mechanism", "answer"), ASKED, ids=[f"{m.name}-{a}" for m, a in ASKED]
 )
