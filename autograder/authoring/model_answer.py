@@ -1,11 +1,14 @@
 """Writes the right answers of a mechanism as the Python that a model answer in a notebook is made of."""
 
+import re
+
 import numpy as np
 import sympy as sp
 from sympy.printing.numpy import NumPyPrinter
 
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
+from autograder.mutation.inertial_parameters import in_inertial_parameters
 
 
 def model_answer(mechanism: Mechanism, answer: str) -> list[str]:
@@ -62,7 +65,21 @@ def _energy_drift(mechanism: Mechanism) -> list[str]:
     ]
 
 
-MADE_OF_OTHERS = {"f": _first_order, "energy_drift": _energy_drift}
+def _regressor(mechanism: Mechanism) -> list[str]:
+    linear = in_inertial_parameters(mechanism)
+    n, qdd = mechanism.n, sp.symbols(f"qdd0:{mechanism.n}")
+    M, C = (sp.Matrix(n, n, ANSWERS[answer].entries(linear)) for answer in ("M", "C"))
+    torque = M * sp.Matrix(qdd) + C * sp.Matrix(mechanism.qd)
+    torque += sp.Matrix(ANSWERS["g_vec"].entries(linear))
+    unknown = [p.symbol for p in linear.parameters if not p.known]
+    rows = [[_python(linear, line.diff(pi)) for pi in unknown] for line in torque]
+    shown = [f"    [{', '.join(row)}]," for row in rows]
+    places = {f"qdd{i}": f"qdd[{i}]" for i in range(n)}
+    lines = [re.sub(r"\bqdd\d\b", lambda at: places[at[0]], line) for line in shown]
+    return ["return np.array([", *lines, "])"]
+
+
+MADE_OF_OTHERS = {"f": _first_order, "energy_drift": _energy_drift, "regressor": _regressor}
 
 
 def _python(mechanism: Mechanism, expression: sp.Expr) -> str:

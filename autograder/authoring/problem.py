@@ -1,5 +1,6 @@
 """Writes a problem's notebook in nbgrader's source form: symbols, answers, checks and a proof."""
 
+import re
 from pathlib import Path
 from string import ascii_uppercase
 
@@ -12,6 +13,7 @@ from autograder.authoring.picture import picture
 from autograder.files import put_in_place
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
+from autograder.mutation.inertial_parameters import inertial_parameters
 
 POINTS = {
     "potential_energy": 2, "M": 3, "M_dot": 3, "g_vec": 2, "C": 4, "lagrangian": 2, "f": 4,
@@ -52,6 +54,13 @@ WHAT = {
         "Write $\\dot x = f(x, u)$ for the state $x = [q;\\, \\dot q]$. Predict $\\dot x$ for a "
         "mechanism at rest before you run the check.",
         "ẋ of the state x = [q; q̇], ({twice},), under the input u, ({n},).",
+    ),
+    "regressor": (
+        "The regressor",
+        "The left side of the equation of motion without friction is linear in the parameters "
+        "$\\pi$ = ({pi}). Write $Y(q, \\dot q, \\ddot q)$ with $Y \\pi = M\\ddot q + C\\dot q + g$: "
+        "one column for each entry of $\\pi$, in this order. Of `arm`, $Y$ may use only what is known.",
+        "Y with Y π = M q̈ + C q̇ + g, ({n}, {count}), for π = ({pi}).",
     ),
     "energy_drift": (
         "The drift of the energy",
@@ -118,7 +127,7 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
         ),
     ]
     for letter, answer in zip(ascii_uppercase, asks, strict=False):
-        title, task, doc = WHAT[answer]
+        title, task, doc = _what(mechanism, answer)
         points = POINTS[answer]
         cells += [
             new_markdown_cell(
@@ -206,6 +215,21 @@ def _setup(mechanism: Mechanism, friction: bool) -> str:
     )
 
 
+def _what(mechanism: Mechanism, answer: str) -> list[str]:
+    """Title, task and docstring, filled in for this mechanism."""
+    entries = [pi.words for pi in inertial_parameters(mechanism)]
+    known = {
+        "n": mechanism.n,
+        "twice": 2 * mechanism.n,
+        "count": len(entries),
+        "pi": ", ".join(entries),
+    }
+    return [
+        re.sub(r"\{(n|twice|count|pi)\}", lambda at: str(known[at[1]]), text)
+        for text in WHAT[answer]
+    ]
+
+
 def _number(value: float | np.ndarray) -> str:
     if isinstance(value, np.ndarray):
         return f"np.array([{', '.join(f'{entry:.3g}' for entry in value)}])"
@@ -214,7 +238,7 @@ def _number(value: float | np.ndarray) -> str:
 
 def _answer(mechanism: Mechanism, answer: str, doc: str) -> str:
     body = ["### BEGIN SOLUTION", *model_answer(mechanism, answer), "### END SOLUTION"]
-    lines = [f'"""{doc.format(n=mechanism.n, twice=2 * mechanism.n)}"""', *body]
+    lines = [f'"""{doc}"""', *body]
     return f"def {ANSWERS[answer].signature}:\n" + "\n".join(f"    {line}" for line in lines)
 
 

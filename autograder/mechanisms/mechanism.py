@@ -33,13 +33,22 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter: what it is, and the range from which random mechanisms draw it."""
+    """A parameter: what it is, and the range from which random mechanisms draw it.
+
+    to_find: whether a regressor finds it from measured torques, as a mass, or it is known without them,
+    as the length of a link; by default lengths and gravity are known.
+    """
 
     name: str
     unit: str
     doc: str
     low: float
     high: float
+    to_find: bool | None = None
+
+    @property
+    def known(self) -> bool:
+        return self.unit in ("m", "m/s²") if self.to_find is None else not self.to_find
 
     @property
     def symbol(self) -> sp.Symbol:

@@ -18,7 +18,7 @@ G = Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0)
 def _pendulum() -> Mechanism:
     q = Coordinate("q", "rad", "the body hanging down")
     m = Parameter("m", "kg", "mass of the body", 0.5, 3.0)
-    lc = Parameter("lc", "m", "pivot to the centre of mass", 0.2, 0.9)
+    lc = Parameter("lc", "m", "pivot to the centre of mass", 0.2, 0.9, to_find=True)
     I = Parameter("I", "kg·m²", "inertia about the pivot", 0.2, 2.0)
     weight = m.symbol * G.symbol * lc.symbol
     return Mechanism(
@@ -66,7 +66,9 @@ def _furuta() -> Mechanism:
     J1 = Parameter("J1", "kg·m²", "inertia of the arm about its vertical axis", 0.2, 1.0)
     l1 = Parameter("l1", "m", "length of the arm", 0.4, 1.0)
     m2 = Parameter("m2", "kg", "mass of the pendulum", 0.5, 2.0)
-    lc2 = Parameter("lc2", "m", "pivot of the pendulum to its centre of mass", 0.15, 0.5)
+    lc2 = Parameter(
+        "lc2", "m", "pivot of the pendulum to its centre of mass", 0.15, 0.5, to_find=True
+    )
     I2 = Parameter("I2", "kg·m²", "inertia of the pendulum about its centre of mass", 0.05, 0.4)
     (w1, w2), m, l, c, I = (q1.velocity, q2.velocity), m2.symbol, l1.symbol, lc2.symbol, I2.symbol
     sine = sp.sin(q2.symbol)

@@ -16,7 +16,7 @@ from autograder.mechanisms.mechanism import (
 def _sliding_arm() -> Mechanism:
     q1 = Coordinate("q1", "rad", "the arm along the x axis")
     q2 = Coordinate("q2", "m", "the centre of mass of link 2 at the shoulder")
-    lc1 = Parameter("lc1", "m", "shoulder to the centre of mass of link 1", 0.2, 0.6)
+    lc1 = Parameter("lc1", "m", "shoulder to the centre of mass of link 1", 0.2, 0.6, to_find=True)
     m1 = Parameter("m1", "kg", "mass of link 1", 1.0, 4.0)
     m2 = Parameter("m2", "kg", "mass of link 2", 1.0, 4.0)
     I1 = Parameter("I1", "kg·m²", "inertia of link 1 about its centre of mass", 0.1, 0.6)

@@ -30,7 +30,11 @@ class Composed:
         asked = ANSWERS[answer]
         assert asked.composition is not None
         self._composition = asked.composition(mechanism)
-        self._groups = list(self._composition.groups(lambda name: linear(mechanism, name)))
+
+        def catalogue(name: str, of: Mechanism = mechanism) -> Catalogue:
+            return linear(of, name)
+
+        self._groups = list(self._composition.groups(catalogue))
         self._kept = [np.arange(len(group.mutants)) for group in self._groups]
         calls = asked.calls(mechanism, np.random.default_rng(0), CASES)
         columns = self._composition.columns([call.args for call in calls])

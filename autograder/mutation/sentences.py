@@ -238,6 +238,10 @@ GENERAL = {
     "from the end": "You subtract the energy of the last row. From which state do you count the drift?",
     "share for the drift": "You divide by the energy at the start. That ratio depends on where P is "
     "zero, but the drift in J does not.",
+    "columns reversed": "Your columns are right, but they stand in another order than the parameters. "
+    "Write the names of the parameters above your columns.",
+    "parameters inside": "Your columns hold the parameters that they belong to. Y may hold only what is "
+    "known: what multiplies it?",
     "halves of ẋ swapped": "You swapped the two halves of ẋ. Which half of x is q, and which half of ẋ "
     "is its rate of change?",
     "q for its rate": "The first half of your ẋ is q itself. What is the rate of change of q, and where "
@@ -329,6 +333,12 @@ FOLLOWS = {
         "C": "Your accelerations look like those of a wrong C.",
         "g_vec": "Your accelerations look like those of a wrong g.",
         "M and C": "Your accelerations look like those of another arm: M is wrong, and C with it.",
+    },
+    "regressor": {
+        "M": "Your Y looks like one of a wrong M.",
+        "C": "Your Y looks like one of a wrong C.",
+        "g_vec": "Your Y looks like one of a wrong g.",
+        "M and C": "Your Y looks like one of another arm: M is wrong, and C with it.",
     },
 }
 

@@ -117,10 +117,19 @@ def _in_one_column(later: bool) -> Step:
 
 def solved(M: np.ndarray, rest: np.ndarray) -> np.ndarray:
     """M⁻¹ times vectors, (…, n); not a number where a wrong M has no inverse."""
+    good = _invertible(M)
+    some = np.where(good[..., np.newaxis], M, np.eye(M.shape[-1]))
+    return np.where(good, np.linalg.solve(some, rest[..., np.newaxis])[..., 0], np.nan)
+
+
+def _inverse(M: np.ndarray) -> np.ndarray:
+    good = _invertible(M)[..., np.newaxis]
+    return np.where(good, np.linalg.inv(np.where(good, M, np.eye(M.shape[-1]))), np.nan)
+
+
+def _invertible(M: np.ndarray) -> np.ndarray:
     volume = np.linalg.det(M)
-    good = (np.isfinite(volume) & (volume != 0))[..., np.newaxis, np.newaxis]
-    some = np.where(good, M, np.eye(M.shape[-1]))
-    return np.where(good[..., 0], np.linalg.solve(some, rest[..., np.newaxis])[..., 0], np.nan)
+    return (np.isfinite(volume) & (volume != 0))[..., np.newaxis]
 
 
 def rate(first: np.ndarray, second: np.ndarray) -> np.ndarray:
@@ -137,7 +146,7 @@ STEPS: dict[str, dict[str, Step]] = {
         "half of the whole": lambda right: right.M / 2,
         "twice the whole": lambda right: 2 * right.M,
         "sign of the whole": lambda right: -right.M,
-        "inverse": lambda right: np.linalg.inv(right.M),
+        "inverse": lambda right: _inverse(right.M),
         "diagonal alone": lambda right: right.M * np.eye(right.M.shape[-1]),
         "upper triangle alone": lambda right: np.triu(right.M),
         "lower triangle alone": lambda right: np.tril(right.M),
@@ -200,7 +209,7 @@ STEPS: dict[str, dict[str, Step]] = {
         "velocities exchanged": lambda right: np.einsum(
             "...ijk,...k->...ij", right.christoffel(), right.qd[..., ::-1]
         ),
-        "second kind": lambda right: np.linalg.solve(right.M, right.C),
+        "second kind": lambda right: _inverse(right.M) @ right.C,
         "gravity for C": lambda right: _diagonal(right.g_vec),
         "momentum for C": lambda right: _diagonal(times(right.M, right.qd)),
     },

@@ -14,6 +14,7 @@ from autograder.mutation.answers.inertia_matrix import INERTIA_MATRIX
 from autograder.mutation.answers.inertia_rate import INERTIA_RATE
 from autograder.mutation.answers.lagrangian import LAGRANGIAN
 from autograder.mutation.answers.potential_energy import POTENTIAL_ENERGY
+from autograder.mutation.answers.regressor import REGRESSOR
 
 __all__ = ["ANSWERS", "PARTS", "Answer"]
 
@@ -28,6 +29,7 @@ ANSWERS = {
         FIRST_ORDER,
         LAGRANGIAN,
         ENERGY_DRIFT,
+        REGRESSOR,
     )
 }
 # What others are made of, and no student is asked for.

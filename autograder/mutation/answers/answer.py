@@ -27,13 +27,13 @@ Derived = Callable[[sp.Expr, Mechanism], list[sp.Expr]]
 class Answer:
     """What a student's function returns, how it follows from the energies, and how it is judged.
 
-    shape(n): of the array, as of the entries in a row below. judged(mechanism): the quantities and
-    criteria of its check. case(mechanism, rng, k): the arguments of the k-th call or calls. hints: all
-    three, or the last alone, which says how to derive it. of_kinetic, of_potential: what a term of K
-    or of P contributes to its entries, in a row; None where it contributes nothing. symmetric: whether
-    the entries ij and ji are one. friction: whether its arms have friction. position: q of a call's
-    arguments. composition(mechanism): how it is made of other answers, where it is not linear in the
-    energies, or where a mistake in another answer shows in it.
+    shape(n): of the array, as of the entries in a row below; −1 for a number that is the mechanism's.
+    judged(mechanism): the quantities and criteria of its check. case(mechanism, rng, k): the arguments
+    of the k-th call or calls. hints: all three, or the last alone, which says how to derive it.
+    of_kinetic, of_potential: what a term of K or of P contributes to its entries, in a row; None where
+    it contributes nothing. symmetric: whether the entries ij and ji are one. friction: whether its arms
+    have friction. position: q of a call's arguments. composition(mechanism): how it is made of other
+    answers, where it is not linear in the energies, or where a mistake in another answer shows in it.
     """
 
     name: str

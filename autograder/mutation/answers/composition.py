@@ -26,10 +26,11 @@ class Group:
 class Composition:
     """columns: from the arguments of calls to arrays whose first axis is the calls. right: the answer
     to them, (cases, …). groups(catalogue): the mistakes, the simplest reading first; catalogue(name)
-    has those of another answer of the mechanism. terms: the parts of the right answer, by name.
+    has those of another answer of the mechanism, catalogue(name, other) those of another mechanism.
+    terms: the parts of the right answer, by name.
     """
 
     columns: Callable[[list[tuple]], tuple]
     right: Numbers
-    groups: "Callable[[Callable[[str], Catalogue]], Iterator[Group]]"
+    groups: "Callable[[Callable[..., Catalogue]], Iterator[Group]]"
     terms: dict[str, Numbers] = field(default_factory=dict)
