@@ -121,8 +121,11 @@ def another_convention(term, mechanism):
     if len(term) > 1:
         return  # entries, which have been derived for these coordinates already
     angles = [(c.symbol, c.velocity) for c in mechanism.coordinates if c.unit == "rad"]
+    arguments = [wave.args[0] for wave in _waves(sp.Tuple(mechanism.K, mechanism.P))]
     for (before, its_rate), (angle, rate) in itertools.pairwise(angles):
         for name, sign in (("absolute angle", -1), ("relative angle", 1)):
+            if not any(a.coeff(angle) == -sign * a.coeff(before) != 0 for a in arguments):
+                continue  # the angle does not count so here, or the two turn about different axes
             changes = {angle: angle + sign * before, rate: rate + sign * its_rate}
             yield Rewriting(name, term.xreplace(changes), angle.name, before.name)
 

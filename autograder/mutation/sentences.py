@@ -145,10 +145,10 @@ GENERAL = {
     "joints exchanged": "Your {where} has the entries of the joints in the wrong order.",
     "wrong velocity": "In your {where}, {term} has the velocity {put} where {instead_of} belongs. Which "
     "joint's motion makes it?",
-    "absolute angle": "Your {where} is right for an angle {put} that is measured from the same line as "
+    "absolute angle": "In your {where}, {term} takes {put} to be measured from the same line as "
     "{instead_of}. From where is {put} measured here?",
-    "relative angle": "Your {where} is right for an angle {put} that is measured from the link before. "
-    "From where is {put} measured here?",
+    "relative angle": "In your {where}, {term} takes {put} to be measured from the link that "
+    "{instead_of} turns. From where is {put} measured here?",
     "parallel axis added": "In your {where}, {term} has more than {instead_of}: you applied the "
     "parallel-axis theorem with {put}. About which point is {instead_of} taken, and what moves that "
     "point?",
@@ -238,8 +238,8 @@ GENERAL = {
     "from the end": "You subtract the energy of the last row. From which state do you count the drift?",
     "share for the drift": "You divide by the energy at the start. That ratio depends on where P is "
     "zero, but the drift in J does not.",
-    "columns reversed": "Your columns are right, but they stand in another order than the parameters. "
-    "Write the names of the parameters above your columns.",
+    "columns in another order": "Your columns are right, but they stand in another order than the "
+    "parameters. Write the names of the parameters above your columns.",
     "parameters inside": "Your columns hold the parameters that they belong to. Y may hold only what is "
     "known: what multiplies it?",
     "halves of ẋ swapped": "You swapped the two halves of ẋ. Which half of x is q, and which half of ẋ "
@@ -286,6 +286,10 @@ GENERAL = {
 
 # Of a mistake that is made in all terms alike.
 THROUGHOUT = {
+    "absolute angle": "Your {where} is right for an angle {put} that is measured from the same line as "
+    "{instead_of}. From where is {put} measured here?",
+    "relative angle": "Your {where} is right for an angle {put} that is measured from the link that "
+    "{instead_of} turns. From where is {put} measured here?",
     "wrong parameter": "Your {where} uses {put} ({put_doc}) where another {kind} belongs. Which one?",
     "parameters exchanged": "In your {where}, you swapped {put} and {instead_of}. Which is which?",
     "wrong angle": "Your {where} takes {put} for an angle throughout. What does each angle measure, and "

@@ -111,6 +111,15 @@ def states(calls: list[tuple]) -> tuple[np.ndarray, np.ndarray, list[SimpleNames
     return q, qd, [args[-1] for args in calls]
 
 
+def in_other_units(mechanism: Mechanism, q: np.ndarray) -> dict[str, np.ndarray]:
+    """The angles among q (cases, n) converted where they need not be, by the operator's name."""
+    turning = np.array([c.unit == "rad" for c in mechanism.coordinates])
+    return {
+        "radians converted": np.where(turning, np.radians(q), q),
+        "angle in degrees": np.where(turning, np.degrees(q), q),
+    }
+
+
 def unit_of_inertia(mechanism: Mechanism, i: int, j: int) -> str:
     """The unit of M_ij: a length among the coordinates takes one metre from it."""
     slides = [mechanism.coordinates[k].unit for k in (i, j)].count("m")

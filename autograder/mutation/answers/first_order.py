@@ -8,8 +8,8 @@ import numpy as np
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import each, vector
 from autograder.mechanisms import Mechanism
-from autograder.mutation.answers.answer import Answer, Judged, mixed
-from autograder.mutation.answers.composition import Composition, Group
+from autograder.mutation.answers.answer import Answer, Judged, in_other_units, mixed
+from autograder.mutation.answers.composition import Composition, Group, throughout
 from autograder.mutation.answers.coriolis import propagated, wrong_products
 from autograder.mutation.friction import torques, wrong_torques
 from autograder.mutation.mutant import Mutant
@@ -71,7 +71,7 @@ def _composition(mechanism: Mechanism) -> Composition:
             lambda *state: _each([STEPS["f"][name] for name in names], at(*state)),
         )
         yield _of_torques(at)
-        yield _readings(right)
+        yield _readings(mechanism, right)
         yield _of_friction(mechanism, at)
         yield from _of_parts(mechanism, at, catalogue)
 
@@ -119,20 +119,20 @@ def _of_torques(at: Callable[..., Driven]) -> Group:
     return Group(mutants, numbers)
 
 
-def _readings(right: Callable[..., np.ndarray]) -> Group:
-    """x is read in another order, or ẋ written in it."""
-    mutants = [
-        Mutant("state read as q̇ and q"), Mutant("state interleaved"), Mutant("states interleaved"),
-    ]  # fmt: skip
+def _readings(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group:
+    """x is read in another order or in other units, or ẋ written in that order."""
+    names = ("state read as q̇ and q", "state interleaved", "states interleaved")
+    converted = list(in_other_units(mechanism, np.zeros((1, mechanism.n))))
 
     def numbers(q, qd, u, arms):
         x = np.concatenate([q, qd], axis=-1)
         apart = right(x[:, 0::2], x[:, 1::2], u, arms)
         woven = np.empty_like(apart)
         woven[:, 0::2], woven[:, 1::2] = np.split(apart, 2, axis=-1)
-        return np.array([right(qd, q, u, arms), apart, woven])
+        others = [right(at, qd, u, arms) for at in in_other_units(mechanism, q).values()]
+        return np.array([right(qd, q, u, arms), apart, woven, *others])
 
-    return Group(mutants, numbers)
+    return Group([Mutant(name) for name in (*names, *converted)], numbers)
 
 
 def _of_friction(mechanism: Mechanism, at: Callable[..., Driven]) -> Group:
@@ -172,6 +172,15 @@ def _of_parts(mechanism: Mechanism, at: Callable[..., Driven], catalogue) -> Ite
         driven, other = at(q, qd, u, arms), wrong(q, qd, arms)
         return rate(qd, solved(other.M, driven.rest + times(driven.C - other.C, qd)))
 
+    alike, in_M, in_g = throughout([inertia.mutants[k] for k in terms], g.mutants)
+
+    def of_all(q, qd, u, arms):
+        driven, other = at(q, qd, u, arms), wrong(q, qd, arms)
+        torque = times(driven.C - other.C[in_M], qd)
+        torque += driven.g_vec - g.numbers(q, qd, arms)[in_g]
+        return rate(qd, solved(other.M[in_M], driven.rest + torque))
+
+    yield Group(alike, of_all)
     yield Group([m.within("g_vec") for m in g.mutants], of_gravity)
     yield Group([m.within("C") for m in own.mutants], of_coriolis(own.numbers))
     yield Group([m.within("C") for m in products.mutants], of_coriolis(products.numbers))

@@ -4,6 +4,7 @@ A column of Y is the torque of the mechanism whose π is 1 there and 0 elsewhere
 those of wrong mechanisms whose parameters are the entries of π.
 """
 
+import itertools
 from collections.abc import Callable, Iterator
 from functools import lru_cache, partial
 from types import SimpleNamespace
@@ -13,8 +14,8 @@ import numpy as np
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import UnfitError, each
 from autograder.mechanisms import Mechanism
-from autograder.mutation.answers.answer import Answer, Judged
-from autograder.mutation.answers.composition import Composition, Group
+from autograder.mutation.answers.answer import Answer, Judged, in_other_units
+from autograder.mutation.answers.composition import Composition, Group, throughout
 from autograder.mutation.answers.coriolis import propagated, wrong_products
 from autograder.mutation.inertial_parameters import in_inertial_parameters, inertial_parameters
 from autograder.mutation.mutant import Mutant
@@ -97,13 +98,19 @@ def _composition(mechanism: Mechanism) -> Composition:
         return np.sum(parts(*state), axis=0)
 
     def groups(catalogue: Callable) -> Iterator[Group]:
-        names = [(operator, k) for k in range(3) for operator in TIMES]
+        rows = ["", *(f"row {i + 1}" for i in range(mechanism.n if mechanism.n > 1 else 0))]
+        names = [(operator, k, row) for row in rows for k in range(3) for operator in TIMES]
 
         def of_parts(*state):
             known = parts(*state)
-            return np.array([sum(known) + (TIMES[o] - 1) * known[k] for o, k in names])
+            found = []
+            for operator, k, row in names:
+                change = (TIMES[operator] - 1) * known[k]
+                found.append(sum(known) + (_only(row, change) if row else change))
+            return np.array(found)
 
-        yield Group([Mutant(o, PARTS[k]) for o, k in names], partial(made, of_parts))
+        yield Group([Mutant(o, PARTS[k], row) for o, k, row in names], partial(made, of_parts))
+        yield _readings(mechanism, partial(made, whole_torque))
         yield _of_columns(mechanism, partial(made, whole_torque))
         for mutants, torque in _of_energies(linear, catalogue, parts):
             yield Group(mutants, partial(made, torque))
@@ -120,9 +127,30 @@ def _composition(mechanism: Mechanism) -> Composition:
     )
 
 
+def _readings(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group:
+    def numbers(q, qd, qdd, arms):
+        return np.array([right(at, qd, qdd, arms) for at in in_other_units(mechanism, q).values()])
+
+    converted = in_other_units(mechanism, np.zeros((1, mechanism.n)))
+    return Group([Mutant(name) for name in converted], numbers)
+
+
+def _only(row: str, torque: np.ndarray) -> np.ndarray:
+    """A torque in one row alone: "row 1"."""
+    return torque * np.eye(torque.shape[-1])[int(row.removeprefix("row ")) - 1]
+
+
 def _of_columns(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group:
-    """Columns in another order, or with their parameters in them."""
+    """Columns in another order, missing, of the wrong sign, or with their parameters in them."""
     entries = inertial_parameters(mechanism)
+    orders = _orders([pi.unit for pi in entries])
+    rows: list[list[int]] = [list(range(mechanism.n)), *([i] for i in range(mechanism.n))]
+    changes = [
+        (Mutant(operator, f"the column of {pi.words}", _row(row)), row, k, TIMES[operator])
+        for operator in TIMES
+        for k, pi in enumerate(entries)
+        for row in rows
+    ]
 
     def numbers(q, qd, qdd, arms):
         Y = right(q, qd, qdd, arms)
@@ -133,10 +161,34 @@ def _of_columns(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group
             ]
             for arm in arms
         ]
-        return np.array([Y[..., ::-1], Y * np.array(pi)[:, np.newaxis], Y[:, ::-1], -Y])
+        found = [Y * np.array(pi)[:, np.newaxis], Y[:, ::-1], -Y]
+        found += [Y[..., order] for order in orders]
+        for _, row, column, factor in changes:
+            wrong = Y.copy()
+            wrong[:, row, column] *= factor
+            found.append(wrong)
+        return np.array(found)
 
-    names = ("columns reversed", "parameters inside", "joints exchanged", "sign of the whole")
-    return Group([Mutant(name) for name in names], numbers)
+    names = ("parameters inside", "joints exchanged", "sign of the whole")
+    mutants = [Mutant(name) for name in (*names, *len(orders) * ["columns in another order"])]
+    return Group([*mutants, *(mutant for mutant, *_ in changes)], numbers)
+
+
+def _row(rows: list[int]) -> str:
+    return f"row {rows[0] + 1}" if len(rows) == 1 else ""
+
+
+def _orders(units: list[str]) -> list[list[int]]:
+    """Orders in which people write columns: from the end, by kind, or two of them exchanged."""
+    places = list(range(len(units)))
+    found = [places[::-1]]
+    for kinds in itertools.permutations(dict.fromkeys(units)):
+        found.append([k for kind in kinds for k in places if units[k] == kind])
+    for a, b in itertools.combinations(places, 2):
+        exchanged = places.copy()
+        exchanged[a], exchanged[b] = b, a
+        found.append(exchanged)
+    return found
 
 
 def _of_energies(linear: Mechanism, catalogue: Callable, parts: Callable) -> Iterator[tuple]:
@@ -169,6 +221,13 @@ def _of_energies(linear: Mechanism, catalogue: Callable, parts: Callable) -> Ite
         kept = [k for k, m in enumerate(mutants) if _is_linear(m)]
         return [mutants[k].within(source) for k in kept], lambda *state: torque(*state)[kept]
 
+    alike, in_M, in_g = throughout([inertia.mutants[k] for k in terms], g.mutants)
+
+    def of_all(q, qd, qdd, arms):
+        other, gravity = wrong(q, qd, arms), g.numbers(q, qd, arms)
+        return times(other.M[in_M], qdd) + times(other.C[in_M], qd) + gravity[in_g]
+
+    yield linear_ones(alike, "", of_all)
     yield linear_ones(g.mutants, "g_vec", of_gravity)
     yield linear_ones([inertia.mutants[k] for k in terms], "M and C", of_both)
     yield linear_ones(inertia.mutants, "M", of_inertia)
