@@ -97,18 +97,19 @@ def _unlikely(
     given: Numbers,
     met: list[bool],
     wrong: Numbers,
-) -> tuple:
+) -> tuple[bool, int, int]:
     """What makes a mistake the less likely one of several that explain a criterion, for sorting.
 
     It spoils what is right in the answer; it explains fewer criteria; it shows in others what the answer
     does not.
     """
     n = len(criteria)
-    right = [np.all(_errors_in(k, expected, wrong) <= criteria[k].tolerance) for k in range(n)]
-    same = [
-        not right[k] and np.all(_errors_in(k, given, wrong) <= criteria[k].allows(met=False))
-        for k in range(n)
-    ]
+
+    def within(k: int, numbers: Numbers, tolerance: float) -> bool:
+        return bool(np.all(_errors_in(k, numbers, wrong) <= tolerance))
+
+    right = [within(k, expected, criteria[k].tolerance) for k in range(n)]
+    same = [not right[k] and within(k, given, criteria[k].allows(met=False)) for k in range(n)]
     spoils = any(met[k] and not right[k] for k in range(n))
     unseen = sum(not (right[k] or same[k]) for k in range(n))
     return spoils, -sum(same), unseen
