@@ -1,6 +1,8 @@
 """Makes the checks of a mechanism: what is asked, the right answer, and every mistake that follows."""
 
+from collections.abc import Mapping
 from functools import lru_cache, partial
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -69,8 +71,35 @@ def _mistakes(mechanism: Mechanism, answer: str, calls: list[Call]) -> list[tupl
 
 
 def numbers_of(mechanism: Mechanism, answer: str, calls: list[Call]) -> np.ndarray:
-    """What each mistake returns for each call, (mistakes, calls, …)."""
-    return _numbers(mechanism, answer, [call.args for call in calls])
+    """What each mistake returns for each call, (mistakes, calls, …).
+
+    A call of symbols gives a number for each of its points. Where calls differ in their numbers of
+    rows, as motions do, the array is one of objects, (mistakes, calls).
+    """
+    if calls[0].at:
+        points = [_state(mechanism, point) for call in calls for point in call.at]
+        return _numbers(mechanism, answer, points).reshape(-1, len(calls), len(calls[0].at))
+    args = [call.args for call in calls]
+    places: dict[tuple, list[int]] = {}
+    for k, (first, *_) in enumerate(args):
+        places.setdefault(np.shape(first), []).append(k)
+    if len(places) == 1:
+        return _numbers(mechanism, answer, args)
+    found = np.empty((len(catalogue_of(mechanism, answer).mutants), len(calls)), dtype=object)
+    for alike in places.values():
+        numbers = _numbers(mechanism, answer, [args[k] for k in alike])
+        for m, case in np.ndindex(numbers.shape[:2]):
+            found[m, alike[case]] = numbers[m, case]
+    return found
+
+
+def _state(mechanism: Mechanism, point: Mapping[str, float]) -> tuple:
+    """q, q̇ and the arm of a point at which an expression is tried, by the mechanism's names."""
+    q, qd = (
+        np.array([point[symbol.name] for symbol in symbols])
+        for symbols in (mechanism.q, mechanism.qd)
+    )
+    return q, qd, SimpleNamespace(**{p.name: point[p.name] for p in mechanism.parameters})
 
 
 def _numbers(mechanism: Mechanism, answer: str, calls: list[tuple]) -> np.ndarray:
