@@ -29,30 +29,13 @@ class Mutant:
     @property
     def is_of_whole(self) -> bool:
         """Whether it was done to the answer as a whole, so that no entry shows it by itself."""
-        return self.is_step and self.operator not in OF_A_PART
+        return self.is_step and self.operator in OF_THE_WHOLE
 
     def within(self, source: str) -> "Mutant":
         """The same mistake, seen in an answer that follows from `source`."""
         return replace(self, source=source)
 
 
-# Steps that leave some entries, or one of the two energies, as they are: these may show another mistake.
-OF_A_PART = (
-    "diagonal alone",
-    "upper triangle alone",
-    "lower triangle alone",
-    "sign below the diagonal",
-    "mixed terms not shared",
-    "mixed terms in one triangle",
-    "½ of K missing",
-    "diagonal of M alone",
-    "M of the start",
-    "C in the energy",
-    "C for M",
-    "K missing",
-    "P missing",
-    "energy for L",
-    "L for the energy",
-    "torque times coordinate",
-)
+# Steps that are the whole's: what is half, or zero, in one entry alone has another reason there.
+OF_THE_WHOLE = ("half of the whole", "twice the whole", "sign of the whole", "zero", "inverse")
 STEP_NAMES = {name for steps in STEPS.values() for name in steps}
