@@ -2,60 +2,28 @@
 
 import keyword
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from types import SimpleNamespace
 
 import numpy as np
 import sympy as sp
 
+from autograder.mechanisms.plain import Coordinate, Parameter, Part, Plain
+
 UNITS_OF_COORDINATES = ("rad", "m")
 
-
-@dataclass(frozen=True)
-class Coordinate:
-    """A generalised coordinate. zero: where it is 0, in words: "link 1 along the x axis"."""
-
-    name: str
-    unit: str
-    zero: str
-
-    @property
-    def symbol(self) -> sp.Symbol:
-        return sp.Symbol(self.name, real=True)
-
-    @property
-    def velocity(self) -> sp.Symbol:
-        """qd1 for q1, xd for x."""
-        head = self.name.rstrip("0123456789")
-        return sp.Symbol(f"{head}d{self.name[len(head) :]}", real=True)
+__all__ = ["Coordinate", "EnergyTerm", "Mechanism", "Parameter"]
 
 
 @dataclass(frozen=True)
-class Parameter:
-    """A parameter: what it is, and the range from which random mechanisms draw it."""
+class EnergyTerm(Part):
+    """A part of an energy, with its formula."""
 
-    name: str
-    unit: str
-    doc: str
-    low: float
-    high: float
-
-    @property
-    def symbol(self) -> sp.Symbol:
-        return sp.Symbol(self.name, positive=True)
-
-
-@dataclass(frozen=True)
-class EnergyTerm:
-    """A part of an energy, in words: "the rotation of link 2"."""
-
-    name: str
     energy: sp.Expr
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class Mechanism(Plain):
     """A robot given by its energies.
 
     kinetic, potential: the named terms whose sums are K (J) and P (J), expressions in the
@@ -67,12 +35,8 @@ class Mechanism:
     mechanism's; a term of K that is not quadratic in q̇, or one of P that holds q̇; `points` that fail.
     """
 
-    name: str
-    coordinates: tuple[Coordinate, ...]
-    parameters: tuple[Parameter, ...]
     kinetic: tuple[EnergyTerm, ...]
     potential: tuple[EnergyTerm, ...]
-    points: Callable[[np.ndarray, SimpleNamespace], Sequence[tuple[float, float]]]
 
     def __post_init__(self):
         where = f"mechanism {self.name!r}"
@@ -170,10 +134,6 @@ class Mechanism:
             )
 
     @property
-    def n(self) -> int:
-        return len(self.coordinates)
-
-    @property
     def q(self) -> tuple[sp.Symbol, ...]:
         return tuple(c.symbol for c in self.coordinates)
 
@@ -189,22 +149,6 @@ class Mechanism:
     def P(self) -> sp.Expr:
         return sp.Add(*(term.energy for term in self.potential))
 
-    def drawn(self, rng: np.random.Generator) -> SimpleNamespace:
-        """Random parameters from their ranges, by their names."""
-        return SimpleNamespace(
-            **{p.name: float(rng.uniform(p.low, p.high)) for p in self.parameters}
-        )
-
-    def placed(self, rng: np.random.Generator) -> np.ndarray:
-        """A random q, (n,): angles whose sine and cosine do not nearly vanish, lengths up to 1 m."""
-        return np.array(
-            [_angle(rng) if c.unit == "rad" else _length(rng) for c in self.coordinates]
-        )
-
-    def moving(self, rng: np.random.Generator) -> np.ndarray:
-        """A random q̇, (n,): either sign, none near zero."""
-        return rng.choice([-1.0, 1.0], self.n) * rng.uniform(0.5, 3.0, self.n)
-
 
 _KINDS = {
     "coordinates": Coordinate,
@@ -218,11 +162,3 @@ def _once(where: str, kind: str, names: list[str]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise ValueError(f"{where}: two of its {kind} are {name!r}")
-
-
-def _angle(rng) -> float:
-    return float(rng.integers(-2, 2) * np.pi / 2 + rng.uniform(0.2, np.pi / 2 - 0.2))
-
-
-def _length(rng) -> float:
-    return float(rng.choice([-1.0, 1.0]) * rng.uniform(0.2, 1.0))
