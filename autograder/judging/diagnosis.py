@@ -74,7 +74,7 @@ def sentences(
     criterion k, "" for nothing; it may cost calls.
     """
     said: list[str] = []
-    mistakes = sorted(mistakes, key=lambda one: not _leaves_right(criteria, expected, one[1], met))
+    mistakes = sorted(mistakes, key=lambda one: _unlikely(criteria, expected, given, met, one[1]))
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
@@ -91,15 +91,27 @@ def sentences(
     return tuple(dict.fromkeys(filter(None, said)))
 
 
-def _leaves_right(
-    criteria: tuple[Criterion, ...], expected: Numbers, wrong: Numbers, met: list[bool]
-) -> bool:
-    """Whether a mistake spoils nothing that is right in the answer: it then says more of it."""
-    return all(
-        np.all(_errors_in(k, expected, wrong) <= criterion.tolerance)
-        for k, criterion in enumerate(criteria)
-        if met[k]
-    )
+def _unlikely(
+    criteria: tuple[Criterion, ...],
+    expected: Numbers,
+    given: Numbers,
+    met: list[bool],
+    wrong: Numbers,
+) -> tuple:
+    """What makes a mistake the less likely one of several that explain a criterion, for sorting.
+
+    It spoils what is right in the answer; it explains fewer criteria; it shows in others what the answer
+    does not.
+    """
+    n = len(criteria)
+    right = [np.all(_errors_in(k, expected, wrong) <= criteria[k].tolerance) for k in range(n)]
+    same = [
+        not right[k] and np.all(_errors_in(k, given, wrong) <= criteria[k].allows(met=False))
+        for k in range(n)
+    ]
+    spoils = any(met[k] and not right[k] for k in range(n))
+    unseen = sum(not (right[k] or same[k]) for k in range(n))
+    return spoils, -sum(same), unseen
 
 
 def mistakes_shown(

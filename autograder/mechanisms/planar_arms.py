@@ -112,8 +112,9 @@ def _weight(k: int, j: int, aside: bool) -> str:
 
 def _coupling(k: int, i: int, j: int, n: int, aside: bool) -> str:
     beside = " beside its axis" if aside else ""
-    through = f" through the mass of link {k + 1}" if n > 2 else ""
-    return f"the coupling of links {i + 1} and {j + 1}{through}{beside}"
+    if n == 2:
+        return f"the coupling of the two links{beside}"
+    return f"the coupling of links {i + 1} and {j + 1} through the mass of link {k + 1}{beside}"
 
 
 PLANAR_2R = planar_arm("planar-2r", 2)

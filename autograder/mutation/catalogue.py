@@ -20,6 +20,8 @@ from autograder.mutation.steps import STEPS, Right
 # To less than this share of the answer two mistakes give the same numbers.
 SAME = 1e-7
 CASES = 8
+# Steps that leave some entries as they are: these others may show another mistake.
+OF_SOME_ENTRIES = ("diagonal alone", "upper triangle alone")
 # Of one entry, what is done to a term of it; the other operators change all entries alike.
 OF_AN_ENTRY = ("dropped", "wrong sign", "doubled", "halved")
 
@@ -39,9 +41,10 @@ class Mutant:
     in_energy: bool = False
 
     @property
-    def is_step(self) -> bool:
-        """Whether it was done to the answer as a whole."""
-        return self.operator in {name for steps in STEPS.values() for name in steps}
+    def is_of_whole(self) -> bool:
+        """Whether it was done to the answer as a whole, so that no entry shows it by itself."""
+        steps = {name for steps in STEPS.values() for name in steps}
+        return self.operator in steps - set(OF_SOME_ENTRIES)
 
 
 class Catalogue:

@@ -60,7 +60,7 @@ def mistakes_of(mechanism: Mechanism, answer: str) -> list[Mistake]:
             " / ".join(filter(None, _places(m))),
             partial(_one, mechanism, catalogue, k),
             sentence(m, mechanism, ANSWERS[answer]),
-            whole=m.is_step,
+            whole=m.is_of_whole,
             combines=m.operator not in ("doubled", "halved"),
         )
         for k, m in enumerate(catalogue.mutants)

@@ -10,6 +10,7 @@ import fnmatch
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 from autograder.judging.diagnosis import Mistake
@@ -19,16 +20,27 @@ from autograder.protocol import Call
 if TYPE_CHECKING:
     from autograder.mechanisms import Mechanism
 
+NUMBERS_OF_THE_EXAMPLE = (
+    "You always use the numbers of the example, whatever you are given. Where does your function read "
+    "the parameters of its own argument?"
+)
+
 
 class Generated:
     """mechanism: its name, or itself. answer: one of `ANSWERS`. rows: a teacher's sentences, each by the
-    name of its mistake, in which `*` stands for anything; the most specific counts.
+    name of its mistake, in which `*` stands for anything; the most specific counts. example: the
+    mechanism of the notebook, for those who write its numbers into a function.
     """
 
     def __init__(
-        self, mechanism: str | Mechanism, answer: str, rows: Mapping[str, str] | None = None
+        self,
+        mechanism: str | Mechanism,
+        answer: str,
+        rows: Mapping[str, str] | None = None,
+        example: SimpleNamespace | None = None,
     ):
-        self.given, self.answer, self.rows = mechanism, answer, dict(rows or {})
+        self.given, self.answer, self.example = mechanism, answer, example
+        self.rows = dict(rows or {})
 
     @cached_property
     def mechanism(self) -> Mechanism:
@@ -53,14 +65,23 @@ class Generated:
         """Every mistake, with the sentence of its row, or else of its operator."""
         from autograder.mutation.checks import mistakes_of
 
-        return [self._said(mistake) for mistake in mistakes_of(self.mechanism, self.answer)]
+        made = [self._said(mistake) for mistake in mistakes_of(self.mechanism, self.answer)]
+        return made + ([self._of_example()] if self.example else [])
 
     def __call__(self, calls: list[Call]) -> list[tuple[Mistake, list]]:
         """Every mistake, with what it returns for each call."""
         from autograder.mutation.checks import numbers_of
 
-        numbers = numbers_of(self.mechanism, self.answer, calls)
-        return list(zip(self.mistakes(), map(list, numbers), strict=True))
+        values = [*map(list, numbers_of(self.mechanism, self.answer, calls))]
+        if self.example:
+            values.append([self._on_example(*call.args) for call in calls])
+        return list(zip(self.mistakes(), values, strict=True))
+
+    def _of_example(self) -> Mistake:
+        return Mistake("numbers of the example", self._on_example, NUMBERS_OF_THE_EXAMPLE)
+
+    def _on_example(self, *args):
+        return self.reference(*args[:-1], self.example)
 
     def _said(self, mistake: Mistake) -> Mistake:
         fitting = [row for row in self.rows if fnmatch.fnmatchcase(mistake.name, row)]

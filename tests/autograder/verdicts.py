@@ -68,5 +68,5 @@ def assert_right(verdict: Verdict) -> None:
 
 def sentences(check_id: str, *names: str) -> tuple[str, ...]:
     """What the check says of these mistakes: a test names a mistake, and types no sentence."""
-    said = {mistake.name: mistake.sentence for mistake in CHECKS[check_id].mistakes}
+    said = {mistake.name: mistake.sentence for mistake in CHECKS[check_id].known_mistakes}
     return tuple(said[name] for name in names)

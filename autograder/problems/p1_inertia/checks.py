@@ -7,6 +7,7 @@ import numpy as np
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.quantities import UnfitError, array, each, one_number
 from autograder.judging.terms import Term
+from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.material.definiteness import (
     MATRICES,
@@ -79,32 +80,6 @@ def _M_calls(rng, count):
 def _entries(call, value):
     M = array(value, 2, 2)
     return (M[0, 0], np.array([M[0, 1], M[1, 0]]), M[1, 1])
-
-
-def _link_1(size):
-    return lambda q, arm: np.array([[size(arm), 0.0], [0.0, 0.0]])
-
-
-def _link_2(size):
-    return lambda q, arm: np.full((2, 2), size(arm))
-
-
-M_TERMS = (
-    Term("the rotation of link 1", _link_1(lambda arm: arm.I1)),
-    Term("the centre of mass of link 1", _link_1(lambda arm: arm.m1 * arm.lc1**2)),
-    Term("the mass of link 2, carried at the elbow", _link_1(lambda arm: arm.m2 * arm.l1**2)),
-    Term("the rotation of link 2", _link_2(lambda arm: arm.I2)),
-    Term(
-        "the centre of mass of link 2 about the elbow",
-        _link_2(lambda arm: arm.m2 * arm.lc2**2),
-    ),
-    Term(
-        "the coupling of the two links",
-        lambda q, arm: (
-            arm.m2 * arm.l1 * arm.lc2 * np.cos(q[1]) * np.array([[2.0, 1.0], [1.0, 0.0]])
-        ),
-    ),
-)
 
 
 # Of which criteria a matrix speaks. Each criterion sees some to accept and some to refuse, so that no
@@ -187,6 +162,8 @@ def _why_singular(arm, q):
     return np.array([0.0, 1.0, first == 0, abs(np.sin(q[1])) < 1e-6])
 
 
+INERTIA = Generated("planar-2r", "M", mistakes.INERTIA_SAID, mistakes.EXAMPLE)
+
 CHECKS = (
     Check(
         id="p1-inertia_from_links",
@@ -227,7 +204,8 @@ CHECKS = (
             Criterion("M22", "kg·m²", 0.25),
         ),
         mistakes=mistakes.INERTIA,
-        terms=M_TERMS,
+        catalogue=INERTIA,
+        terms=INERTIA.terms,
         hints=(
             "Start from the energy, not from the matrix. Each link has two parts: its centre of "
             "mass moves, and it turns. What is the angular velocity of link 2?",

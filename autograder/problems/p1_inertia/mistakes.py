@@ -126,26 +126,6 @@ def _coupling(q, arm):
     return arm.m2 * arm.l1 * arm.lc2 * np.cos(q[1])
 
 
-def _coupled_by(factor):
-    """M of an arm whose two links are coupled by `factor(q, arm)` for cos q2."""
-    return lambda q, arm: planar_2r.inertia(arm, arm.m2 * arm.l1 * arm.lc2 * factor(q, arm))
-
-
-def _plus(M11=None, M12=None, M22=None):
-    """M with something added to its entries, functions of q and arm; M12 stands for both."""
-
-    def wrong(q, arm):
-        m11, m12, m22 = (add(q, arm) if add else 0.0 for add in (M11, M12, M22))
-        return planar_2r.M(q, arm) + np.array([[m11, m12], [m12, m22]])
-
-    return wrong
-
-
-def _plus_everywhere(add):
-    """M with one more term in the inertia of link 2 about the elbow."""
-    return _plus(add, add, add)
-
-
 def _absolute(angle):
     """M of an arm whose second velocity is that of link 2 itself."""
 
@@ -167,190 +147,134 @@ ABSOLUTE = (
     "still and move joint 1: does link 2 turn?"
 )
 
+INERTIA_SAID = {
+    "dropped / the rotation of link 2 / M12": (
+        "Your M12 is right except that I2 is missing. Where does link 2's own rotation enter, if "
+        "its angular velocity is made of both q̇1 and q̇2?"
+    ),
+    "dropped / the rotation of link 2 / M11": (
+        "Your M11 is right except that I2 is missing. Hold joint 2 and move joint 1: which of the "
+        "two links turn?"
+    ),
+    "dropped / the rotation of link 2": (
+        "I2 is missing: in your M, link 2 moves but does not turn. What is its angular velocity?"
+    ),
+    "dropped / the rotation of link 1": (
+        "I1 is missing. Link 1 turns about the shoulder: is all its energy in the motion of its "
+        "centre of mass?"
+    ),
+    "dropped / the mass of link 2 at the elbow": (
+        "A term is missing from your M11. Joint 1 carries the whole of link 2 around: how fast "
+        "does the elbow move?"
+    ),
+    "dropped / the centre of mass of link 1 about the shoulder": (
+        "I1 is the inertia of link 1 about its centre of mass, but the centre of mass moves as "
+        "well. What must you add to M11 to get the inertia about the shoulder?"
+    ),
+    "dropped / the centre of mass of link 2 about the elbow": (
+        "I2 is the inertia of link 2 about its centre of mass, but the centre of mass moves about "
+        "the elbow as well. What must you add to get the inertia about the elbow?"
+    ),
+    "doubled / the centre of mass of link 1 about the shoulder": (
+        "Your M11 counts the motion of link 1's centre of mass twice. Have you applied the "
+        "parallel-axis theorem once too often?"
+    ),
+    "doubled / the centre of mass of link 2 about the elbow": (
+        "Your M counts the motion of link 2's centre of mass about the elbow twice. Have you "
+        "applied the parallel-axis theorem once too often?"
+    ),
+    "wrong parameter / the centre of mass of link 1 about the shoulder / l1 / lc1": (
+        "You put m1 at the end of link 1. How far is link 1's centre of mass from the shoulder?"
+    ),
+    "wrong parameter / l2 / lc2": (
+        "You put m2 at the hand. How far from the elbow is the centre of mass of link 2?"
+    ),
+    "wrong parameter / the coupling of the two links / l2 / lc2": (
+        "You use ℓ2 in the coupling of the two links. At which point of link 2 does its mass act?"
+    ),
+    "wrong parameter / lc1 / l1": (
+        "You hinge link 2 at the centre of mass of link 1. How far from the shoulder is the elbow?"
+    ),
+    "wrong parameter / the coupling of the two links / lc1 / l1": (
+        "You use ℓc1 in the coupling of the two links. Which point of link 1 carries link 2?"
+    ),
+    "wrong parameter / the mass of link 2 at the elbow / lc1 / l1": (
+        "Your M11 carries m2 at the distance ℓc1 from the shoulder. Which point of link 1 carries "
+        "link 2?"
+    ),
+    "wrong parameter / the coupling of the two links / m1 / m2": (
+        "You use m1 in the coupling of the two links. Which link has a speed that depends on both "
+        "joints?"
+    ),
+    "wrong angle / the coupling of the two links / q1 / q2": (
+        "Your M changes with q1. Turn the whole arm about the shoulder with the elbow locked: does "
+        "its inertia change? Which angle sets its shape?"
+    ),
+    "wrong angle / the coupling of the two links / q1 + q2 / q2": (
+        "Your coupling measures the angle of link 2 from the x axis. Which angle lies between the "
+        "two links?"
+    ),
+    "sine for cosine / the coupling of the two links": (
+        "Your coupling vanishes when the arm is stretched out. At which q2 is link 2 farthest "
+        "from the shoulder, and what must the coupling be there?"
+    ),
+    "wrong sign / the coupling of the two links": (
+        "Your coupling has the wrong sign: your arm resists most when it is folded. Which way "
+        "does link 2 point at q2 = 0?"
+    ),
+    "wave lost / the coupling of the two links / q2": (
+        "Your M is that of the stretched arm in every configuration. What changes when the elbow "
+        "bends?"
+    ),
+    "radians converted / the coupling of the two links": sentences.RADIANS_CONVERTED,
+    "angle in degrees / the coupling of the two links": sentences.IN_DEGREES,
+    "halved / the coupling of the two links / M11": (
+        "The coupling in your M11 is half of what it should be. Square the speed of link 2's centre "
+        "of mass: how often does the mixed product occur?"
+    ),
+    "dropped / the coupling of the two links": (
+        "Your M does not change with q2. When the elbow bends, mass comes nearer to the shoulder: "
+        "which term should show it?"
+    ),
+    "dropped / the coupling of the two links / M11": (
+        "Your M11 does not change with q2. When the elbow bends, mass comes nearer to the "
+        "shoulder: which term of M11 should show it?"
+    ),
+    "dropped / the coupling of the two links / M12": (
+        "Your M12 does not change with q2. Which term of the energy holds q̇1 q̇2 together with "
+        "the angle between the links?"
+    ),
+    "doubled / the coupling of the two links / M12": (
+        "The coupling in your M12 is twice what it should be. M12 and M21 share the mixed term of "
+        "q̇ᵀ M q̇: what does that leave for each?"
+    ),
+    "velocity left out / qd2 / qd1 / in the energy": ABSOLUTE,
+    "upper triangle alone": (
+        "Your M21 is zero. The M of a kinetic energy is symmetric: what must M21 be?"
+    ),
+    "diagonal alone": (
+        "Your M12 and M21 are zero, as if the joints did not feel each other. Accelerate joint 2 "
+        "alone: does joint 1 need a torque to stay where it is?"
+    ),
+    "inverse": sentences.INVERSE_OF_M,
+    "half of the whole": HALF,
+    "numbers of the example": (
+        "You always use the numbers of the example arm, whatever arm is given. Where do your "
+        "masses and lengths come from?"
+    ),
+}
 INERTIA = (
     Mistake(
-        "I2 missing in M12",
-        _plus(M12=lambda q, arm: -arm.I2),
-        "Your M12 is right except that I2 is missing. Where does link 2's own rotation enter, if "
-        "its angular velocity is made of both q̇1 and q̇2?",
-    ),
-    Mistake(
-        "I2 missing in M11",
-        _plus(M11=lambda q, arm: -arm.I2),
-        "Your M11 is right except that I2 is missing. Hold joint 2 and move joint 1: which of the "
-        "two links turn?",
-    ),
-    Mistake(
-        "I2 missing",
-        _plus_everywhere(lambda q, arm: -arm.I2),
-        "I2 is missing: in your M, link 2 moves but does not turn. What is its angular velocity?",
-    ),
-    Mistake(
-        "I1 left out",
-        _plus(M11=lambda q, arm: -arm.I1),
-        "I1 is missing. Link 1 turns about the shoulder: is all its energy in the motion of its "
-        "centre of mass?",
-    ),
-    Mistake(
-        "mass of link 2 at the elbow left out",
-        _plus(M11=lambda q, arm: -arm.m2 * arm.l1**2),
-        "A term is missing from your M11. Joint 1 carries the whole of link 2 around: how fast "
-        "does the elbow move?",
-    ),
-    Mistake(
-        "parallel axis missing for link 1",
-        _plus(M11=lambda q, arm: -arm.m1 * arm.lc1**2),
-        "I1 is the inertia of link 1 about its centre of mass, but the centre of mass moves as "
-        "well. What must you add to M11 to get the inertia about the shoulder?",
-    ),
-    Mistake(
-        "parallel axis missing for link 2",
-        _plus_everywhere(lambda q, arm: -arm.m2 * arm.lc2**2),
-        "I2 is the inertia of link 2 about its centre of mass, but the centre of mass moves about "
-        "the elbow as well. What must you add to get the inertia about the elbow?",
-    ),
-    Mistake(
-        "parallel axis doubled for link 1",
-        _plus(M11=lambda q, arm: arm.m1 * arm.lc1**2),
-        "Your M11 counts the motion of link 1's centre of mass twice. Have you applied the "
-        "parallel-axis theorem once too often?",
-    ),
-    Mistake(
-        "parallel axis doubled for link 2",
-        _plus_everywhere(lambda q, arm: arm.m2 * arm.lc2**2),
-        "Your M counts the motion of link 2's centre of mass about the elbow twice. Have you "
-        "applied the parallel-axis theorem once too often?",
-    ),
-    Mistake(
-        "l1 for lc1",
-        _plus(M11=lambda q, arm: arm.m1 * (arm.l1**2 - arm.lc1**2)),
-        "You put m1 at the end of link 1. How far is link 1's centre of mass from the shoulder?",
-    ),
-    Mistake(
-        "l2 for lc2",
-        lambda q, arm: planar_2r.M(q, changed(arm, lc2=arm.l2)),
-        "You put m2 at the hand. How far from the elbow is the centre of mass of link 2?",
-    ),
-    Mistake(
-        "l2 for lc2 in the coupling",
-        _coupled_by(lambda q, arm: arm.l2 / arm.lc2 * np.cos(q[1])),
-        "You use ℓ2 in the coupling of the two links. At which point of link 2 does its mass act?",
-    ),
-    Mistake(
-        "lc1 for l1",
-        lambda q, arm: planar_2r.M(q, changed(arm, l1=arm.lc1)),
-        "You hinge link 2 at the centre of mass of link 1. How far from the shoulder is the elbow?",
-    ),
-    Mistake(
-        "lc1 for l1 in the coupling",
-        _coupled_by(lambda q, arm: arm.lc1 / arm.l1 * np.cos(q[1])),
-        "You use ℓc1 in the coupling of the two links. Which point of link 1 carries link 2?",
-    ),
-    Mistake(
-        "lc1 for l1 at the elbow",
-        _plus(M11=lambda q, arm: arm.m2 * (arm.lc1**2 - arm.l1**2)),
-        "Your M11 carries m2 at the distance ℓc1 from the shoulder. Which point of link 1 carries "
-        "link 2?",
-    ),
-    Mistake(
-        "m1 in the coupling",
-        _coupled_by(lambda q, arm: arm.m1 / arm.m2 * np.cos(q[1])),
-        "You use m1 in the coupling of the two links. Which link has a speed that depends on both "
-        "joints?",
-    ),
-    Mistake(
-        "cos q1 for cos q2",
-        _coupled_by(lambda q, arm: np.cos(q[0])),
-        "Your M changes with q1. Turn the whole arm about the shoulder with the elbow locked: does "
-        "its inertia change? Which angle sets its shape?",
-    ),
-    Mistake(
-        "cos(q1 + q2) for cos q2",
-        _coupled_by(lambda q, arm: np.cos(q[0] + q[1])),
-        "Your coupling measures the angle of link 2 from the x axis. Which angle lies between the "
-        "two links?",
-    ),
-    Mistake(
-        "sin q2 for cos q2",
-        _coupled_by(lambda q, arm: np.sin(q[1])),
-        "Your coupling vanishes when the arm is stretched out. At which q2 is link 2 farthest "
-        "from the shoulder, and what must the coupling be there?",
-    ),
-    Mistake(
-        "sign of the coupling",
-        _coupled_by(lambda q, arm: -np.cos(q[1])),
-        "Your coupling has the wrong sign: your arm resists most when it is folded. Which way "
-        "does link 2 point at q2 = 0?",
-    ),
-    Mistake(
-        "coupling constant",
-        _coupled_by(lambda q, arm: 1.0),
-        "Your M is that of the stretched arm in every configuration. What changes when the elbow "
-        "bends?",
-    ),
-    Mistake(
-        "radians taken for degrees",
-        _coupled_by(lambda q, arm: np.cos(np.radians(q[1]))),
-        sentences.RADIANS_CONVERTED,
-    ),
-    Mistake(
-        "angle in degrees",
-        _coupled_by(lambda q, arm: np.cos(np.degrees(q[1]))),
-        sentences.IN_DEGREES,
-    ),
-    Mistake(
-        "coupling of M11 missing its factor",
-        _plus(M11=lambda q, arm: -_coupling(q, arm)),
-        "The coupling in your M11 is half of what it should be. Square the speed of link 2's centre "
-        "of mass: how often does the mixed product occur?",
-    ),
-    Mistake(
-        "coupling missing",
-        lambda q, arm: planar_2r.inertia(arm, 0.0),
-        "Your M does not change with q2. When the elbow bends, mass comes nearer to the shoulder: "
-        "which term should show it?",
-    ),
-    Mistake(
-        "coupling missing in M11",
-        _plus(M11=lambda q, arm: -2 * _coupling(q, arm)),
-        "Your M11 does not change with q2. When the elbow bends, mass comes nearer to the "
-        "shoulder: which term of M11 should show it?",
-    ),
-    Mistake(
-        "coupling missing in M12",
-        _plus(M12=lambda q, arm: -_coupling(q, arm)),
-        "Your M12 does not change with q2. Which term of the energy holds q̇1 q̇2 together with "
-        "the angle between the links?",
-    ),
-    Mistake(
-        "coupling doubled in M12",
-        _plus(M12=_coupling),
-        "The coupling in your M12 is twice what it should be. M12 and M21 share the mixed term of "
-        "q̇ᵀ M q̇: what does that leave for each?",
-    ),
-    Mistake(
         "coupling in M22",
-        _plus(M22=_coupling),
+        lambda q, arm: planar_2r.M(q, arm) + np.diag([0.0, _coupling(q, arm)]),
         "Your M22 changes with q2. Hold joint 1 still and turn joint 2: does it matter how far "
         "the elbow is bent?",
     ),
     Mistake("absolute second angle", _absolute(lambda q: q[1] - q[0]), ABSOLUTE),
-    Mistake("absolute second velocity", _absolute(lambda q: q[1]), ABSOLUTE),
-    Mistake(
-        "M21 left zero",
-        _times(1, 1, 0, 1),
-        "Your M21 is zero. The M of a kinetic energy is symmetric: what must M21 be?",
-    ),
     Mistake(
         "M12 left zero",
         _times(1, 0, 1, 1),
         "Your M12 is zero. The M of a kinetic energy is symmetric: what must M12 be?",
-    ),
-    Mistake(
-        "M diagonal",
-        _times(1, 0, 0, 1),
-        "Your M12 and M21 are zero, as if the joints did not feel each other. Accelerate joint 2 "
-        "alone: does joint 1 need a torque to stay where it is?",
     ),
     Mistake(
         "M21 of the other sign",
@@ -373,22 +297,6 @@ INERTIA = (
         "joints swapped",
         lambda q, arm: planar_2r.M(q, arm)[::-1, ::-1],
         "You swapped M11 and M22. Which joint carries both links?",
-    ),
-    Mistake(
-        "inverse for matrix",
-        lambda q, arm: np.linalg.inv(planar_2r.M(q, arm)),
-        sentences.INVERSE_OF_M,
-    ),
-    Mistake(
-        "half",
-        _times(0.5, 0.5, 0.5, 0.5),
-        HALF,
-    ),
-    Mistake(
-        "example arm hard-coded",
-        lambda q, arm: planar_2r.M(q, EXAMPLE),
-        "You always use the numbers of the example arm, whatever arm is given. Where do your "
-        "masses and lengths come from?",
     ),
 )
 

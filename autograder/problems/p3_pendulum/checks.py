@@ -11,6 +11,7 @@ import numpy as np
 from autograder.judging.check import Check, Criterion
 from autograder.judging.quantities import UnfitError, each
 from autograder.judging.terms import Term
+from autograder.mutation.generated import Generated
 from autograder.problems.material import sampling
 from autograder.problems.p3_pendulum import mistakes
 from autograder.protocol import Call, Symbol
@@ -64,6 +65,8 @@ def _inertia_calls(rng, count):
 def _frequency_calls(rng, count):
     return [Call("small_angle_frequency", (sampling.pendulum(rng),)) for _ in range(count)]
 
+
+GRAVITY = Generated("pendulum", "g_vec", mistakes.GRAVITY_SAID)
 
 CHECKS = (
     Check(
@@ -144,9 +147,8 @@ CHECKS = (
         calls=_position_calls("g_vec"),
         criteria=(Criterion("gravity torque", "N·m"),),
         mistakes=mistakes.GRAVITY,
-        terms=(
-            Term("the torque of the weight", lambda q, pend: pend.m * pend.g * pend.lc * sin(q[0])),
-        ),
+        catalogue=GRAVITY,
+        terms=GRAVITY.terms,
         hints=(
             "What is left of the printed equation of motion when nothing moves?",
             "It is the derivative of P by q. Where does it vanish, and where is it largest: hanging, "

@@ -1,6 +1,6 @@
 """Mistakes about the pendulum."""
 
-from math import cos, degrees, pi, radians, sin, sqrt
+from math import cos, pi, radians, sin, sqrt
 
 import numpy as np
 
@@ -67,63 +67,41 @@ CORIOLIS = (
     ),
 )
 
-GRAVITY = (
-    Mistake(
-        "sign of gravity",
-        lambda q, pend: -pend.m * pend.g * pend.lc * sin(q[0]),
+GRAVITY_SAID = {
+    "sign of the whole": (
         "Your gravity torque has the wrong sign: it pushes the pendulum away from hanging down. "
-        "From which direction is q measured, and on which side of the equation does g stand?",
+        "From which direction is q measured, and on which side of the equation does g stand?"
     ),
-    Mistake(
-        "cosine for sine",
-        lambda q, pend: pend.m * pend.g * pend.lc * cos(q[0]),
+    "cosine for sine / the weight of the body": (
         "You have the cosine of q where the sine belongs: your pendulum feels its largest torque "
-        "when it hangs straight down (q = 0). From which direction is q measured?",
+        "when it hangs straight down (q = 0). From which direction is q measured?"
     ),
-    Mistake(
-        "cosine for sine, reversed",
-        lambda q, pend: -pend.m * pend.g * pend.lc * cos(q[0]),
+    "cosine for sine / the weight of the body / −": (
         "Your torque varies as −cos q, as if q were measured from the horizontal. From which "
-        "direction is q measured here, and where must the torque vanish?",
+        "direction is q measured here, and where must the torque vanish?"
     ),
-    Mistake(
-        "radians taken for degrees",
-        lambda q, pend: pend.m * pend.g * pend.lc * sin(radians(q[0])),
-        sentences.RADIANS_CONVERTED,
-    ),
-    Mistake(
-        "angle in degrees",
-        lambda q, pend: pend.m * pend.g * pend.lc * sin(degrees(q[0])),
-        sentences.IN_DEGREES,
-    ),
-    Mistake(
-        "lever arm missing",
-        lambda q, pend: pend.m * pend.g * sin(q[0]),
+    "radians converted / the weight of the body": sentences.RADIANS_CONVERTED,
+    "angle in degrees / the weight of the body": sentences.IN_DEGREES,
+    "parameter left out / the weight of the body / lc": (
         "You return a force, in newtons: the lever arm ℓc is missing. What turns a force into a "
-        "torque?",
+        "torque?"
     ),
-    Mistake(
-        "gravity constant missing",
-        lambda q, pend: pend.m * pend.lc * sin(q[0]),
+    "parameter left out / the weight of the body / g": (
         "The gravitational acceleration g is missing from your torque. What is the weight of a "
-        "mass m?",
+        "mass m?"
     ),
-    Mistake(
-        "mass missing",
-        lambda q, pend: pend.g * pend.lc * sin(q[0]),
-        "The mass is missing from your torque. What is the weight of the body?",
+    "parameter left out / the weight of the body / m": (
+        "The mass is missing from your torque. What is the weight of the body?"
     ),
-    Mistake(
-        "gravity constant hard-coded",
-        lambda q, pend: pend.m * 9.81 * pend.lc * sin(q[0]),
+    "gravity of Earth / the weight of the body / 9.81 / g": (
         "Your torque is right only on Earth, because you typed 9.81 into it. The check also "
-        "swings the pendulum on other planets: which parameter of pend gives g?",
+        "swings the pendulum on other planets: which parameter of pend gives g?"
     ),
-    Mistake(
-        "small angle",
-        lambda q, pend: pend.m * pend.g * pend.lc * q[0],
-        "Your torque is right only for small angles. How does it vary when q is large?",
+    "small angle / the weight of the body": (
+        "Your torque is right only for small angles. How does it vary when q is large?"
     ),
+}
+GRAVITY = (
     Mistake(
         "potential energy for torque",
         lambda q, pend: pend.m * pend.g * pend.lc * (1 - cos(q[0])),

@@ -7,6 +7,7 @@ import numpy as np
 from autograder.judging.check import Check, Criterion
 from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.terms import Term
+from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.p4_gravity import mistakes
 from autograder.protocol import Call
@@ -120,9 +121,8 @@ def _pose(call):
     return planar_2r.joints(q, arm)
 
 
-WEIGHT_1 = "the weight of link 1"
-WEIGHT_2 = "the weight of link 2 at the elbow"
-BEYOND = "the weight of link 2 beyond the elbow"
+POTENTIAL = Generated("planar-2r", "potential_energy", mistakes.POTENTIAL_SAID, mistakes.EXAMPLE)
+GRAVITY = Generated("planar-2r", "g_vec", mistakes.GRAVITY_SAID, mistakes.EXAMPLE)
 
 CHECKS = (
     Check(
@@ -138,11 +138,8 @@ CHECKS = (
             ),
         ),
         mistakes=mistakes.POTENTIAL,
-        terms=(
-            Term(WEIGHT_1, lambda q, arm: arm.m1 * arm.g * arm.lc1 * np.sin(q[0])),
-            Term(WEIGHT_2, lambda q, arm: arm.m2 * arm.g * arm.l1 * np.sin(q[0])),
-            Term(BEYOND, lambda q, arm: arm.m2 * arm.g * arm.lc2 * np.sin(q[0] + q[1])),
-        ),
+        catalogue=POTENTIAL,
+        terms=POTENTIAL.terms,
         hints=(
             "P of a link is its weight times the height of its centre of mass. Draw the arm at "
             "q1 = 30°, q2 = 40° and mark both heights above the shoulder.",
@@ -164,13 +161,8 @@ CHECKS = (
             Criterion("gravity torque g2 of joint 2", "N·m", 0.5),
         ),
         mistakes=mistakes.GRAVITY,
-        terms=(
-            Term(WEIGHT_1, lambda q, arm: np.array([arm.m1 * arm.g * arm.lc1 * np.cos(q[0]), 0.0])),
-            Term(WEIGHT_2, lambda q, arm: np.array([arm.m2 * arm.g * arm.l1 * np.cos(q[0]), 0.0])),
-            Term(
-                BEYOND, lambda q, arm: arm.m2 * arm.g * arm.lc2 * np.cos(q[0] + q[1]) * np.ones(2)
-            ),
-        ),
+        catalogue=GRAVITY,
+        terms=GRAVITY.terms,
         hints=(
             "g has one entry for each joint: the partial derivatives of your P, by q1 and by q2, "
             "each with the other angle held still.",

@@ -1,6 +1,6 @@
 """Mistakes about gravity: in P, in its gradient, in the form with Jacobians, in the equilibria."""
 
-from math import degrees, pi, radians
+from math import pi
 from types import SimpleNamespace
 
 import numpy as np
@@ -62,128 +62,102 @@ MASSES_MISSING = "The masses are missing. What is the weight of a link?"
 MASSES_SWAPPED = "You swapped m1 and m2. Which mass belongs to which link?"
 G_MISSING = "The gravitational acceleration g is missing. What is the weight of a link?"
 
-POTENTIAL = (
-    Mistake(
-        "sign of P",
-        lambda q, arm: -potential_energy(q, arm),
+POTENTIAL_SAID = {
+    "numbers of the example": EXAMPLE_ARM,
+    "sign of the whole": (
         "Your P has the wrong sign: it falls as the arm rises. Which way does the gravitational "
-        "acceleration point, and does it take work to lift a link?",
+        "acceleration point, and does it take work to lift a link?"
     ),
-    Mistake(
-        "cosine for sine",
-        lambda q, arm: _energy(arm, np.cos(q[0]), np.cos(q[0] + q[1])),
+    "cosine for sine": (
         "Your P uses cosines. They tell how far out the links reach, or how high, if the angles "
         "were measured from upright. From which axis is q1 measured, and how high is link 1 at q1 "
-        "= 0?",
+        "= 0?"
     ),
-    Mistake(
-        "the pendulum's convention",
-        lambda q, arm: -_energy(arm, np.cos(q[0]), np.cos(q[0] + q[1])),
+    "cosine for sine / −": (
         "Your P measures the angles from hanging down, as problem 3 does for the pendulum. From "
-        "which axis is q1 measured here, and how high is link 1 at q1 = 0?",
+        "which axis is q1 measured here, and how high is link 1 at q1 = 0?"
     ),
-    Mistake(
-        "absolute second angle",
-        lambda q, arm: _energy(arm, np.sin(q[0]), np.sin(q[1])),
-        "Your P takes q2 for the direction of link 2 in space. From where is q2 measured?",
+    "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2": (
+        "Your P takes q2 for the direction of link 2 in space. From where is q2 measured?"
     ),
-    Mistake(
-        "second angle the wrong way round",
-        lambda q, arm: _energy(arm, np.sin(q[0]), np.sin(q[0] - q[1])),
+    "wrong angle / the weight of link 2 beyond the elbow / q1 − q2 / q1 + q2": (
         "Your P takes the difference of the angles for the direction of link 2. Turn the elbow a "
-        "little counter-clockwise: does link 2's angle with the x axis grow or shrink?",
+        "little counter-clockwise: does link 2's angle with the x axis grow or shrink?"
     ),
+    "dropped / the weight of link 2 at the elbow": (
+        "In your P, link 2 begins at the height of the shoulder. How high is the elbow, where it "
+        "really begins?"
+    ),
+    "dropped / the weight of link 1 beyond the shoulder": (
+        "Your P leaves out the weight of link 1. How high is the centre of mass of link 1?"
+    ),
+    "wrong parameter / the weight of link 1 beyond the shoulder / l1 / lc1": LINK_1_LENGTH,
+    "wrong parameter / the weight of link 2 beyond the elbow / l2 / lc2": LINK_2_LENGTH,
+    "wrong parameter / the weight of link 2 at the elbow / lc1 / l1": ELBOW_AT_LC1,
+    "half of the whole": (
+        "Your P is half the right one. A ½ belongs to a kinetic energy: does it belong here?"
+    ),
+    "parameters exchanged / m1 / m2": MASSES_SWAPPED,
+    "parameter left out / g": G_MISSING,
+    "gravity of Earth / 9.81 / g": HARD_CODED_G,
+    "radians converted": sentences.RADIANS_CONVERTED,
+    "angle in degrees": sentences.IN_DEGREES,
+}
+POTENTIAL = (
     Mistake(
         "elbow changes nothing",
         lambda q, arm: _energy(arm, np.sin(q[0]), 0.0),
         "Your P does not change as the elbow turns, as if the whole mass of link 2 sat at the "
         "elbow or were left out. Where is its centre of mass?",
     ),
-    Mistake(
-        "elbow's height left out",
-        lambda q, arm: (
-            arm.g * (arm.m1 * arm.lc1 * np.sin(q[0]) + arm.m2 * arm.lc2 * np.sin(q[0] + q[1]))
-        ),
-        "In your P, link 2 begins at the height of the shoulder. How high is the elbow, where it "
-        "really begins?",
-    ),
-    Mistake(
-        "link 1 left out",
-        _with(potential_energy, m1=0.0),
-        "Your P leaves out the weight of link 1. How high is the centre of mass of link 1?",
-    ),
-    Mistake("l1 for lc1", _on(potential_energy, lc1="l1"), LINK_1_LENGTH),
-    Mistake("l2 for lc2", _on(potential_energy, lc2="l2"), LINK_2_LENGTH),
-    Mistake("lc1 for l1", _on(potential_energy, l1="lc1"), ELBOW_AT_LC1),
-    Mistake(
-        "half",
-        lambda q, arm: potential_energy(q, arm) / 2,
-        "Your P is half the right one. A ½ belongs to a kinetic energy: does it belong here?",
-    ),
     Mistake("masses missing", _with(potential_energy, m1=1.0, m2=1.0), MASSES_MISSING),
-    Mistake("masses swapped", _on(potential_energy, m1="m2", m2="m1"), MASSES_SWAPPED),
-    Mistake("gravity constant missing", _with(potential_energy, g=1.0), G_MISSING),
-    Mistake("gravity constant hard-coded", _with(potential_energy, g=9.81), HARD_CODED_G),
-    Mistake("example arm", lambda q, arm: potential_energy(q, EXAMPLE), EXAMPLE_ARM),
-    Mistake(
-        "radians taken for degrees",
-        lambda q, arm: potential_energy([radians(angle) for angle in q], arm),
-        sentences.RADIANS_CONVERTED,
-    ),
-    Mistake(
-        "angles in degrees",
-        lambda q, arm: potential_energy([degrees(angle) for angle in q], arm),
-        sentences.IN_DEGREES,
-    ),
 )
 
-GRAVITY = (
-    Mistake(
-        "sign of gravity",
-        lambda q, arm: -g_vec(q, arm),
+GRAVITY_SAID = {
+    "numbers of the example": EXAMPLE_ARM,
+    "sign of the whole": (
         "Your gravity torque has the wrong sign. On which side of M q̈ + C q̇ + g = u does g stand, "
-        "and which way must a motor push to hold the arm out to the right?",
+        "and which way must a motor push to hold the arm out to the right?"
     ),
-    Mistake(
-        "sine for cosine",
-        lambda q, arm: _torque(arm, np.sin(q[0]), np.sin(q[0] + q[1])),
+    "sine for cosine": (
         "You have the sine where the cosine belongs: your arm feels no gravity when its links are "
-        "level. Have you differentiated P, and from which axis is q1 measured?",
+        "level. Have you differentiated P, and from which axis is q1 measured?"
     ),
-    Mistake(
-        "sine for cosine, reversed",
-        lambda q, arm: -_torque(arm, np.sin(q[0]), np.sin(q[0] + q[1])),
+    "sine for cosine / −": (
         "Your torque varies like −sin, as the gradient of a P made of cosines does. From which axis "
-        "is q1 measured, and what is the height of link 1 at q1 = 0?",
+        "is q1 measured, and what is the height of link 1 at q1 = 0?"
     ),
-    Mistake(
-        "absolute second angle",
-        lambda q, arm: _torque(arm, np.cos(q[0]), np.cos(q[1])),
-        "You take q2 for the direction of link 2 in space. From where is q2 measured?",
+    "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2": (
+        "You take q2 for the direction of link 2 in space. From where is q2 measured?"
     ),
-    Mistake(
-        "second angle the wrong way round",
-        lambda q, arm: _torque(arm, np.cos(q[0]), np.cos(q[0] - q[1])),
+    "wrong angle / the weight of link 2 beyond the elbow / q1 − q2 / q1 + q2": (
         "You take the difference of the angles for the direction of link 2. Turn the elbow a "
-        "little counter-clockwise: does link 2's angle with the x axis grow or shrink?",
+        "little counter-clockwise: does link 2's angle with the x axis grow or shrink?"
     ),
-    Mistake(
-        "link 2 left out of g1",
-        lambda q, arm: g_vec(q, arm) - [arm.m2 * arm.lc2 * arm.g * np.cos(q[0] + q[1]), 0.0],
+    "dropped / the weight of link 2 beyond the elbow / g1": (
         "Your g1 lacks the term with the direction of link 2. Does that direction change when "
-        "joint 1 turns and q2 stays the same?",
+        "joint 1 turns and q2 stays the same?"
     ),
-    Mistake(
-        "elbow left out of g1",
-        lambda q, arm: g_vec(q, arm) - [arm.m2 * arm.l1 * arm.g * np.cos(q[0]), 0.0],
+    "dropped / the weight of link 2 at the elbow": (
         "Your g1 leaves out the weight of m2 at the elbow. What does joint 1 carry besides its "
-        "own link?",
+        "own link?"
     ),
-    Mistake(
-        "link 1 left out",
-        _with(g_vec, m1=0.0),
-        "Your g1 leaves out the weight of link 1. What does joint 1 carry besides link 2?",
+    "dropped / the weight of link 1 beyond the shoulder": (
+        "Your g1 leaves out the weight of link 1. What does joint 1 carry besides link 2?"
     ),
+    "joints exchanged": (
+        "You swapped the torques of the two joints. Which joint carries both links?"
+    ),
+    "wrong parameter / the weight of link 1 beyond the shoulder / l1 / lc1": LINK_1_LENGTH,
+    "wrong parameter / the weight of link 2 beyond the elbow / l2 / lc2": LINK_2_LENGTH,
+    "wrong parameter / the weight of link 2 at the elbow / lc1 / l1": ELBOW_AT_LC1,
+    "parameters exchanged / m1 / m2": MASSES_SWAPPED,
+    "parameter left out / g": G_MISSING,
+    "gravity of Earth / 9.81 / g": HARD_CODED_G,
+    "radians converted": sentences.RADIANS_CONVERTED,
+    "angle in degrees": sentences.IN_DEGREES,
+}
+GRAVITY = (
     Mistake(
         "elbow in g2",
         lambda q, arm: g_vec(q, arm) + np.array([0.0, arm.m2 * arm.l1 * arm.g * np.cos(q[0])]),
@@ -205,29 +179,7 @@ GRAVITY = (
         lambda q, arm: np.full(2, potential_energy(q, arm)),
         "You return the potential energy P, in joules. What turns P(q) into g(q)?",
     ),
-    Mistake(
-        "entries swapped",
-        lambda q, arm: g_vec(q, arm)[::-1],
-        "You swapped the torques of the two joints. Which joint carries both links?",
-    ),
-    Mistake("l1 for lc1", _on(g_vec, lc1="l1"), LINK_1_LENGTH),
-    Mistake("l2 for lc2", _on(g_vec, lc2="l2"), LINK_2_LENGTH),
-    Mistake("lc1 for l1", _on(g_vec, l1="lc1"), ELBOW_AT_LC1),
     Mistake("masses missing", _with(g_vec, m1=1.0, m2=1.0), MASSES_MISSING),
-    Mistake("masses swapped", _on(g_vec, m1="m2", m2="m1"), MASSES_SWAPPED),
-    Mistake("gravity constant missing", _with(g_vec, g=1.0), G_MISSING),
-    Mistake("gravity constant hard-coded", _with(g_vec, g=9.81), HARD_CODED_G),
-    Mistake("example arm", lambda q, arm: g_vec(q, EXAMPLE), EXAMPLE_ARM),
-    Mistake(
-        "radians taken for degrees",
-        lambda q, arm: g_vec([radians(angle) for angle in q], arm),
-        sentences.RADIANS_CONVERTED,
-    ),
-    Mistake(
-        "angles in degrees",
-        lambda q, arm: g_vec([degrees(angle) for angle in q], arm),
-        sentences.IN_DEGREES,
-    ),
 )
 
 

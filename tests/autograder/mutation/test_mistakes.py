@@ -85,7 +85,7 @@ def test_two_mistakes_at_once_are_both_named():
     check, catalogue = check_of(mechanism, "M"), catalogue_of(mechanism, "M")
     places = {(m.operator, m.term, m.entry): k for k, m in enumerate(catalogue.mutants)}
     first = places["dropped", "the rotation of link 1", ""]
-    second = places["wrong sign", "the coupling of links 1 and 2", "M11"]
+    second = places["wrong sign", "the coupling of the two links", "M11"]
     known = mistakes_of(mechanism, "M")
 
     def wrong(q, arm):
@@ -172,6 +172,6 @@ def test_a_teachers_row_is_said_where_it_fits_best():
     }
     own = said["dropped", "the rotation of link 2", "M11"]
     assert "Hold joint 2 and move joint 1" in own
-    general = said["dropped", "the coupling of links 1 and 2", "M11"]
+    general = said["dropped", "the coupling of the two links", "M11"]
     assert "Hold joint 2" not in general
     assert "products of two velocities" in general

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from autograder.judging.check import Check
-from autograder.judging.diagnosis import Mistake
+from autograder.judging.diagnosis import Catalogue, Mistake
 from autograder.judging.verdict import Verdict
 from autograder.problems import CHECKS
 from tests.autograder.verdicts import judged_by
@@ -42,12 +42,27 @@ class Sentence(str):
         return self
 
 
+@dataclass(frozen=True)
+class Naming:
+    """A catalogue whose sentences know whose they are."""
+
+    of: Catalogue
+
+    def mistakes(self):
+        return [replace(m, sentence=Sentence(m)) for m in self.of.mistakes()]
+
+    def __call__(self, calls):
+        values = (values for _, values in self.of(calls))
+        return list(zip(self.mistakes(), values, strict=True))
+
+
 @cache
 def naming(check_id: str) -> Check:
     """The check, with sentences that know whose they are."""
     check = CHECKS[check_id]
-    named = (replace(mistake, sentence=Sentence(mistake)) for mistake in check.mistakes)
-    return replace(check, mistakes=tuple(named))
+    named = tuple(replace(m, sentence=Sentence(m)) for m in check.mistakes)
+    catalogue = check.catalogue and Naming(check.catalogue)
+    return replace(check, mistakes=named, catalogue=catalogue)
 
 
 def verdict_on(row: Row) -> Verdict:

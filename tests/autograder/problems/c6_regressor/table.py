@@ -166,12 +166,7 @@ TABLE = {
             0.75,
         ),
         (
-            (
-                "gravity missing in the column of m2",
-                "gravity missing",
-                "gravity missing in the column of m2 lc2",
-                "sign of the velocity products",
-            ),
+            ("gravity missing", "sign of the velocity products at joint 2"),
             Y("arm.l1, arm.g", "arm.l1, 0", "c2 * a1 + l1", "c2 * a1 - l1"),
             0.2,
         ),

@@ -238,7 +238,7 @@ def test_wrong_submission_is_told_why():
     said = PROBLEM.graded("wrong").verdicts
     for check_id, name in (
         ("p1-inertia_from_links", "I not used"),
-        ("p1-M", "l2 for lc2"),
+        ("p1-M", "wrong parameter / l2 / lc2"),
         ("p1-is_spd", "always True"),
         ("p1-singular_arm", "link 1 resists"),
     ):
@@ -254,4 +254,4 @@ def test_partly_right_submission():
         "p1-is_spd": 0.5,
         "p1-singular_arm": 0.5,
     }
-    assert said["p1-M"].diagnosis == sentences("p1-M", "I2 missing in M12")
+    assert said["p1-M"].diagnosis == sentences("p1-M", "dropped / the rotation of link 2 / M12")

@@ -45,7 +45,7 @@ def test_the_example_arm_is_that_of_the_notebook():
         (
             "p1-M",
             arm("M11 -= 0.1 * m1 * lc1**2"),
-            "In your M11, the centre of mass of link 1 comes out 10 % too small.",
+            "In your M11, the centre of mass of link 1 about the shoulder comes out 10 % too small.",
         ),
         (
             "p1-M",
@@ -54,8 +54,8 @@ def test_the_example_arm_is_that_of_the_notebook():
         ),
         (
             "p1-M",
-            arm("M22 += I2"),
-            "In your M22, the rotation of link 2 is counted twice.",
+            arm("M22 += 0.2 * I2"),
+            "In your M22, the rotation of link 2 comes out 20 % too large.",
         ),
         (
             "p1-inertia_from_links",
@@ -116,7 +116,7 @@ def test_the_numbers_of_one_example_are_noticed():
 
 
 def test_mistake_is_named_only_where_it_matches_to_rounding():
-    (sentence,) = sentences("p1-M", "I1 left out")
+    (sentence,) = sentences("p1-M", "dropped / the rotation of link 1")
     close = arm(f"M11 -= I1 * (1 + {200 * TOLERANCE})")
     assert sentence not in judged("p1-M", close).diagnosis
     single = arm("M11 -= I1", "return np.float32([[M11, M12], [M21, M22]])")

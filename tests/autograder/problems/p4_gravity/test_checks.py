@@ -231,8 +231,8 @@ def test_no_hint_gives_the_formula():
 def test_wrong_answers_are_named():
     graded = PROBLEM.graded("wrong")
     for check_id, name in (
-        ("p4-potential_energy", "sign of P"),
-        ("p4-g_vec", "absolute second angle"),
+        ("p4-potential_energy", "sign of the whole"),
+        ("p4-g_vec", "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2"),
         ("p4-gravity_from_jacobians", "sign of gravity"),
         ("p4-equilibria", "from the vertical"),
     ):

@@ -23,7 +23,7 @@ from tests.autograder.verdicts import judged, sentences
         (
             "p4-potential_energy",
             with_lines(of_links(), "lc1 = 0.8 * lc1"),
-            "the weight of link 1 comes out 20 % too small.",
+            "the weight of link 1 beyond the shoulder comes out 20 % too small.",
         ),
         (
             "p4-g_vec",
