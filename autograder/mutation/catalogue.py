@@ -5,7 +5,7 @@ rewritten term contributes, less what the right one does.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import cached_property
 from types import SimpleNamespace
 
@@ -13,9 +13,12 @@ import numpy as np
 import sympy as sp
 
 from autograder.mechanisms import EnergyTerm, Mechanism
+from autograder.mutation import kept
 from autograder.mutation.answers import ANSWERS, coriolis, gradient, inertia
 from autograder.mutation.operators import rewritings
 from autograder.mutation.steps import STEPS, Right
+from autograder.mutation.tape import Tape
+from autograder.mutation.taping import taped
 
 # To less than this share of the answer two mistakes give the same numbers.
 SAME = 1e-7
@@ -52,15 +55,51 @@ class Catalogue:
 
     def __init__(self, mechanism: Mechanism, answer: str):
         self.mechanism, self.answer = mechanism, ANSWERS[answer]
+        definition = (sp.srepr(_plain(mechanism)), answer)
+        self._kept, self._of_term, self._tape, self._tape_of_whole = kept.entry(
+            ("catalogue", *definition), self._made, self._read
+        )
+
+    def _made(self) -> dict:
+        """All mistakes, as plain data."""
         self._wrong = list(self._rewritten())
+        own = [e for entries in self._contributed for e in entries]
+        wrong = [e for _, _, contributed, _ in self._wrong for e in contributed]
+        self._of_term = np.array([k for k, *_ in self._wrong], dtype=int)
+        self._tape = taped(self._symbols, [*own, *wrong])
+        self._tape_of_whole = taped(self._symbols, self._of_whole())
         every = self._all()
         drawn = self._drawn(np.random.default_rng(0))
         with np.errstate(all="ignore"):
             numbers = self._numbers_of(every, *drawn)
         right = self.right(*drawn)
-        if not self.answer.shape(mechanism.n):  # of an energy only its changes count
+        if not self.answer.shape(self.mechanism.n):  # of an energy only its changes count
             numbers, right = numbers[:, ::2] - numbers[:, 1::2], right[::2] - right[1::2]
-        self._kept = _each_once(every, numbers, right)
+        return {
+            "mutants": [
+                [astuple(mutant), of if isinstance(of, str) else [of[0], _listed(of[1])]]
+                for mutant, of in _each_once(every, numbers, right)
+            ],
+            "of_term": self._of_term.tolist(),
+            "tape": self._tape.as_data(),
+            "whole": self._tape_of_whole.as_data(),
+        }
+
+    def _read(self, data: dict) -> tuple:
+        of_term = np.array(data["of_term"], dtype=int)
+        found = []
+        for fields, of in data["mutants"]:
+            if isinstance(of, str):
+                STEPS[self.answer.name][of]  # KeyError where there is none
+            else:
+                of_term[of[0]]
+                of = (of[0], None if of[1] is None else np.array(of[1], dtype=float))
+            found.append((Mutant(*fields), of))
+        tape, whole = Tape.from_data(data["tape"]), Tape.from_data(data["whole"])
+        entries = int(np.prod(self.answer.shape(self.mechanism.n)))
+        if len(tape.outputs) != (len(self.terms) + len(of_term)) * entries:
+            raise ValueError("the tape is not that of these mistakes")
+        return found, of_term, tape, whole
 
     def _rewritten(self):
         """(term, rewriting, what it contributes, whether it was made in the energy).
@@ -98,7 +137,8 @@ class Catalogue:
 
     def contributions(self, q, qd, arms) -> np.ndarray:
         """What each right term contributes to the answer, (terms, cases, …)."""
-        return self._shaped(self._compiled_terms, q, qd, arms)
+        with np.errstate(all="ignore"):  # wrong terms come with them
+            return self._contributions(q, qd, arms)[0]
 
     def _all(self) -> list[tuple[Mutant, object]]:
         """Each mistake with what its numbers are made of: a step's name, or (rewriting, entry)."""
@@ -156,22 +196,22 @@ class Catalogue:
                 found[i] = STEPS[self.answer.name][of](whole)
             else:
                 which, mask = of
-                change = sum(rewritten[r] - own[self._wrong[r][0]] for r in which)
+                change = sum(rewritten[r] - own[self._of_term[r]] for r in which)
                 found[i] = right + (change if mask is None else mask * change)
         return found
 
     def _contributions(self, q, qd, arms) -> tuple[np.ndarray, np.ndarray]:
         """Of the right terms, and of the rewritten ones: (…, cases, *shape) each."""
-        numbers = self._shaped(self._compiled, q, qd, arms)
+        numbers = self._shaped(q, qd, arms)
         return numbers[: len(self.terms)], numbers[len(self.terms) :]
 
-    def _shaped(self, compute, q, qd, arms) -> np.ndarray:
-        flat = np.array(compute(*self._columns(q, qd, arms)))
+    def _shaped(self, q, qd, arms) -> np.ndarray:
+        flat = self._tape(np.array(self._columns(q, qd, arms)))
         return np.moveaxis(flat.reshape(-1, *self.answer.shape(self.mechanism.n), len(q)), -1, 1)
 
     def _whole(self, q, qd, arms) -> Right:
         n = self.mechanism.n
-        flat = np.array(self._compiled_whole(*self._columns(q, qd, arms))).T
+        flat = self._tape_of_whole(np.array(self._columns(q, qd, arms))).T
         sizes = np.cumsum([n * n, n**3, n * n, n])
         M, slopes, C, g, P = np.split(flat, sizes, axis=-1)
         square = (-1, n, n)
@@ -191,39 +231,28 @@ class Catalogue:
         return [*m.q, *m.qd, *(p.symbol for p in m.parameters)]
 
     @cached_property
-    def _compiled(self):
-        wrong = [contributed for _, _, contributed, _ in self._wrong]
-        return _function(
-            self._symbols, [e for entries in (*self._contributed, *wrong) for e in entries]
-        )
-
-    @cached_property
-    def _compiled_terms(self):
-        return _function(self._symbols, [e for entries in self._contributed for e in entries])
-
-    @cached_property
     def _contributed(self) -> list[list[sp.Expr]]:
         derived = self.answer.of_kinetic or self.answer.of_potential
         assert derived is not None
         return [derived(term.energy, self.mechanism) for term in self.terms]
 
-    @cached_property
-    def _compiled_whole(self):
+    def _of_whole(self) -> list[sp.Expr]:
         m = self.mechanism
         M = inertia(m.K, m)
         slopes = [e.diff(x) for e in M for x in m.q]
-        return _function(self._symbols, [*M, *slopes, *coriolis(m.K, m), *gradient(m.P, m), m.P])
+        return [*M, *slopes, *coriolis(m.K, m), *gradient(m.P, m), m.P]
 
 
-def _function(symbols, expressions):
-    """All expressions at once, for arrays of cases: a list of (cases,)."""
-    compute = sp.lambdify(symbols, expressions, modules="numpy", cse=True)
+def _plain(mechanism: Mechanism) -> sp.Tuple:
+    """What the mistakes follow from, in SymPy's terms."""
+    words = [str([mechanism.name, *mechanism.coordinates, *mechanism.parameters])]
+    terms = (*mechanism.kinetic, *mechanism.potential)
+    words += [term.name for term in terms]
+    return sp.Tuple(*map(sp.Symbol, words), *(sp.sympify(term.energy) for term in terms))
 
-    def function(*columns):
-        size = np.shape(columns[0])
-        return [np.broadcast_to(value, size) for value in compute(*columns)]
 
-    return function
+def _listed(mask: np.ndarray | None) -> list | None:
+    return None if mask is None else mask.tolist()
 
 
 def _each_once(every, numbers, right) -> list:
