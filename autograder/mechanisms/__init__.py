@@ -1,24 +1,53 @@
-"""The mechanisms that problems are made of, by their names in `MECHANISMS`.
+"""The mechanisms that problems are made of, by their names."""
 
-SymPy is imported with the first of them, or with the class; a check that is kept needs neither.
-"""
+from autograder.mechanisms.carts import CART_POLE, SPRING_CART
+from autograder.mechanisms.elastic_joint import ELASTIC_JOINT
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    FrictionTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
+from autograder.mechanisms.pendulums import FURUTA, PENDULUM, SPHERICAL
+from autograder.mechanisms.planar_arms import (
+    PLANAR_2R,
+    PLANAR_2R_ABSOLUTE,
+    PLANAR_2R_BESIDE,
+    PLANAR_2R_HANGING,
+    PLANAR_2R_SLOPE,
+    PLANAR_3R,
+)
+from autograder.mechanisms.slider_crank import SLIDER_CRANK
+from autograder.mechanisms.sliding_arm import TURN_AND_SLIDE
 
-from typing import TYPE_CHECKING
+__all__ = [
+    "MECHANISMS",
+    "Coordinate",
+    "EnergyTerm",
+    "FrictionTerm",
+    "Mechanism",
+    "Parameter",
+    "joint_friction",
+]
 
-if TYPE_CHECKING:
-    from autograder.mechanisms.built_in import MECHANISMS
-    from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
-
-__all__ = ["MECHANISMS", "Coordinate", "EnergyTerm", "Mechanism", "Parameter"]
-
-
-def __getattr__(name: str):
-    if name == "MECHANISMS":
-        from autograder.mechanisms import built_in
-
-        return built_in.MECHANISMS
-    if name in __all__:
-        from autograder.mechanisms import mechanism
-
-        return getattr(mechanism, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+MECHANISMS = {
+    mechanism.name: mechanism
+    for mechanism in (
+        PENDULUM,
+        PLANAR_2R,
+        PLANAR_2R_ABSOLUTE,
+        PLANAR_2R_HANGING,
+        PLANAR_2R_BESIDE,
+        PLANAR_2R_SLOPE,
+        CART_POLE,
+        TURN_AND_SLIDE,
+        PLANAR_3R,
+        SPRING_CART,
+        FURUTA,
+        SPHERICAL,
+        SLIDER_CRANK,
+        ELASTIC_JOINT,
+    )
+}

@@ -4,7 +4,13 @@ import math
 
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 
 def _cart(name: str, spring: bool) -> Mechanism:
@@ -15,7 +21,7 @@ def _cart(name: str, spring: bool) -> Mechanism:
     theta = Coordinate("theta", "rad", "the pole upright, positive clockwise")
     mc = Parameter("mc", "kg", "mass of the cart", 1.0, 5.0)
     m = Parameter("m", "kg", "mass of the pole", 0.3, 2.0)
-    lc = Parameter("lc", "m", "hinge to the pole's centre of mass", 0.3, 1.0)
+    lc = Parameter("lc", "m", "hinge to the pole's centre of mass", 0.3, 1.0, to_find=True)
     I = Parameter("I", "kg·m²", "inertia of the pole about its centre of mass", 0.05, 0.5)
     g = Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0)
     k = Parameter("k", "N/m", "stiffness of the spring", 5.0, 40.0)
@@ -39,6 +45,7 @@ def _cart(name: str, spring: bool) -> Mechanism:
             (at[0], 0.0),
             (at[0] + arm.lc * math.sin(at[1]), arm.lc * math.cos(at[1])),
         ],
+        joint_friction((x, "the cart"), (theta, "the hinge")),
     )
 
 

@@ -14,7 +14,7 @@ def _elastic_joint() -> Mechanism:
     q1 = Coordinate("q1", "rad", "the link along the x axis")
     q2 = Coordinate("q2", "rad", "the motor where the spring is loose at q1 = 0")
     m = Parameter("m", "kg", "mass of the link", 1.0, 4.0)
-    lc = Parameter("lc", "m", "joint to the centre of mass of the link", 0.2, 0.6)
+    lc = Parameter("lc", "m", "joint to the centre of mass of the link", 0.2, 0.6, to_find=True)
     I = Parameter("I", "kg·m²", "inertia of the link about the joint", 0.3, 1.5)
     J = Parameter("J", "kg·m²", "inertia of the motor, seen through its gear", 0.1, 0.8)
     k = Parameter("k", "N·m/rad", "stiffness of the joint", 5.0, 40.0)

@@ -4,7 +4,13 @@ import math
 
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 G = Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0)
 
@@ -12,7 +18,7 @@ G = Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0)
 def _pendulum() -> Mechanism:
     q = Coordinate("q", "rad", "the body hanging down")
     m = Parameter("m", "kg", "mass of the body", 0.5, 3.0)
-    lc = Parameter("lc", "m", "pivot to the centre of mass", 0.2, 0.9)
+    lc = Parameter("lc", "m", "pivot to the centre of mass", 0.2, 0.9, to_find=True)
     I = Parameter("I", "kg·m²", "inertia about the pivot", 0.2, 2.0)
     weight = m.symbol * G.symbol * lc.symbol
     return Mechanism(
@@ -22,6 +28,7 @@ def _pendulum() -> Mechanism:
         (EnergyTerm("the rotation of the body", I.symbol * q.velocity**2 / 2),),
         (EnergyTerm("the weight of the body", weight * (1 - sp.cos(q.symbol))),),
         lambda at, arm: [(0.0, 0.0), (arm.lc * math.sin(at[0]), -arm.lc * math.cos(at[0]))],
+        joint_friction((q, "the pivot")),
     )
 
 
@@ -59,7 +66,9 @@ def _furuta() -> Mechanism:
     J1 = Parameter("J1", "kg·m²", "inertia of the arm about its vertical axis", 0.2, 1.0)
     l1 = Parameter("l1", "m", "length of the arm", 0.4, 1.0)
     m2 = Parameter("m2", "kg", "mass of the pendulum", 0.5, 2.0)
-    lc2 = Parameter("lc2", "m", "pivot of the pendulum to its centre of mass", 0.15, 0.5)
+    lc2 = Parameter(
+        "lc2", "m", "pivot of the pendulum to its centre of mass", 0.15, 0.5, to_find=True
+    )
     I2 = Parameter("I2", "kg·m²", "inertia of the pendulum about its centre of mass", 0.05, 0.4)
     (w1, w2), m, l, c, I = (q1.velocity, q2.velocity), m2.symbol, l1.symbol, lc2.symbol, I2.symbol
     sine = sp.sin(q2.symbol)
@@ -81,6 +90,7 @@ def _furuta() -> Mechanism:
         ),
         (EnergyTerm("the weight of the pendulum", -m * G.symbol * c * sp.cos(q2.symbol)),),
         lambda at, arm: [(0.0, 0.0), (arm.lc2 * math.sin(at[1]), -arm.lc2 * math.cos(at[1]))],
+        joint_friction((q1, "the arm"), (q2, "the pivot")),
     )
 
 

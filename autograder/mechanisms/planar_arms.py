@@ -10,7 +10,13 @@ from typing import Literal
 import numpy as np
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 PLACES = {1: "the shoulder", 2: "the elbow", 3: "the wrist"}
 
@@ -68,18 +74,26 @@ def planar_arm(
             drawn.append((float(at[0]), float(at[1])))
         return drawn
 
-    return Mechanism(name, tuple(q), parameters, tuple(kinetic), tuple(potential), points)
+    friction = joint_friction(*((c, f"joint {i}") for i, c in enumerate(q, 1)))
+    return Mechanism(name, tuple(q), parameters, tuple(kinetic), tuple(potential), points, friction)
 
 
 def _of_link(i: int, beside: bool) -> list[Parameter]:
     own = [
         Parameter(f"l{i}", "m", f"length of link {i}", 0.7, 1.2),
-        Parameter(f"lc{i}", "m", f"joint {i} to the centre of mass of link {i}", 0.25, 0.6),
+        Parameter(
+            f"lc{i}", "m", f"joint {i} to the centre of mass of link {i}", 0.25, 0.6, to_find=True
+        ),
         Parameter(f"m{i}", "kg", f"mass of link {i}", 1.0, 4.0),
         Parameter(f"I{i}", "kg·m²", f"inertia of link {i} about its centre of mass", 0.1, 0.6),
     ]
     off = Parameter(
-        f"ly{i}", "m", f"centre of mass of link {i} beside its axis, to the left", 0.1, 0.3
+        f"ly{i}",
+        "m",
+        f"centre of mass of link {i} beside its axis, to the left",
+        0.1,
+        0.3,
+        to_find=True,
     )
     return [*own, off] if beside else own
 

@@ -4,7 +4,13 @@ import math
 
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 
 def _slider_crank() -> Mechanism:
@@ -14,7 +20,7 @@ def _slider_crank() -> Mechanism:
     l = Parameter("l", "m", "length of the rod", 0.8, 1.4)
     J = Parameter("J", "kg·m²", "inertia of the crank about its axis", 0.1, 0.6)
     mc = Parameter("mc", "kg", "mass of the crank", 1.0, 4.0)
-    lc = Parameter("lc", "m", "axis to the centre of mass of the crank", 0.05, 0.15)
+    lc = Parameter("lc", "m", "axis to the centre of mass of the crank", 0.05, 0.15, to_find=True)
     m = Parameter("m", "kg", "mass of the slider", 1.0, 4.0)
     g = Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0)
     angle, turn = q.symbol, q.velocity
@@ -35,6 +41,7 @@ def _slider_crank() -> Mechanism:
         ),
         (EnergyTerm("the weight of the crank", mc.symbol * g.symbol * lc.symbol * sp.sin(angle)),),
         points,
+        joint_friction((q, "the crank")),
     )
 
 

@@ -4,13 +4,19 @@ import math
 
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 
 def _sliding_arm() -> Mechanism:
     q1 = Coordinate("q1", "rad", "the arm along the x axis")
     q2 = Coordinate("q2", "m", "the centre of mass of link 2 at the shoulder")
-    lc1 = Parameter("lc1", "m", "shoulder to the centre of mass of link 1", 0.2, 0.6)
+    lc1 = Parameter("lc1", "m", "shoulder to the centre of mass of link 1", 0.2, 0.6, to_find=True)
     m1 = Parameter("m1", "kg", "mass of link 1", 1.0, 4.0)
     m2 = Parameter("m2", "kg", "mass of link 2", 1.0, 4.0)
     I1 = Parameter("I1", "kg·m²", "inertia of link 1 about its centre of mass", 0.1, 0.6)
@@ -33,6 +39,7 @@ def _sliding_arm() -> Mechanism:
             EnergyTerm("the weight of link 2", m2.symbol * g.symbol * q2.symbol * sine),
         ),
         lambda at, arm: [(0.0, 0.0), (at[1] * math.cos(at[0]), at[1] * math.sin(at[0]))],
+        joint_friction((q1, "joint 1"), (q2, "joint 2")),
     )
 
 

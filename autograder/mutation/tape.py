@@ -80,8 +80,8 @@ class Tape:
             raise ValueError(f"a tape reads a place outside its {self.size}")
 
     def __call__(self, columns: np.ndarray) -> np.ndarray:
-        """(inputs, cases) → (outputs, cases)."""
-        found = np.empty((self.size, np.shape(columns)[1]))
+        """(inputs, cases) → (outputs, cases); complex where the inputs are."""
+        found = np.empty((self.size, np.shape(columns)[1]), np.result_type(columns, float))
         found[: self.inputs] = columns
         at = self.inputs + len(self.constants)
         found[self.inputs : at] = self.constants[:, np.newaxis]

@@ -31,7 +31,9 @@ def check_for(id: str) -> Check | None:
     """The check of this id: of a problem, or of a mechanism such as `cart-pole-M`; None for neither."""
     if id in CHECKS:
         return CHECKS[id]
-    if re.fullmatch(r"[a-z0-9-]+-(M|C|g_vec|potential_energy)", id):
+    if re.fullmatch(
+        r"[a-z0-9-]+-(M|M_dot|C|g_vec|potential_energy|lagrangian|f|energy_drift|regressor)", id
+    ):
         return _of_mechanism(id)
     return None
 

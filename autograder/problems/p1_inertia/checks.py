@@ -203,7 +203,6 @@ CHECKS = (
             Criterion("M12 and M21", "kg·m²", 0.25),
             Criterion("M22", "kg·m²", 0.25),
         ),
-        mistakes=mistakes.INERTIA,
         catalogue=INERTIA,
         terms=INERTIA.terms,
         hints=(

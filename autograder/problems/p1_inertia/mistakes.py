@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from autograder.judging.diagnosis import Mistake
-from autograder.problems.material import planar_2r, sentences
+from autograder.problems.material import sentences
 from autograder.problems.material.definiteness import ROUNDING, is_symmetric, least_eigenvalue
 from autograder.problems.material.planar_2r import changed
 
@@ -120,26 +120,6 @@ INERTIA_FROM_LINKS = (
         "You return the inverse of the matrix. Which of the two, M or M⁻¹, stands in K = ½ q̇ᵀ M q̇?",
     ),
 )
-
-
-def _coupling(q, arm):
-    return arm.m2 * arm.l1 * arm.lc2 * np.cos(q[1])
-
-
-def _absolute(angle):
-    """M of an arm whose second velocity is that of link 2 itself."""
-
-    def wrong(q, arm):
-        first = arm.I1 + arm.m1 * arm.lc1**2 + arm.m2 * arm.l1**2
-        both = arm.m2 * arm.l1 * arm.lc2 * np.cos(angle(q))
-        return np.array([[first, both], [both, arm.I2 + arm.m2 * arm.lc2**2]])
-
-    return wrong
-
-
-def _times(*factors):
-    """M with its entries M11, M12, M21, M22 multiplied."""
-    return lambda q, arm: planar_2r.M(q, arm) * np.reshape(factors, (2, 2))
 
 
 ABSOLUTE = (
@@ -262,43 +242,27 @@ INERTIA_SAID = {
         "You always use the numbers of the example arm, whatever arm is given. Where do your "
         "masses and lengths come from?"
     ),
-}
-INERTIA = (
-    Mistake(
-        "coupling in M22",
-        lambda q, arm: planar_2r.M(q, arm) + np.diag([0.0, _coupling(q, arm)]),
+    "astray / the coupling of the two links / M22 / M12": (
         "Your M22 changes with q2. Hold joint 1 still and turn joint 2: does it matter how far "
-        "the elbow is bent?",
+        "the elbow is bent?"
     ),
-    Mistake("absolute second angle", _absolute(lambda q: q[1] - q[0]), ABSOLUTE),
-    Mistake(
-        "M12 left zero",
-        _times(1, 0, 1, 1),
-        "Your M12 is zero. The M of a kinetic energy is symmetric: what must M12 be?",
+    "absolute angle / q2 / q1 / in the energy": ABSOLUTE,
+    "lower triangle alone": (
+        "Your M12 is zero. The M of a kinetic energy is symmetric: what must M12 be?"
     ),
-    Mistake(
-        "M21 of the other sign",
-        _times(1, 1, -1, 1),
-        "Your M21 is −M12. The M of a kinetic energy is symmetric: what must M21 be?",
+    "sign below the diagonal": (
+        "Your M21 is −M12. The M of a kinetic energy is symmetric: what must M21 be?"
     ),
-    Mistake(
-        "mixed term not shared",
-        _times(1, 2, 2, 1),
-        "Your M12 and M21 each hold the whole mixed term of q̇ᵀ M q̇. Multiply it out: how often "
-        "does q̇1 q̇2 occur?",
+    "mixed terms not shared": (
+        "Your M12 and M21 each hold the whole mixed term of q̇ᵀ M q̇. Multiply it out: how "
+        "often does q̇1 q̇2 occur?"
     ),
-    Mistake(
-        "mixed term in M12 alone",
-        _times(1, 2, 0, 1),
-        "The energy of your M is right, but the whole mixed term sits in M12. How must M12 and M21 "
-        "share it for M to be symmetric?",
+    "mixed terms in one triangle": (
+        "The energy of your M is right, but the whole mixed term sits in M12. How must M12 and "
+        "M21 share it for M to be symmetric?"
     ),
-    Mistake(
-        "joints swapped",
-        lambda q, arm: planar_2r.M(q, arm)[::-1, ::-1],
-        "You swapped M11 and M22. Which joint carries both links?",
-    ),
-)
+    "joints exchanged": ("You swapped M11 and M22. Which joint carries both links?"),
+}
 
 
 def _symmetric_and(accepts):

@@ -10,6 +10,7 @@ import numpy as np
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.criterion import TOLERANCE, relative_errors
 from autograder.judging.quantities import array, each
+from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.p2_energy_skew import mistakes
 from autograder.protocol import Call, Expressions, Symbol, real
@@ -147,7 +148,7 @@ CHECKS = (
             Criterion("entries Ṁ12 and Ṁ21", "kg·m²/s", 0.45),
             Criterion("entry Ṁ22", "kg·m²/s", 0.1),
         ),
-        mistakes=mistakes.M_DOT,
+        catalogue=Generated("planar-2r", "M_dot", mistakes.M_DOT_SAID),
         terms=mistakes.M_DOT_TERMS,
         hints=(
             "M changes with time only because the arm moves: M(q(t)). Which of its entries hold an "
@@ -191,6 +192,7 @@ CHECKS = (
             ),
         ),
         mistakes=mistakes.CORIOLIS,
+        catalogue=Generated("planar-2r", "C", mistakes.CORIOLIS_SAID),
         terms=mistakes.CORIOLIS_TERMS,
         hints=(
             "M changes with q2 only, so most of the derivatives ∂M_ij/∂q_k are zero. List those that "

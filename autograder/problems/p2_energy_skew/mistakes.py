@@ -1,7 +1,7 @@
 """Mistakes about Ṁ, the Coriolis matrix C and its Christoffel form.
 
-Wrong models of the 2R arm rest on one fact: all derivatives of its M are the same matrix PATTERN times
-a number. Those of the Christoffel form are sums over D[i, j, k] = ∂M_ij/∂q_k, for any n.
+Those of the 2R arm follow from it; here stand their sentences. Those of the Christoffel form are sums
+over D[i, j, k] = ∂M_ij/∂q_k, for any n.
 """
 
 from functools import lru_cache
@@ -27,149 +27,90 @@ def coriolis(D, qd, **numbers) -> np.ndarray:
     return christoffel(D, **numbers) @ qd
 
 
-def derivatives(q, arm, by_q1=0.0, by_q2=None, pattern=PATTERN) -> np.ndarray:
-    """D of the 2R arm; by_q1, by_q2: what stands for the derivatives of the coupling."""
-    by_q2 = right.h(q, arm) if by_q2 is None else by_q2
-    return np.stack([by_q1 * pattern, by_q2 * pattern], axis=-1)
-
-
-def coupling(arm) -> float:
-    """m2 ℓ1 ℓc2, kg·m²."""
-    return arm.m2 * arm.l1 * arm.lc2
-
-
-# Each gives D of an arm that somebody took for this one: a reason, D(q, arm), a sentence with {0} for
-# the matrix that is asked for.
-WRONG_ARMS = (
-    (
-        "cosine for sine",
-        lambda q, arm: derivatives(q, arm, by_q2=-coupling(arm) * np.cos(q[1])),
-        "Your {0} varies with cos q2. M itself varies with cos q2: how does its derivative vary?",
+# Of an arm that somebody took for this one: {0} is the matrix that is asked for.
+WRONG_ARMS = {
+    "cosine for sine / the coupling of the two links": (
+        "Your {0} varies with cos q2. M itself varies with cos q2: how does its derivative vary?"
     ),
-    (
-        "cosine for sine, reversed",
-        lambda q, arm: derivatives(q, arm, by_q2=coupling(arm) * np.cos(q[1])),
+    "cosine for sine / the coupling of the two links / −": (
         "Your {0} varies with cos q2, as if M held sin q2. When is the arm hardest to turn: "
-        "stretched out (q2 = 0), or with its elbow at a right angle?",
+        "stretched out (q2 = 0), or with its elbow at a right angle?"
     ),
-    (
-        "length for centre of mass",
-        lambda q, arm: derivatives(q, right.changed(arm, lc2=arm.l2)),
-        "You use the whole length ℓ2 of link 2. How far from joint 2 is its centre of mass?",
+    "wrong parameter / the coupling of the two links / l2 / lc2": (
+        "You use the whole length ℓ2 of link 2. How far from joint 2 is its centre of mass?"
     ),
-    (
-        "centre of mass for length",
-        lambda q, arm: derivatives(q, right.changed(arm, l1=arm.lc1)),
+    "wrong parameter / the coupling of the two links / lc1 / l1": (
         "You use the distance ℓc1 where the length of link 1 belongs. How far from joint 1 is the "
-        "joint that carries link 2?",
+        "joint that carries link 2?"
     ),
-    (
-        "mass of the other link",
-        lambda q, arm: derivatives(q, right.changed(arm, m2=arm.m1)),
-        "You use the mass m1. Which link's mass comes nearer to joint 1 when the elbow folds?",
+    "wrong parameter / the coupling of the two links / m1 / m2": (
+        "You use the mass m1. Which link's mass comes nearer to joint 1 when the elbow folds?"
     ),
-    (
-        "absolute second angle",
-        lambda q, arm: derivatives(q, arm, *2 * [-coupling(arm) * np.sin(q[0] + q[1])]),
+    "wrong angle / the coupling of the two links / q1 + q2 / q2 / in M": (
         "Your {0} varies with q1 + q2. M can change only with the angle between the links: which "
-        "coordinate is that?",
+        "coordinate is that?"
     ),
-    (
-        "second angle measured from the x axis",
-        lambda q, arm: derivatives(
-            q, arm, coupling(arm) * np.sin(q[1] - q[0]), -coupling(arm) * np.sin(q[1] - q[0])
-        ),
+    "wrong angle / the coupling of the two links / q1 − q2 / q2 / in M": (
         "Your {0} varies with q2 − q1, as if q2 were measured from the x axis. From where is q2 "
-        "measured here?",
+        "measured here?"
     ),
-    (
-        "first angle for second",
-        lambda q, arm: derivatives(q, arm, -coupling(arm) * np.sin(q[0]), 0.0),
+    "wrong angle / the coupling of the two links / q1 / q2 / in M": (
         "Your {0} varies with q1. Turning the whole arm about joint 1 does not change its shape: "
-        "which angle does?",
+        "which angle does?"
     ),
-    (
-        "radians taken for degrees",
-        lambda q, arm: derivatives(q, arm, by_q2=-coupling(arm) * np.sin(np.radians(q[1]))),
-        sentences.RADIANS_CONVERTED,
-    ),
-    (
-        "factor 2 missing in M11",
-        lambda q, arm: derivatives(q, arm, pattern=np.array([[1.0, 1.0], [1.0, 0.0]])),
+    "radians converted / the coupling of the two links": sentences.RADIANS_CONVERTED,
+    "halved / the coupling of the two links / *11*": (
         "Your {0} comes from an M11 whose coupling is half of what it should be. Square the "
-        "velocity of link 2's centre of mass again: how often does the mixed product appear?",
+        "velocity of link 2's centre of mass again: how often does the mixed product appear?"
     ),
-    (
-        "coupling in M22",
-        lambda q, arm: derivatives(q, arm, pattern=np.array([[2.0, 1.0], [1.0, 1.0]])),
+    "astray / the coupling of the two links / *22 / *12*": (
         "Your {0} comes from an M22 that changes with q2. With joint 1 locked, link 2 turns about "
-        "joint 2: does its inertia about that joint change?",
+        "joint 2: does its inertia about that joint change?"
     ),
-)
+}
 
-M_DOT = (
-    Mistake(
-        "sign",
-        lambda q, qd, arm: -right.M_dot(q, qd, arm),
-        "Your Ṁ has the wrong sign. When the elbow folds from q2 = 0, does M11 grow or shrink?",
+
+def _of_wrong_arms(matrix: str) -> dict[str, str]:
+    return {row: sentence.format(matrix) for row, sentence in WRONG_ARMS.items()}
+
+
+M_DOT_SAID = _of_wrong_arms("Ṁ") | {
+    "sign of the whole": (
+        "Your Ṁ has the wrong sign. When the elbow folds from q2 = 0, does M11 grow or shrink?"
     ),
-    Mistake(
-        "velocity of the other joint",
-        lambda q, qd, arm: right.h(q, arm) * qd[0] * PATTERN,
+    "velocities exchanged": (
         "You multiply ∂M/∂q2 by q̇1. In the chain rule, which velocity goes with the derivative "
-        "with respect to q2?",
+        "with respect to q2?"
     ),
-    Mistake(
-        "sum of both velocities",
-        lambda q, qd, arm: right.h(q, arm) * (qd[0] + qd[1]) * PATTERN,
+    "sum of the velocities": (
         "You multiply ∂M/∂q2 by q̇1 + q̇2. In the chain rule each derivative has its own "
-        "velocity: which one belongs to q2?",
+        "velocity: which one belongs to q2?"
     ),
-    Mistake(
-        "chain rule forgotten",
-        lambda q, qd, arm: right.h(q, arm) * PATTERN,
+    "chain rule forgotten": (
         "You return the derivative with respect to q2, in kg·m²/rad. Ṁ is the derivative with "
-        "respect to time: what does the chain rule add?",
+        "respect to time: what does the chain rule add?"
     ),
-    Mistake(
-        "derivative with respect to q1 only",
-        lambda q, qd, arm: np.zeros((2, 2)),
+    "zero": (
         "Your Ṁ is zero. It is true that M does not change with q1. What else in M changes with "
-        "time?",
+        "time?"
     ),
-    Mistake(
-        "twice C",
-        lambda q, qd, arm: 2 * right.C(q, qd, arm),
+    "twice C": (
         "You return 2C. q̇ᵀ(2C)q̇ is the same as q̇ᵀṀq̇, but the two matrices differ: compare "
-        "them entry by entry.",
+        "them entry by entry."
     ),
-    Mistake(
-        "M itself",
-        lambda q, qd, arm: right.M(q, arm),
-        "You return M itself. How fast does M change?",
-    ),
-    Mistake(
-        "constants differentiated",
-        lambda q, qd, arm: right.M(q, arm) * qd[1],
+    "M": ("You return M itself. How fast does M change?"),
+    "constants differentiated": (
         "You multiply M by a velocity, where its derivative belongs. What is the derivative of "
-        "the constant parts of M?",
+        "the constant parts of M?"
     ),
-    *(
-        Mistake(name, lambda q, qd, arm, D=D: D(q, arm) @ qd, sentence.format("Ṁ"))
-        for name, D, sentence in WRONG_ARMS
-    ),
-    Mistake(
-        "C for the derivative",
-        right.C,
+    "C": (
         "You return C. It is made of the same derivatives as Ṁ, but M is symmetric: can its "
-        "derivative be anything else?",
+        "derivative be anything else?"
     ),
-    Mistake(
-        "half of it",
-        lambda q, qd, arm: 0.5 * right.M_dot(q, qd, arm),
-        "Your Ṁ is half the right one. There is a ½ in the kinetic energy: is it a part of M?",
+    "half of the whole": (
+        "Your Ṁ is half the right one. There is a ½ in the kinetic energy: is it a part of M?"
     ),
-)
+}
 M_DOT_TERMS = (
     Term("the right Ṁ itself", right.M_dot),
     Term("its mirror image with q̇1 for q̇2", lambda q, qd, arm: right.h(q, arm) * qd[0] * PATTERN),
@@ -250,109 +191,57 @@ ZERO = (
     "with them?"
 )
 
-CORIOLIS = (
-    Mistake(
-        "2 missing in the Coriolis term",
-        _h_times(lambda a, b: [[0.0, a + b], [-a, 0.0]]),
-        "The term with q̇1 q̇2 in your C q̇ is half of what it should be. In how many places of the sum "
-        "over j and k does this product appear?",
+CORIOLIS_SAID = _of_wrong_arms("C") | {
+    "dropped / the coupling of the two links / C11": (
+        "The term with q̇1 q̇2 in your C q̇ is half of what it should be. In how many places of "
+        "the sum over j and k does this product appear?"
     ),
-    Mistake(
-        "Coriolis term missing",
-        _h_times(lambda a, b: [[0.0, b], [-a, 0.0]]),
-        "The term with q̇1 q̇2 is missing from the first row of your C q̇. What happens when both joints "
-        "turn at once?",
+    "product dropped / row 1 / qd1 qd2": (
+        "The term with q̇1 q̇2 is missing from the first row of your C q̇. What happens when "
+        "both joints turn at once?"
     ),
-    Mistake(
-        "sign of h",
-        lambda q, qd, arm: -right.C(q, qd, arm),
-        SIGN,
+    "sign of the whole": SIGN,
+    "product of the wrong sign / row 1 / qd2²": (
+        "The term with q̇2² in the first row of your C q̇ has the wrong sign. Which derivative "
+        "of M does it come from?"
     ),
-    Mistake(
-        "sign of the centrifugal term of joint 1",
-        _h_times(lambda a, b: [[b, a - b], [-a, 0.0]]),
-        "The term with q̇2² in the first row of your C q̇ has the wrong sign. Which derivative of "
-        "M does it come from?",
+    "product dropped / row 1 / qd2²": (
+        "The term with q̇2² is missing from the first row of your C q̇. Does M12 change with q2?"
     ),
-    Mistake(
-        "centrifugal term of joint 1 missing",
-        _h_times(lambda a, b: [[b, a], [-a, 0.0]]),
-        "The term with q̇2² is missing from the first row of your C q̇. Does M12 change with q2?",
-    ),
-    Mistake(
-        "sign of the centrifugal term of joint 2",
-        _h_times(lambda a, b: [[b, a + b], [a, 0.0]]),
+    "wrong sign / the coupling of the two links / C21": (
         "The second row of your C has the wrong sign: as link 1 turns, it would pull link 2 "
-        "inwards. Which term of the Euler–Lagrange equation gives this row, and with which sign?",
+        "inwards. Which term of the Euler–Lagrange equation gives this row, and with which "
+        "sign?"
     ),
-    Mistake(
-        "centrifugal term of joint 2 missing",
-        _h_times(lambda a, b: [[b, a + b], [0.0, 0.0]]),
-        "The second row of your C is zero. When link 1 turns alone, does link 2 feel nothing of "
-        "it?",
+    "dropped / the coupling of the two links / C21": (
+        "The second row of your C is zero. When link 1 turns alone, does link 2 feel nothing of it?"
     ),
-    Mistake("C q̇ for C", lambda q, qd, arm: np.diag(right.C(q, qd, arm) @ qd), COLUMN),
-    Mistake("C times ones", lambda q, qd, arm: np.diag(right.C(q, qd, arm) @ np.ones(2)), ROW_SUMS),
-    Mistake("half missing", lambda q, qd, arm: 2 * right.C(q, qd, arm), NO_HALF),
-    Mistake("transposed", lambda q, qd, arm: right.C(q, qd, arm).T, TRANSPOSED),
-    Mistake(
-        "valid, but not skew: q̇1 q̇2 all in the second column",
-        _h_times(lambda a, b: [[0.0, 2 * a + b], [-a, 0.0]]),
-        NOT_SKEW,
+    "torque for C": COLUMN,
+    "C times ones": ROW_SUMS,
+    "twice the whole": NO_HALF,
+    "transposed": TRANSPOSED,
+    "products in the later column": NOT_SKEW,
+    "products in the earlier column": NOT_SKEW,
+    "rate of M": M_DOT_FOR_C,
+    "half the rate of M": HALF_M_DOT,
+    "velocities exchanged": (
+        "You swapped the velocities q̇1 and q̇2 in your C. Which velocity goes with a "
+        "derivative with respect to q2?"
     ),
-    Mistake(
-        "valid, but not skew: q̇1 q̇2 all in the first column",
-        _h_times(lambda a, b: [[2 * b, b], [-a, 0.0]]),
-        NOT_SKEW,
-    ),
-    Mistake("M_dot for C", right.M_dot, M_DOT_FOR_C),
-    Mistake("half of M_dot", lambda q, qd, arm: 0.5 * right.M_dot(q, qd, arm), HALF_M_DOT),
+    "M": M_FOR_C,
+    "zero": ZERO,
+    "sign of the last derivative": LAST_SIGN,
+    "last derivative missing": LAST_MISSING,
+    "second derivative missing": SECOND_MISSING,
+    "summed over the first index": FIRST_INDEX,
+    "no velocity": NO_VELOCITY,
+    "velocity of the column": WRONG_VELOCITY,
+}
+CORIOLIS = (
     Mistake(
         "M_dot less 2C",
         lambda q, qd, arm: right.M_dot(q, qd, arm) - 2 * right.C(q, qd, arm),
         M_DOT_LESS_2C,
-    ),
-    Mistake(
-        "velocities exchanged",
-        _h_times(lambda a, b: [[a, a + b], [-b, 0.0]]),
-        "You swapped the velocities q̇1 and q̇2 in your C. Which velocity goes with a derivative "
-        "with respect to q2?",
-    ),
-    Mistake("M for C", lambda q, qd, arm: right.M(q, arm), M_FOR_C),
-    Mistake("zero", lambda q, qd, arm: np.zeros((2, 2)), ZERO),
-    Mistake(
-        "last sign",
-        lambda q, qd, arm: coriolis(derivatives(q, arm), qd, third=0.5),
-        LAST_SIGN,
-    ),
-    Mistake(
-        "last term missing",
-        lambda q, qd, arm: coriolis(derivatives(q, arm), qd, third=0.0),
-        LAST_MISSING,
-    ),
-    Mistake(
-        "second term missing",
-        lambda q, qd, arm: coriolis(derivatives(q, arm), qd, second=0.0),
-        SECOND_MISSING,
-    ),
-    Mistake(
-        "summed over the first index",
-        lambda q, qd, arm: np.einsum("kij,k->ij", christoffel(derivatives(q, arm)), qd),
-        FIRST_INDEX,
-    ),
-    Mistake(
-        "no velocity",
-        lambda q, qd, arm: coriolis(derivatives(q, arm), np.ones(2)),
-        NO_VELOCITY,
-    ),
-    Mistake(
-        "velocity of the column",
-        lambda q, qd, arm: christoffel(derivatives(q, arm)) @ np.ones(2) * qd,
-        WRONG_VELOCITY,
-    ),
-    *(
-        Mistake(name, lambda q, qd, arm, D=D: coriolis(D(q, arm), qd), sentence.format("C"))
-        for name, D, sentence in WRONG_ARMS
     ),
 )
 CORIOLIS_TERMS = (

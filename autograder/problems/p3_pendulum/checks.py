@@ -66,6 +66,7 @@ def _frequency_calls(rng, count):
     return [Call("small_angle_frequency", (sampling.pendulum(rng),)) for _ in range(count)]
 
 
+LAGRANGIAN = Generated("pendulum", "lagrangian", mistakes.LAGRANGIAN_SAID)
 GRAVITY = Generated("pendulum", "g_vec", mistakes.GRAVITY_SAID)
 
 CHECKS = (
@@ -79,17 +80,8 @@ CHECKS = (
             Criterion("kinetic part of L", "J", 0.5),
             Criterion("potential part of L", "J", 0.5),
         ),
-        mistakes=mistakes.LAGRANGIAN,
-        terms=(
-            Term(
-                "the kinetic energy of the body",
-                lambda q, qd, m, lc, I, g: 0.5 * I * qd**2,
-            ),
-            Term(
-                "the potential energy of the raised mass",
-                lambda q, qd, m, lc, I, g: -m * g * lc * (1 - cos(q)),
-            ),
-        ),
+        catalogue=LAGRANGIAN,
+        terms=LAGRANGIAN.terms,
         hints=(
             "L is made of two energies. For the first: how fast does the body turn? For the "
             "second: how high has its centre of mass risen?",
@@ -107,7 +99,7 @@ CHECKS = (
         reference=lambda q, pend: pend.I,
         calls=_position_calls("M"),
         criteria=(Criterion("inertia about the pivot", "kg·m²"),),
-        mistakes=mistakes.INERTIA,
+        catalogue=Generated("pendulum", "M", mistakes.INERTIA_SAID),
         terms=(
             Term("the inertia about the pivot", lambda q, pend: pend.I),
             Term("the inertia of a point mass", lambda q, pend: pend.m * pend.lc**2),
@@ -134,6 +126,7 @@ CHECKS = (
             ),
         ),
         mistakes=mistakes.CORIOLIS,
+        catalogue=Generated("pendulum", "C", mistakes.CORIOLIS_SAID),
         hints=(
             "Look at the printed equation of motion: does any term hold qd?",
             "C comes from the change of M with q. How does this M change when the pendulum turns?",
@@ -146,7 +139,6 @@ CHECKS = (
         reference=lambda q, pend: pend.m * pend.g * pend.lc * sin(q[0]),
         calls=_position_calls("g_vec"),
         criteria=(Criterion("gravity torque", "N·m"),),
-        mistakes=mistakes.GRAVITY,
         catalogue=GRAVITY,
         terms=GRAVITY.terms,
         hints=(

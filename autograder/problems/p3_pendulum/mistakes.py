@@ -1,6 +1,6 @@
 """Mistakes about the pendulum."""
 
-from math import cos, pi, radians, sin, sqrt
+from math import pi, sqrt
 
 import numpy as np
 
@@ -11,59 +11,41 @@ ALREADY_ABOUT_THE_PIVOT = (
     "Your inertia is too large by m ℓc²: pend.I is about the pivot already. Where have you "
     "applied the parallel-axis theorem once too often?"
 )
-INERTIA = (
-    Mistake(
-        "parallel axis applied again",
-        lambda q, pend: pend.I + pend.m * pend.lc**2,
-        ALREADY_ABOUT_THE_PIVOT,
+INERTIA_SAID = {
+    "parallel axis added / the rotation of the body / m / I": ALREADY_ABOUT_THE_PIVOT,
+    "parallel axis taken off / the rotation of the body / m / I": (
+        "You use the inertia about the centre of mass. The pendulum turns about its pivot: "
+        "about which point must you take the inertia in K = ½ M q̇²?"
     ),
-    Mistake(
-        "inertia about the centre of mass",
-        lambda q, pend: pend.I - pend.m * pend.lc**2,
-        "You use the inertia about the centre of mass. The pendulum turns about its pivot: about "
-        "which point must you take the inertia in K = ½ M q̇²?",
-    ),
-    Mistake(
-        "point mass",
-        lambda q, pend: pend.m * pend.lc**2,
+    "point mass / the rotation of the body / m / I": (
         "Your inertia is that of a point mass at the centre of mass. The body has a size: which "
-        "parameter of pend tells how its mass is spread?",
+        "parameter of pend tells how its mass is spread?"
     ),
-    Mistake(
-        "inverse for matrix",
-        lambda q, pend: 1 / pend.I,
-        sentences.INVERSE_OF_M,
+    "inverse": sentences.INVERSE_OF_M,
+    "mass for inertia / the rotation of the body / m / I": (
+        "You return the mass. The coordinate is an angle: what resists an angular acceleration?"
     ),
-    Mistake(
-        "mass for inertia",
-        lambda q, pend: pend.m,
-        "You return the mass. The coordinate is an angle: what resists an angular acceleration?",
-    ),
-)
+}
 
-CORIOLIS = (
-    Mistake(
-        "gravity in C",
-        lambda q, qd, pend: pend.m * pend.g * pend.lc * sin(q[0]),
+CORIOLIS_SAID = {
+    "gravity for C": (
         "You return the gravity torque. Gravity does not depend on q̇: where does it belong in "
-        "the equation of motion?",
+        "the equation of motion?"
     ),
-    Mistake(
-        "inertia for C",
-        lambda q, qd, pend: pend.I,
+    "M": (
         "You return the inertia, which multiplies q̈. C multiplies q̇, and comes from how M "
-        "changes with q.",
+        "changes with q."
     ),
+    "momentum for C": (
+        "Your C is M q̇, the angular momentum. C comes from ∂M/∂q: does this M change with q?"
+    ),
+}
+CORIOLIS = (
     Mistake(
         "point-mass centrifugal term",
         lambda q, qd, pend: pend.m * pend.lc * qd[0],
         "Your C is proportional to m ℓc q̇, as a centripetal force is. That force points at the "
         "pivot: what is its torque about the pivot?",
-    ),
-    Mistake(
-        "M times velocity",
-        lambda q, qd, pend: pend.I * qd[0],
-        "Your C is M q̇, the angular momentum. C comes from ∂M/∂q: does this M change with q?",
     ),
 )
 
@@ -100,83 +82,56 @@ GRAVITY_SAID = {
     "small angle / the weight of the body": (
         "Your torque is right only for small angles. How does it vary when q is large?"
     ),
-}
-GRAVITY = (
-    Mistake(
-        "potential energy for torque",
-        lambda q, pend: pend.m * pend.g * pend.lc * (1 - cos(q[0])),
-        "You return the potential energy P. What turns P(q) into the gravity torque g(q)?",
+    "energy for its derivative": (
+        "You return the potential energy P. What turns P(q) into the gravity torque g(q)?"
     ),
-    Mistake(
-        "divided by the inertia",
-        lambda q, pend: pend.m * pend.g * pend.lc * sin(q[0]) / pend.I,
+    "divided by M": (
         "You return an acceleration: you have divided the torque by I already. In M q̈ + g = u, "
-        "what does M multiply?",
+        "what does M multiply?"
     ),
-)
+}
 
 # Lagrangians: the kinetic part and the potential part are judged and diagnosed apart.
-LAGRANGIAN = (
-    Mistake(
-        "half missing",
-        lambda q, qd, m, lc, I, g: I * qd**2 - m * g * lc * (1 - cos(q)),
+LAGRANGIAN_SAID = {
+    "½ of K missing": (
         "The kinetic part of your L is twice the right one. Which factor belongs in front of a "
-        "kinetic energy?",
+        "kinetic energy?"
     ),
-    Mistake(
-        "parallel axis applied again",
-        lambda q, qd, m, lc, I, g: 0.5 * (I + m * lc**2) * qd**2 - m * g * lc * (1 - cos(q)),
-        "The kinetic part of your L counts the motion of the centre of mass twice: I is about the "
-        "pivot already. What does the parallel-axis theorem add, and does I hold that already?",
+    "parallel axis added / the rotation of the body / m / I": (
+        "The kinetic part of your L counts the motion of the centre of mass twice: I is about "
+        "the pivot already. What does the parallel-axis theorem add, and does I hold that "
+        "already?"
     ),
-    Mistake(
-        "inertia about the centre of mass",
-        lambda q, qd, m, lc, I, g: 0.5 * (I - m * lc**2) * qd**2 - m * g * lc * (1 - cos(q)),
-        "The kinetic part of your L uses the inertia about the centre of mass and leaves out the "
-        "motion of that centre. About which point does the body turn?",
+    "parallel axis taken off / the rotation of the body / m / I": (
+        "The kinetic part of your L uses the inertia about the centre of mass and leaves out "
+        "the motion of that centre. About which point does the body turn?"
     ),
-    Mistake(
-        "point mass",
-        lambda q, qd, m, lc, I, g: 0.5 * m * lc**2 * qd**2 - m * g * lc * (1 - cos(q)),
-        "The kinetic part of your L is that of a point mass. Which parameter tells how the mass is "
-        "spread?",
+    "point mass / the rotation of the body / m / I": (
+        "The kinetic part of your L is that of a point mass. Which parameter tells how the mass "
+        "is spread?"
     ),
-    Mistake(
-        "energy for Lagrangian, or P upside down",
-        lambda q, qd, m, lc, I, g: 0.5 * I * qd**2 + m * g * lc * (1 - cos(q)),
+    "energy for L": (
         "The potential part of your L has the wrong sign. Is L the sum of K and P or their "
-        "difference, and does your P grow as the pendulum rises?",
+        "difference, and does your P grow as the pendulum rises?"
     ),
-    Mistake(
-        "sine for cosine",
-        lambda q, qd, m, lc, I, g: 0.5 * I * qd**2 - m * g * lc * sin(q),
-        "The potential part of your L varies with sin q. At what height is the centre of mass when "
-        "the pendulum hangs straight down (q = 0), and at q = π/2?",
+    "sine for cosine / the weight of the body / −": (
+        "The potential part of your L varies with sin q. At what height is the centre of mass "
+        "when the pendulum hangs straight down (q = 0), and at q = π/2?"
     ),
-    Mistake(
-        "sine for cosine, reversed",
-        lambda q, qd, m, lc, I, g: 0.5 * I * qd**2 + m * g * lc * sin(q),
-        "The potential part of your L varies with −sin q. At what height is the centre of mass when "
-        "the pendulum hangs straight down (q = 0), and at q = π/2?",
+    "sine for cosine / the weight of the body": (
+        "The potential part of your L varies with −sin q. At what height is the centre of mass "
+        "when the pendulum hangs straight down (q = 0), and at q = π/2?"
     ),
-    Mistake(
-        "lever arm missing",
-        lambda q, qd, m, lc, I, g: 0.5 * I * qd**2 - m * g * (1 - cos(q)),
-        "The length ℓc is missing from the potential part of your L. How high does the centre of "
-        "mass rise?",
+    "parameter left out / the weight of the body / lc": (
+        "The length ℓc is missing from the potential part of your L. How high does the centre "
+        "of mass rise?"
     ),
-    Mistake(
-        "angle in degrees",
-        lambda q, qd, m, lc, I, g: 0.5 * I * qd**2 - m * g * lc * (1 - cos(radians(q))),
-        "In the potential part of your L you convert the angle from degrees to radians, but q is "
-        "in radians already.",
+    "radians converted / the weight of the body": (
+        "In the potential part of your L you convert the angle from degrees to radians, but q "
+        "is in radians already."
     ),
-    Mistake(
-        "kinetic energy only",
-        lambda q, qd, m, lc, I, g: 0.5 * I * qd**2,
-        "Your L has no potential part. Which energy does the body gain as it rises?",
-    ),
-)
+    "P missing": ("Your L has no potential part. Which energy does the body gain as it rises?"),
+}
 
 INERTIA_ABOUT_PIVOT = (
     Mistake(

@@ -7,7 +7,6 @@ import numpy as np
 
 from autograder.judging.diagnosis import Mistake
 from autograder.problems.material import sentences
-from autograder.problems.material.planar_2r import changed, g_vec, potential_energy
 
 # The arm of the notebook's set-up cell.
 EXAMPLE = SimpleNamespace(
@@ -18,24 +17,6 @@ EXAMPLE = SimpleNamespace(
 def _energy(arm, height_1, height_2):
     """P of links whose directions have these heights on a circle of radius 1."""
     return arm.g * (arm.m1 * arm.lc1 * height_1 + arm.m2 * (arm.l1 * height_1 + arm.lc2 * height_2))
-
-
-def _torque(arm, level_1, level_2):
-    """g of links whose directions reach this far out on a circle of radius 1."""
-    g2 = arm.m2 * arm.lc2 * arm.g * level_2
-    return np.array([(arm.m1 * arm.lc1 + arm.m2 * arm.l1) * arm.g * level_1 + g2, g2])
-
-
-def _on(model, **parameters):
-    """The right model with one parameter of the arm in the place of another: lc1="l1"."""
-    return lambda q, arm: model(
-        q, changed(arm, **{name: getattr(arm, of) for name, of in parameters.items()})
-    )
-
-
-def _with(model, **parameters):
-    """The right model of an arm whose parameters have these numbers."""
-    return lambda q, arm: model(q, changed(arm, **parameters))
 
 
 HARD_CODED_G = (
@@ -102,6 +83,7 @@ POTENTIAL_SAID = {
     "gravity of Earth / 9.81 / g": HARD_CODED_G,
     "radians converted": sentences.RADIANS_CONVERTED,
     "angle in degrees": sentences.IN_DEGREES,
+    "kind left out / kg": MASSES_MISSING,
 }
 POTENTIAL = (
     Mistake(
@@ -110,7 +92,6 @@ POTENTIAL = (
         "Your P does not change as the elbow turns, as if the whole mass of link 2 sat at the "
         "elbow or were left out. Where is its centre of mass?",
     ),
-    Mistake("masses missing", _with(potential_energy, m1=1.0, m2=1.0), MASSES_MISSING),
 )
 
 GRAVITY_SAID = {
@@ -156,14 +137,16 @@ GRAVITY_SAID = {
     "gravity of Earth / 9.81 / g": HARD_CODED_G,
     "radians converted": sentences.RADIANS_CONVERTED,
     "angle in degrees": sentences.IN_DEGREES,
+    "astray / the weight of link 2 at the elbow / g2 / g1": (
+        "Your g2 is the torque of link 2's weight about the shoulder. About which axis does "
+        "joint 2 turn, and does the elbow move with q2?"
+    ),
+    "energy for its derivative": (
+        "You return the potential energy P, in joules. What turns P(q) into g(q)?"
+    ),
+    "kind left out / kg": MASSES_MISSING,
 }
 GRAVITY = (
-    Mistake(
-        "elbow in g2",
-        lambda q, arm: g_vec(q, arm) + np.array([0.0, arm.m2 * arm.l1 * arm.g * np.cos(q[0])]),
-        "Your g2 is the torque of link 2's weight about the shoulder. About which axis does joint 2 "
-        "turn, and does the elbow move with q2?",
-    ),
     Mistake(
         "energies of the links",
         lambda q, arm: np.array(
@@ -174,12 +157,6 @@ GRAVITY = (
         ),
         "You return the potential energies of the two links. What turns P(q) into g(q)?",
     ),
-    Mistake(
-        "potential energy for torque",
-        lambda q, arm: np.full(2, potential_energy(q, arm)),
-        "You return the potential energy P, in joules. What turns P(q) into g(q)?",
-    ),
-    Mistake("masses missing", _with(g_vec, m1=1.0, m2=1.0), MASSES_MISSING),
 )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from autograder.judging.check import Check, Criterion
 from autograder.judging.criterion import TOLERANCE
 from autograder.judging.quantities import UnfitError, each, vector
+from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.material.systems import (
     METHOD,
@@ -195,7 +196,7 @@ CHECKS = (
             Criterion("velocities in ẋ", "rad/s", 0.25),
             Criterion("accelerations in ẋ", "rad/s²", 0.75),
         ),
-        mistakes=mistakes.RATE,
+        catalogue=Generated("planar-2r", "f", mistakes.RATE_SAID, mistakes.EXAMPLE),
         terms=mistakes.RATE_TERMS,
         hints=(
             "Cut x into its two halves first. One half of ẋ is then there already, without any "
@@ -321,7 +322,7 @@ CHECKS = (
             Criterion("change of the potential energy", "J", 0.35),
             Criterion("drift where both change", "J", 0.3),
         ),
-        mistakes=mistakes.DRIFT,
+        catalogue=Generated("planar-2r", "energy_drift", mistakes.DRIFT_SAID, mistakes.EXAMPLE),
         terms=mistakes.DRIFT_TERMS,
         hints=(
             "First write a function for the energy of one state; then use it on every row.",

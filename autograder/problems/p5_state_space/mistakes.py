@@ -10,7 +10,6 @@ from autograder.problems.material import sentences
 from autograder.problems.material.planar_2r import (
     C,
     M,
-    changed,
     f_vec,
     g_vec,
     kinetic_energy,
@@ -34,32 +33,6 @@ def rate(x, u, arm):
     """ẋ of the arm, (4,): the right answer."""
     q, qd = x[:2], x[2:]
     return np.concatenate([qd, np.linalg.solve(M(q, arm), torque(q, qd, u, arm))])
-
-
-def _with(change):
-    """The right answer but for a torque that is added: change(q, qd, u, arm)."""
-
-    def wrong(x, u, arm):
-        q, qd = x[:2], x[2:]
-        rest = torque(q, qd, u, arm) + change(q, qd, u, arm)
-        return np.concatenate([qd, np.linalg.solve(M(q, arm), rest)])
-
-    return wrong
-
-
-def _accelerating(acceleration):
-    """The right answer but for q̈: acceleration(q, qd, rest, arm) from the right torque."""
-
-    def wrong(x, u, arm):
-        q, qd = x[:2], x[2:]
-        return np.concatenate([qd, acceleration(q, qd, torque(q, qd, u, arm), arm)])
-
-    return wrong
-
-
-def _coulomb(sign):
-    """Coulomb friction with another function in the place of sign."""
-    return _with(lambda q, qd, u, arm: arm.coulomb * (np.sign(qd) - sign(qd)))
 
 
 def _part(torque_of):
@@ -94,205 +67,123 @@ AT_REST = (
     "What does NumPy's own sign give for 0?"
 )
 
-RATE = (
-    Mistake(
-        "halves swapped",
-        lambda x, u, arm: np.roll(rate(x, u, arm), 2),
+RATE_SAID = {
+    "halves of ẋ swapped": (
         "You swapped the two halves of ẋ. Which half of x is q, and which half of ẋ is its rate "
-        "of change?",
+        "of change?"
     ),
-    Mistake(
-        "q for its rate",
-        lambda x, u, arm: np.concatenate([x[:2], rate(x, u, arm)[2:]]),
-        "The first half of your ẋ is q itself. What is the rate of change of q, and where in x does "
-        "it stand?",
+    "q for its rate": (
+        "The first half of your ẋ is q itself. What is the rate of change of q, and where in x "
+        "does it stand?"
     ),
-    Mistake(
-        "q and its rate read from the wrong half",
-        lambda x, u, arm: rate(np.roll(x, 2), u, arm),
-        "Your accelerations come out as if x were [q̇; q]. Which half of x do you call q?",
+    "state read as q̇ and q": (
+        "Your accelerations come out as if x were [q̇; q]. Which half of x do you call q?"
     ),
-    Mistake(
-        "interleaved state",
-        lambda x, u, arm: rate(x[[0, 2, 1, 3]], u, arm),
-        INTERLEAVED,
+    "state interleaved": INTERLEAVED,
+    "states interleaved": INTERLEAVED,
+    "dropped / C q̇": (
+        "The Coriolis and centrifugal torque is missing from your q̈. Which term of the "
+        "equation of motion is quadratic in the velocities?"
     ),
-    Mistake(
-        "interleaved state and rate",
-        lambda x, u, arm: rate(x[[0, 2, 1, 3]], u, arm)[[0, 2, 1, 3]],
-        INTERLEAVED,
+    "wrong sign / C q̇": (
+        "The Coriolis and centrifugal torque has the wrong sign in your q̈. On which side of "
+        "the equation of motion does it stand?"
     ),
-    Mistake(
-        "Coriolis torque left out",
-        _with(lambda q, qd, u, arm: C(q, qd, arm) @ qd),
-        "The Coriolis and centrifugal torque is missing from your q̈. Which term of the equation of "
-        "motion is quadratic in the velocities?",
+    "C times ones in the torque": (
+        "Your Coriolis torque is the sum of each row of C. What must C multiply?"
     ),
-    Mistake(
-        "sign of the Coriolis torque",
-        _with(lambda q, qd, u, arm: 2 * C(q, qd, arm) @ qd),
-        "The Coriolis and centrifugal torque has the wrong sign in your q̈. On which side of the "
-        "equation of motion does it stand?",
-    ),
-    Mistake(
-        "C times ones",
-        _with(lambda q, qd, u, arm: C(q, qd, arm) @ (qd - 1)),
-        "Your Coriolis torque is the sum of each row of C. What must C multiply?",
-    ),
-    Mistake(
-        "C transposed",
-        _with(lambda q, qd, u, arm: (C(q, qd, arm) - C(q, qd, arm).T) @ qd),
+    "transposed / in C": (
         "Your Coriolis torque uses C with its rows and columns swapped. Does q̇ stand to the "
-        "right or to the left of C?",
+        "right or to the left of C?"
     ),
-    Mistake(
-        "gravity left out",
-        _with(lambda q, qd, u, arm: g_vec(q, arm)),
-        "Gravity is missing from your q̈. Which torque acts on the arm when it is at rest?",
+    "dropped / g(q)": (
+        "Gravity is missing from your q̈. Which torque acts on the arm when it is at rest?"
     ),
-    Mistake(
-        "sign of gravity",
-        _with(lambda q, qd, u, arm: 2 * g_vec(q, arm)),
-        "Gravity has the wrong sign in your q̈: your arm falls upwards. On which side of the equation "
-        "of motion does g(q) stand?",
+    "wrong sign / g(q)": (
+        "Gravity has the wrong sign in your q̈: your arm falls upwards. On which side of the "
+        "equation of motion does g(q) stand?"
     ),
-    Mistake(
-        "gravity constant hard-coded",
-        _with(lambda q, qd, u, arm: g_vec(q, arm) - g_vec(q, changed(arm, g=9.81))),
+    "gravity of Earth / 9.81 / g / in g_vec": (
         "Your q̈ is right only on Earth, because you typed 9.81 into it. The check also uses "
-        "other planets: which parameter of arm gives g?",
+        "other planets: which parameter of arm gives g?"
     ),
-    Mistake(
-        "friction left out",
-        _with(lambda q, qd, u, arm: f_vec(qd, arm)),
-        "Friction is missing from your q̈. Which two parameters of arm have you not used yet?",
+    "dropped / the friction": (
+        "Friction is missing from your q̈. Which two parameters of arm have you not used yet?"
     ),
-    Mistake(
-        "sign of friction",
-        _with(lambda q, qd, u, arm: 2 * f_vec(qd, arm)),
-        "Friction has the wrong sign in your q̈: it drives the joints. Does friction add energy to an "
-        "arm or take it out?",
+    "wrong sign / the friction": (
+        "Friction has the wrong sign in your q̈: it drives the joints. Does friction add energy "
+        "to an arm or take it out?"
     ),
-    Mistake(
-        "viscous friction left out",
-        _with(lambda q, qd, u, arm: arm.viscous * qd),
-        "The viscous part of the friction is missing. Which part of f grows with the speed?",
+    "dropped / the viscous friction": (
+        "The viscous part of the friction is missing. Which part of f grows with the speed?"
     ),
-    Mistake(
-        "sign of viscous friction",
-        _with(lambda q, qd, u, arm: 2 * arm.viscous * qd),
+    "wrong sign / the viscous friction": (
         "The viscous part of your friction has the wrong sign: the faster a joint moves, the "
-        "harder it is pushed on. Must friction speed a joint up or slow it down?",
+        "harder it is pushed on. Must friction speed a joint up or slow it down?"
     ),
-    Mistake(
-        "viscous friction quadratic",
-        _with(lambda q, qd, u, arm: arm.viscous * (qd - qd * np.abs(qd))),
+    "quadratic friction / the viscous friction": (
         "Your viscous friction grows with the square of the speed. Look at the unit of its "
-        "coefficient.",
+        "coefficient."
     ),
-    Mistake(
-        "Coulomb friction left out",
-        _coulomb(lambda qd: 0 * qd),
-        "The Coulomb part of the friction is missing. Which part of f has the same size at every "
-        "speed?",
+    "dropped / the Coulomb friction": (
+        "The Coulomb part of the friction is missing. Which part of f has the same size at "
+        "every speed?"
     ),
-    Mistake(
-        "sign of Coulomb friction",
-        _coulomb(lambda qd: -np.sign(qd)),
+    "wrong sign / the Coulomb friction": (
         "The Coulomb part of your friction has the wrong sign: it pushes the joint on. Must "
-        "friction speed a joint up or slow it down?",
+        "friction speed a joint up or slow it down?"
     ),
-    Mistake(
-        "Coulomb friction in one direction",
-        _coulomb(lambda qd: np.ones(2)),
+    "friction in one direction / the Coulomb friction": (
         "Your Coulomb friction always acts in the same direction. What decides the direction of "
-        "friction?",
+        "friction?"
     ),
-    Mistake(
-        "absolute value for sign",
-        _coulomb(np.abs),
+    "absolute value for sign / the Coulomb friction": (
         "Your Coulomb friction uses |q̇| where the sign of q̇ belongs: it grows with the speed "
-        "and never changes direction.",
+        "and never changes direction."
     ),
-    Mistake(
-        "velocity for its sign",
-        _coulomb(lambda qd: qd),
+    "velocity for its sign / the Coulomb friction": (
         "Your Coulomb friction grows with the speed. Dry friction does not depend on how fast a "
-        "joint moves: what does it depend on?",
+        "joint moves: what does it depend on?"
     ),
-    Mistake(
-        "sign of the angle",
-        _with(lambda q, qd, u, arm: arm.coulomb * (np.sign(qd) - np.sign(q))),
+    "sign of the coordinate / the Coulomb friction": (
         "Your Coulomb friction has the sign of the angle. Does friction depend on where a joint "
-        "is, or on how it moves?",
+        "is, or on how it moves?"
     ),
-    *(
-        Mistake(f"tanh for sign, width {width:g}", _coulomb(lambda qd, w=width: np.tanh(qd / w)),
-                SMOOTH_SIGN)
-        for width in (1.0, 0.1, 0.05, 0.01, 0.001)
-    ),
-    Mistake("sign(0) = 1", _coulomb(lambda qd: np.where(qd >= 0, 1.0, -1.0)), AT_REST),
-    Mistake("sign(0) = -1", _coulomb(lambda qd: np.where(qd > 0, 1.0, -1.0)), AT_REST),
-    Mistake(
-        "coefficients swapped",
-        _with(
-            lambda q, qd, u, arm: f_vec(qd, arm) - arm.coulomb * qd - arm.viscous * np.sign(qd)
-        ),
+    "smooth sign / the Coulomb friction": SMOOTH_SIGN,
+    "friction at rest / the Coulomb friction": AT_REST,
+    "coefficients exchanged / the friction": (
         "You swapped the two friction coefficients. Which of them is in N·m, and which in "
-        "N·m·s/rad?",
+        "N·m·s/rad?"
     ),
-    Mistake(
-        "friction as an acceleration",
-        lambda x, u, arm: _with(lambda q, qd, u, arm: f_vec(qd, arm))(x, u, arm)
-        - np.concatenate([np.zeros(2), f_vec(x[2:], arm)]),
-        "You subtract the friction from the acceleration. Friction is a torque: how does a torque "
-        "become an acceleration?",
+    "not divided by M / the friction": (
+        "You subtract the friction from the acceleration. Friction is a torque: how does a "
+        "torque become an acceleration?"
     ),
-    Mistake(
-        "input left out",
-        _with(lambda q, qd, u, arm: -u),
-        "The input u is missing from your q̈. What makes the arm move where you want it to?",
+    "dropped / the input u": (
+        "The input u is missing from your q̈. What makes the arm move where you want it to?"
     ),
-    Mistake(
-        "sign of the input",
-        _with(lambda q, qd, u, arm: -2 * u),
-        "The input u has the wrong sign in your q̈: the motor turns the wrong way. On which side "
-        "of the equation of motion does u stand?",
+    "wrong sign / the input u": (
+        "The input u has the wrong sign in your q̈: the motor turns the wrong way. On which "
+        "side of the equation of motion does u stand?"
     ),
-    Mistake(
-        "M not inverted",
-        _accelerating(lambda q, qd, rest, arm: M(q, arm) @ rest),
-        "You multiply by M. In M q̈ = ..., how do you get q̈ alone?",
-    ),
-    Mistake(
-        "torque for acceleration",
-        _accelerating(lambda q, qd, rest, arm: rest),
-        "The second half of your ẋ is a torque, in N·m. What resists it?",
-    ),
-    Mistake(
-        "divided by the diagonal of M",
-        _accelerating(lambda q, qd, rest, arm: rest / np.diag(M(q, arm))),
+    "M not inverted": ("You multiply by M. In M q̈ = ..., how do you get q̈ alone?"),
+    "torque for acceleration": ("The second half of your ẋ is a torque, in N·m. What resists it?"),
+    "divided by the diagonal of M": (
         "You divide by the diagonal of M, as if the joints did not feel each other. What do the "
-        "other entries do?",
+        "other entries do?"
     ),
-    Mistake(
-        "each entry of M inverted",
-        _accelerating(lambda q, qd, rest, arm: (1 / M(q, arm)) @ rest),
+    "entries of M inverted": (
         "You invert each entry of M by itself, which does not invert the matrix. Which NumPy "
-        "function solves a linear system?",
+        "function solves a linear system?"
     ),
-    Mistake(
-        "divided by M entry by entry, rows summed",
-        _accelerating(lambda q, qd, rest, arm: np.sum(rest / M(q, arm), axis=0)),
-        "You divide by M entry by entry. Which NumPy function solves a linear system?",
+    "divided by M entry by entry": (
+        "You divide by M entry by entry. Which NumPy function solves a linear system?"
     ),
-    Mistake(
-        "example arm hard-coded",
-        lambda x, u, arm: rate(x, u, EXAMPLE),
+    "numbers of the example": (
         "Your f always uses the arm of this notebook. The check passes other arms to f: in which "
-        "argument do they come?",
+        "argument do they come?"
     ),
-)  # fmt: skip
+}
 
 
 def explicit(rows, weights):
@@ -609,153 +500,73 @@ def _nothing(*_):
     return 0.0
 
 
-def _height_absolute(q, arm):
-    """P with q2 taken from the x axis."""
-    return potential_energy(np.array([q[0], q[1] - q[0]]), arm)
-
-
-def _with_zero(E0):
-    """E itself, with P = 0 where the arm lies along x, less E0 of the energies."""
-
-    def wrong(x, arm):
-        start = x[0]
-        first = kinetic_energy(start[:2], start[2:], arm) + potential_energy(start[:2], arm)
-        energy = drift(x, arm) + first
-        return energy - E0(energy)
-
-    return wrong
-
-
 DRIFT_TERMS = (
     Term("the change of K", lambda x, arm: drift(x, arm, potential=_nothing)),
     Term("the change of P", lambda x, arm: drift(x, arm, kinetic=_nothing)),
 )
 
-DRIFT = (
-    Mistake(
-        "half missing",
-        lambda x, arm: drift(x, arm, kinetic=lambda q, qd, arm: 2 * kinetic_energy(q, qd, arm)),
-        sentences.HALF_MISSING,
-    ),
-    Mistake(
-        "diagonal of M only",
-        lambda x, arm: drift(
-            x, arm, kinetic=lambda q, qd, arm: 0.5 * np.sum(np.diag(M(q, arm)) * qd**2)
-        ),
+DRIFT_SAID = {
+    "½ of K missing": sentences.HALF_MISSING,
+    "diagonal of M alone": (
         "Your kinetic energy uses only the diagonal of M. What does the energy gain when both "
-        "joints turn at once?",
+        "joints turn at once?"
     ),
-    Mistake(
-        "M of the start",
-        lambda x, arm: drift(
-            x, arm, kinetic=lambda q, qd, arm: kinetic_energy(x[0, :2], qd, arm)
-        ),
-        "Your kinetic energy uses the M of the first state in every row. What does M depend on?",
+    "M of the start": (
+        "Your kinetic energy uses the M of the first state in every row. What does M depend on?"
     ),
-    Mistake(
-        "C in the energy",
-        lambda x, arm: drift(
-            x, arm,
-            kinetic=lambda q, qd, arm: kinetic_energy(q, qd, arm) + 0.5 * qd @ C(q, qd, arm) @ qd,
-        ),
-        "There is a term with C in your energy. Which two energies does the arm have?",
+    "C in the energy": (
+        "There is a term with C in your energy. Which two energies does the arm have?"
     ),
-    Mistake(
-        "C for M",
-        lambda x, arm: drift(x, arm, kinetic=lambda q, qd, arm: 0.5 * qd @ C(q, qd, arm) @ qd),
-        "You make the kinetic energy with C. Which matrix gives the kinetic energy?",
-    ),
-    Mistake(
-        "K alone",
-        lambda x, arm: drift(x, arm, potential=_nothing),
-        "The potential energy is missing. What does the arm gain as it rises?",
-    ),
-    Mistake(
-        "P alone",
-        lambda x, arm: drift(x, arm, kinetic=_nothing),
-        "The kinetic energy is missing. What does the arm gain as it moves faster?",
-    ),
-    Mistake(
-        "sign of P",
-        lambda x, arm: drift(x, arm, potential=lambda q, arm: -potential_energy(q, arm)),
+    "C for M": ("You make the kinetic energy with C. Which matrix gives the kinetic energy?"),
+    "P missing": ("The potential energy is missing. What does the arm gain as it rises?"),
+    "K missing": ("The kinetic energy is missing. What does the arm gain as it moves faster?"),
+    "L for the energy": (
         "Your potential energy falls as the arm rises. Is E the sum of K and P, and does your P "
-        "grow with height?",
+        "grow with height?"
     ),
-    Mistake(
-        "absolute second angle",
-        lambda x, arm: drift(x, arm, potential=_height_absolute),
+    "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2": (
         "Your P measures q2 from the x axis. From where is q2 measured, and how high is the "
-        "second centre of mass then?",
+        "second centre of mass then?"
     ),
-    Mistake(
-        "cosine for sine",
-        lambda x, arm: drift(
-            x, arm, potential=lambda q, arm: potential_energy(q + np.array([np.pi / 2, 0.0]), arm)
-        ),
-        "Your heights use the cosine. From which axis is q1 measured, and how high is the arm at "
-        "q = 0?",
+    "cosine for sine": (
+        "Your heights use the cosine. From which axis is q1 measured, and how high is the arm "
+        "at q = 0?"
     ),
-    Mistake(
-        "link 1 carries nothing",
-        lambda x, arm: drift(
-            x, arm, potential=lambda q, arm: potential_energy(q, arm)
-            - arm.m2 * arm.g * arm.l1 * np.sin(q[0])
-        ),
-        "You measure the height of the second centre of mass from the elbow. How high is the "
-        "elbow?",
+    "dropped / the weight of link 2 at the elbow": (
+        "You measure the height of the second centre of mass from the elbow. How high is the elbow?"
     ),
-    Mistake(
-        "gravity torque times angle",
-        lambda x, arm: drift(x, arm, potential=lambda q, arm: g_vec(q, arm) @ q),
+    "torque times coordinate": (
         "Your P is the gravity torque times the angle. A torque that changes on the way must be "
-        "summed along it: how high are the two centres of mass?",
+        "summed along it: how high are the two centres of mass?"
     ),
-    Mistake(
-        "gravity constant hard-coded",
-        lambda x, arm: drift(x, changed(arm, g=9.81)),
-        "Your P is right only on Earth, because you typed 9.81 into it. The check also uses other "
-        "planets: which parameter of arm gives g?",
+    "gravity of Earth / 9.81 / g": (
+        "Your P is right only on Earth, because you typed 9.81 into it. The check also uses "
+        "other planets: which parameter of arm gives g?"
     ),
-    Mistake(
-        "from the row before",
-        lambda x, arm: np.diff(drift(x, arm), prepend=0.0),
-        "You return the change from each row to the next. From which state do you count the drift?",
+    "from the row before": (
+        "You return the change from each row to the next. From which state do you count the drift?"
     ),
-    Mistake(
-        "absolute value",
-        lambda x, arm: np.abs(drift(x, arm)),
-        "You return the size of the drift without its sign. Does the run gain energy or lose it?",
+    "size of the drift": (
+        "You return the size of the drift without its sign. Does the run gain energy or lose it?"
     ),
-    Mistake(
-        "start less now",
-        lambda x, arm: -drift(x, arm),
-        "Your drift has the wrong sign. Is it positive or negative when the energy grows?",
+    "sign of the whole": (
+        "Your drift has the wrong sign. Is it positive or negative when the energy grows?"
     ),
-    Mistake(
-        "energy for drift",
-        _with_zero(lambda energy: 0.0),
-        "You return the energy itself. By how much has it changed since the first row?",
+    "energy for its drift": (
+        "You return the energy itself. By how much has it changed since the first row?"
     ),
-    Mistake(
-        "from the mean",
-        _with_zero(np.mean),
-        "You subtract the mean of the energy. From which state do you count the drift?",
+    "from the mean": (
+        "You subtract the mean of the energy. From which state do you count the drift?"
     ),
-    Mistake(
-        "from the end",
-        _with_zero(lambda energy: energy[-1]),
-        "You subtract the energy of the last row. From which state do you count the drift?",
+    "from the end": (
+        "You subtract the energy of the last row. From which state do you count the drift?"
     ),
-    Mistake(
-        "share for drift",
-        lambda x, arm: drift(x, arm) / _with_zero(lambda energy: 0.0)(x[:1], arm),
+    "share for the drift": (
         "You divide by the energy at the start. That ratio depends on where P is zero, but the "
-        "drift in J does not.",
+        "drift in J does not."
     ),
-    Mistake(
-        "example arm hard-coded",
-        lambda x, arm: drift(x, EXAMPLE),
+    "numbers of the example": (
         "Your energy is always that of the arm of this notebook. The check passes other arms to "
-        "your function: in which argument do they come?",
+        "your function: in which argument do they come?"
     ),
-)  # fmt: skip
+}

@@ -8,7 +8,15 @@ import sympy as sp
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from armdyn import Planar2R
-from autograder.mechanisms import MECHANISMS, Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms import (
+    MECHANISMS,
+    Coordinate,
+    EnergyTerm,
+    FrictionTerm,
+    Mechanism,
+    Parameter,
+)
+from autograder.mechanisms.mechanism import coefficient
 from autograder.mutation.references import reference
 
 EVERY = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=list(MECHANISMS))
@@ -171,6 +179,49 @@ def test_what_would_fail_later_is_refused_at_once(changes, said):
     with pytest.raises(ValueError, match=r"^mechanism ") as refused:
         replace(PENDULUM, **changes)
     assert said in str(refused.value)
+
+
+DRAG = coefficient("viscous", "q")
+B = FrictionTerm("the drag", "q", "viscous", "N·m·s/rad", DRAG * V)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"torque": -DRAG * V}, "'the drag' drives q; it must resist"),
+        ({"torque": DRAG}, "'the drag' drives q; it must resist"),
+        ({"torque": sp.Symbol("k") * V}, "'the drag' holds k; it is made of its coefficient"),
+        ({"torque": DRAG * Q * V}, "'the drag' holds q; it is made of its coefficient"),
+        ({"coordinate": "x"}, "'the drag' resists 'x', which is none of its coordinates"),
+        ({"coefficient": "lc"}, "the coefficient 'lc' of 'the drag' needs letters alone"),
+        ({"coefficient": "drag_1"}, "the coefficient 'drag_1' of 'the drag' needs letters alone"),
+        ({"low": 2.0, "high": 1.0}, "the coefficient of 'the drag' is drawn from 2.0 to 1.0"),
+        ({"name": "the weight of the body"}, "two of its terms are 'the weight of the body'"),
+    ],
+)
+def test_what_is_no_friction_is_refused(changes, said):
+    with pytest.raises(ValueError, match=r"^mechanism 'pendulum'") as refused:
+        replace(PENDULUM, friction=(replace(B, **changes),))
+    assert said in str(refused.value)
+
+
+def test_one_coefficient_stands_for_one_term():
+    with pytest.raises(ValueError, match="two of its coefficients of friction are 'viscous_q'"):
+        replace(PENDULUM, friction=(B, replace(B, name="the air")))
+
+
+@EVERY
+def test_friction_is_drawn_only_where_it_is_asked_for(mechanism):
+    """And it changes nothing else of the arm."""
+    plain, rough = (
+        mechanism.drawn(np.random.default_rng(6), friction) for friction in (False, True)
+    )
+    kinds = {term.coefficient for term in mechanism.friction}
+    assert vars(rough).keys() - vars(plain).keys() == kinds
+    assert {name: vars(rough)[name] for name in vars(plain)} == vars(plain)
+    for kind in kinds:
+        assert vars(rough)[kind].shape == (mechanism.n,)
+        assert (vars(rough)[kind] > 0).all()
 
 
 def test_lists_are_taken_for_tuples():

@@ -93,7 +93,7 @@ TABLE = {
             0.5,
         ),
         ("half of the whole", with_lines(of_links(), "g = 0.5 * g"), 0),
-        ("masses missing", P("g * (lc1*np.sin(q1) + l1*np.sin(q1) + lc2*np.sin(q1 + q2))"), 0),
+        ("kind left out / kg", P("g * (lc1*np.sin(q1) + l1*np.sin(q1) + lc2*np.sin(q1 + q2))"), 0),
         ("parameters exchanged / m1 / m2", with_lines(of_links(), "m1, m2 = m2, m1"), 0),
         (
             "parameter left out / g",
@@ -148,7 +148,7 @@ TABLE = {
             0.5,
         ),
         (
-            "elbow in g2",
+            "astray / the weight of link 2 at the elbow / g2 / g1",
             P(
                 "[(m1*lc1 + m2*l1)*g*np.cos(q1) + m2*lc2*g*np.cos(q1+q2), "
                 "m2*g*(l1*np.cos(q1) + lc2*np.cos(q1+q2))]"
@@ -161,7 +161,7 @@ TABLE = {
             0,
         ),
         (
-            "potential energy for torque",
+            "energy for its derivative",
             P("np.ones(2) * g * (m1*lc1*np.sin(q1) + m2*(l1*np.sin(q1) + lc2*np.sin(q1 + q2)))"),
             0,
         ),
@@ -182,7 +182,7 @@ TABLE = {
             0.5,
         ),
         (
-            "masses missing",
+            "kind left out / kg",
             P("[g*((lc1 + l1)*np.cos(q1) + lc2*np.cos(q1 + q2)), g*lc2*np.cos(q1 + q2)]"),
             0,
         ),
@@ -210,9 +210,9 @@ TABLE = {
         ),
         (
             (
-                "dropped / the weight of link 2 at the elbow",
+                "moved / the weight of link 2 at the elbow / g2 / g1",
                 "dropped / the weight of link 2 beyond the elbow / g1",
-                "elbow in g2",
+                "astray / the weight of link 2 at the elbow / g2 / g1",
             ),
             P("[m1*g*lc1*np.cos(q1), m2*g*(l1*np.cos(q1) + lc2*np.cos(q1 + q2))]"),
             0,

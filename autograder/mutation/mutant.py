@@ -1,0 +1,58 @@
+"""A mutant: what was done wrong, and where."""
+
+from dataclasses import dataclass, replace
+
+from autograder.mutation.steps import STEPS
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A mistake: what was done to which term, in which entry ("" for all) or on which step.
+
+    in_energy: whether it was done to the energy, from which the answer was then derived. source: the
+    answer in which it was made, where another one follows from that; "" for the one that is asked for.
+    """
+
+    operator: str
+    term: str = ""
+    entry: str = ""
+    put: str = ""
+    instead_of: str = ""
+    in_energy: bool = False
+    source: str = ""
+
+    @property
+    def is_step(self) -> bool:
+        """Whether it was done to the answer, not to a term of it."""
+        return not self.source and self.operator in STEP_NAMES
+
+    @property
+    def is_of_whole(self) -> bool:
+        """Whether it was done to the answer as a whole, so that no entry shows it by itself."""
+        return self.is_step and self.operator not in OF_A_PART
+
+    def within(self, source: str) -> "Mutant":
+        """The same mistake, seen in an answer that follows from `source`."""
+        return replace(self, source=source)
+
+
+# Steps that leave some entries, or one of the two energies, as they are: these may show another mistake.
+OF_A_PART = (
+    "diagonal alone",
+    "upper triangle alone",
+    "lower triangle alone",
+    "sign below the diagonal",
+    "mixed terms not shared",
+    "mixed terms in one triangle",
+    "½ of K missing",
+    "diagonal of M alone",
+    "M of the start",
+    "C in the energy",
+    "C for M",
+    "K missing",
+    "P missing",
+    "energy for L",
+    "L for the energy",
+    "torque times coordinate",
+)
+STEP_NAMES = {name for steps in STEPS.values() for name in steps}
