@@ -7,9 +7,9 @@ answer is asked for.
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
@@ -61,7 +61,18 @@ class Generated:
     def terms(self) -> tuple[Term, ...]:
         from autograder.mutation.checks import terms_of
 
-        return terms_of(self.mechanism, self.answer)
+        return tuple(
+            replace(term, model=partial(self._gathered, term.model))
+            for term in terms_of(self.mechanism, self.answer)
+        )
+
+    def _gathered(self, model: Callable, *args):
+        """What a model of (q, q̇, arm) gives for a function of all numbers, one by one."""
+        m, n = self.mechanism, self.mechanism.n
+        if isinstance(args[-1], SimpleNamespace):
+            return model(*args)
+        numbers = dict(zip([p.name for p in m.parameters], args[2 * n :], strict=True))
+        return model(np.array(args[:n]), np.array(args[n : 2 * n]), SimpleNamespace(**numbers))
 
     def mistakes(self) -> list[Mistake]:
         """Every mistake, with the sentence of its row, or else of its operator."""
