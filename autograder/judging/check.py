@@ -255,9 +255,14 @@ class Check:
         ]
         made = self.catalogue(calls) if self.catalogue else []
         mistakes += [mistake for mistake, _ in made]
-        values = [np.asarray(own, dtype=float) for _, own in made]
-        for _, alike in groupby(values, np.shape):
-            more = stacked(layout, self.quantities, calls, np.array(list(alike)))
+        for shape, group in groupby((values for _, values in made), _shape):
+            alike = list(group)
+            if shape is None:
+                one_by_one = [rows(layout, self.quantities(calls, list(own))) for own in alike]
+                more = [np.array(own) for own in zip(*one_by_one, strict=True)]
+            else:
+                numbers = np.array([np.asarray(list(own), dtype=float) for own in alike])
+                more = stacked(layout, self.quantities, calls, numbers)
             parts = [np.vstack(both) for both in zip(parts, more, strict=True)]
         return Wrong(mistakes, parts)
 
@@ -310,6 +315,14 @@ class Check:
             problem=f"{type(error).__name__} in the check {self.id}: {shortened(str(error))}.",
             next_step="This is not your fault. Please tell your instructor.",
         )
+
+
+def _shape(values) -> tuple[int, ...] | None:
+    """Of what came for all calls; None where calls differ in it, as motions do."""
+    if isinstance(values, np.ndarray) and values.dtype != object:
+        return values.shape
+    shapes = {np.shape(value) for value in values}
+    return (len(values), *shapes.pop()) if len(shapes) == 1 else None
 
 
 def _needed(call: Call) -> str:

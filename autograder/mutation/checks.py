@@ -1,6 +1,8 @@
 """Makes the checks of a mechanism: what is asked, the right answer, and every mistake that follows."""
 
+from collections.abc import Mapping
 from functools import lru_cache, partial
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -16,6 +18,7 @@ from autograder.mutation.generated import Generated
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.references import contribution, reference
 from autograder.mutation.sentences import sentence
+from autograder.protocol import Call
 
 
 def checks_of(mechanism: Mechanism) -> tuple[Check, ...]:
@@ -64,26 +67,52 @@ def _places(mutant: Mutant) -> list[str]:
     ]
 
 
-def numbers_of(mechanism: Mechanism, answer: str, calls: list[tuple]) -> list[list[np.ndarray]]:
-    """What each mistake returns for each call, which is given by its arguments."""
-    composed = ANSWERS[answer].composition
-    columns = composed(mechanism).columns if composed else states
-    alike: dict[tuple, list[int]] = {}
-    for k, args in enumerate(calls):  # rows of states may be more or fewer
-        alike.setdefault(np.shape(args[0]), []).append(k)
-    catalogue = catalogue_of(mechanism, answer)
-    found: list[list] = [len(calls) * [None] for _ in catalogue.mutants]
-    for places in alike.values():
-        numbers = catalogue.numbers(*columns([calls[k] for k in places]))
-        for of_mutant, own in zip(found, numbers, strict=True):
-            for k, value in zip(places, own, strict=True):
-                of_mutant[k] = value
+def numbers_of(mechanism: Mechanism, answer: str, calls: list[Call]) -> np.ndarray:
+    """What each mistake returns for each call, (mistakes, calls, …).
+
+    A call of symbols gives a number for each of its points. Where calls differ in their numbers of
+    rows, as motions do, the array is one of objects, (mistakes, calls).
+    """
+    if calls[0].at:
+        points = [_state(mechanism, point) for call in calls for point in call.at]
+        return _numbers(mechanism, answer, points).reshape(-1, len(calls), len(calls[0].at))
+    args = [call.args for call in calls]
+    places: dict[tuple, list[int]] = {}
+    for k, (first, *_) in enumerate(args):
+        places.setdefault(np.shape(first), []).append(k)
+    if len(places) == 1:
+        return _numbers(mechanism, answer, args)
+    found = np.empty((len(catalogue_of(mechanism, answer).mutants), len(calls)), dtype=object)
+    for alike in places.values():
+        numbers = _numbers(mechanism, answer, [args[k] for k in alike])
+        for m, case in np.ndindex(numbers.shape[:2]):
+            found[m, alike[case]] = numbers[m, case]
     return found
+
+
+def _state(mechanism: Mechanism, point: Mapping[str, float]) -> tuple:
+    """q, q̇ and the arm of a point at which an expression is tried, by the mechanism's names."""
+    q, qd = (
+        np.array([point[symbol.name] for symbol in symbols])
+        for symbols in (mechanism.q, mechanism.qd)
+    )
+    return q, qd, SimpleNamespace(**{p.name: point[p.name] for p in mechanism.parameters})
+
+
+def _numbers(mechanism: Mechanism, answer: str, calls: list[tuple]) -> np.ndarray:
+    composed = ANSWERS[answer].composition
+    columns = composed(mechanism).columns(calls) if composed else states(calls)
+    return catalogue_of(mechanism, answer).numbers(*columns)
+
+
+def _one(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:
+    """What the k-th mistake returns for one call."""
+    return _numbers(mechanism, answer, [args])[k, 0]
 
 
 @lru_cache(maxsize=64)
 def terms_of(mechanism: Mechanism, answer: str) -> tuple[Term, ...]:
-    """The parts of the right answer, by the terms of the energies that they come from."""
+    """The parts of the right answer, by the terms of the energies or the torques they come from."""
     asked = ANSWERS[answer]
     found = [
         Term(term.name, partial(_contribution, mechanism, answer, k))
@@ -91,13 +120,9 @@ def terms_of(mechanism: Mechanism, answer: str) -> tuple[Term, ...]:
     ]
     if asked.composition:
         composed = asked.composition(mechanism)
-        found += [Term(name, partial(_part, composed, of)) for name, of in composed.terms.items()]
+        for name, numbers in composed.terms.items():
+            found.append(Term(name, partial(_part, composed, numbers)))
     return tuple(found)
-
-
-def _one(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:
-    """What the k-th mistake returns for one call."""
-    return numbers_of(mechanism, answer, [args])[k][0]
 
 
 def _contribution(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:

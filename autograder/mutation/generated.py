@@ -89,32 +89,10 @@ class Generated:
         """Every mistake, with what it returns for each call."""
         from autograder.mutation.checks import numbers_of
 
-        points = [self._points(call) for call in calls]
-        every = [args for of_call in points for args in of_call]
-        values: list = [*numbers_of(self.mechanism, self.answer, every)]
+        values: list = [*numbers_of(self.mechanism, self.answer, calls)]
         if self.example:
-            values.append([self._on_example(*args) for args in every])
-        ends = np.cumsum([len(of_call) for of_call in points])[:-1]
-        by_call = [
-            [np.array(own) for own in _split(of, ends)] if calls[0].at else of for of in values
-        ]
-        return list(zip(self.mistakes(), by_call, strict=True))
-
-    def _points(self, call: Call) -> list[tuple]:
-        """The arguments with which the numbers of a call are found: of a call with symbols, one each for
-        the points at which its expression is tried.
-        """
-        if not call.at:
-            return [call.args]
-        m = self.mechanism
-        return [
-            (
-                np.array([point[symbol.name] for symbol in m.q]),
-                np.array([point[symbol.name] for symbol in m.qd]),
-                SimpleNamespace(**{p.name: point[p.name] for p in m.parameters}),
-            )
-            for point in call.at
-        ]
+            values.append([self._on_example(*call.args) for call in calls])
+        return list(zip(self.mistakes(), values, strict=True))
 
     def _of_example(self) -> Mistake:
         return Mistake("numbers of the example", self._on_example, NUMBERS_OF_THE_EXAMPLE)
@@ -127,10 +105,6 @@ class Generated:
         if not fitting:
             return mistake
         return replace(mistake, sentence=self.rows[max(fitting, key=_specific)])
-
-
-def _split(values: list, ends: np.ndarray) -> list[list]:
-    return [values[a:b] for a, b in zip([0, *ends], [*ends, len(values)], strict=True)]
 
 
 def _specific(pattern: str) -> int:

@@ -66,7 +66,6 @@ def _frequency_calls(rng, count):
     return [Call("small_angle_frequency", (sampling.pendulum(rng),)) for _ in range(count)]
 
 
-LAGRANGIAN = Generated("pendulum", "lagrangian", mistakes.LAGRANGIAN_SAID)
 GRAVITY = Generated("pendulum", "g_vec", mistakes.GRAVITY_SAID)
 
 CHECKS = (
@@ -80,8 +79,17 @@ CHECKS = (
             Criterion("kinetic part of L", "J", 0.5),
             Criterion("potential part of L", "J", 0.5),
         ),
-        catalogue=LAGRANGIAN,
-        terms=LAGRANGIAN.terms,
+        catalogue=Generated("pendulum", "lagrangian", mistakes.LAGRANGIAN_SAID),
+        terms=(
+            Term(
+                "the kinetic energy of the body",
+                lambda q, qd, m, lc, I, g: 0.5 * I * qd**2,
+            ),
+            Term(
+                "the potential energy of the raised mass",
+                lambda q, qd, m, lc, I, g: -m * g * lc * (1 - cos(q)),
+            ),
+        ),
         hints=(
             "L is made of two energies. For the first: how fast does the body turn? For the "
             "second: how high has its centre of mass risen?",

@@ -144,8 +144,10 @@ def test_scores(course, student, expected):
         (
             "wrong",
             [
-                *sentences("p3-lagrangian", "half missing", "sine for cosine, reversed"),
-                *sentences("p3-M", "parallel axis applied again"),
+                *sentences(
+                    "p3-lagrangian", "½ of K missing", "sine for cosine / the weight of the body"
+                ),
+                *sentences("p3-M", "parallel axis added / the rotation of the body / m / I"),
                 *sentences("p3-C", "point-mass centrifugal term"),
                 *sentences("p3-g_vec", "cosine for sine / the weight of the body"),
                 *sentences("p3-inertia_about_pivot", "inertia about the centre of mass"),
@@ -158,7 +160,7 @@ def test_scores(course, student, expected):
                 "p3-lagrangian: partly correct (50%)",
                 "met: kinetic part of L (50%)",
                 "not met: potential part of L (50%)",
-                *sentences("p3-lagrangian", "energy for Lagrangian, or P upside down"),
+                *sentences("p3-lagrangian", "energy for L"),
                 *sentences("p3-g_vec", "sign of the whole"),
             ],
         ),

@@ -14,7 +14,7 @@ from tests.autograder import courses
 from tests.autograder.courses import P3
 from tests.submissions import p3_pendulum
 
-M = CHECKS["p3-M"].mistakes
+M = CHECKS["p3-M"].known_mistakes
 UNKNOWN = "The error is about 0.5 times <b>."
 
 

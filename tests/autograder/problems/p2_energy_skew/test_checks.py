@@ -232,7 +232,7 @@ def test_no_wrong_model_looks_like_another(check):
 def test_wrong_answers_are_named():
     graded = PROBLEM.graded("wrong")
     for check_id, name in (
-        ("p2-M_dot", "velocity of the other joint"),
+        ("p2-M_dot", "velocities exchanged"),
         ("p2-C", "C times ones"),
         ("p2-C_other", "first entry dropped"),
         ("p2-christoffel", "M_dot for C"),

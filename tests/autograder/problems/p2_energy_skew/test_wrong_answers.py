@@ -74,7 +74,7 @@ def test_a_mistake_explains_what_it_breaks_and_no_more():
     """The right C q̇ of a known mistake, shared out in a new way: the skew step says so by itself."""
     verdict = judged("p2-C", ARM + "return [[-h * b, h * (2 * a + b)], [-h * a, 0]]")
     assert verdict.diagnosis == (
-        *sentences("p2-C", "2 missing in the Coriolis term"),
+        *sentences("p2-C", "dropped / the coupling of the two links / C11"),
         NEITHER[1],
     )
 

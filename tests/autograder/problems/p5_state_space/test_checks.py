@@ -299,10 +299,10 @@ def test_partly_right_submission():
         "p5-f": 0.25, "p5-rk4_step": 0.25, "p5-simulate": 0.4, "p5-energy_drift": 0.35,
     }  # fmt: skip
     for check_id, name in (
-        ("p5-f", "sign of viscous friction"),
+        ("p5-f", "wrong sign / the viscous friction"),
         ("p5-rk4_step", "Euler"),
         ("p5-simulate", "Euler"),
-        ("p5-energy_drift", "K alone"),
+        ("p5-energy_drift", "P missing"),
     ):
         assert verdicts[check_id].diagnosis == sentences(check_id, name)
 
@@ -310,8 +310,8 @@ def test_partly_right_submission():
 def test_wrong_submission_says_why():
     verdicts = PROBLEM.graded("wrong").verdicts
     for check_id, name in (
-        ("p5-f", "halves swapped"),
+        ("p5-f", "halves of ẋ swapped"),
         ("p5-simulate", "start repeated"),
-        ("p5-energy_drift", "start less now"),
+        ("p5-energy_drift", "sign of the whole"),
     ):
         assert verdicts[check_id].diagnosis == sentences(check_id, name)

@@ -38,7 +38,7 @@ def test_bodies_are_right_before_they_are_spoilt(check_id, body):
         (
             "p5-f",
             rate("0.5 * u - C @ qd - g - d * qd - k * np.sign(qd)"),
-            "M⁻¹ u is half of what it should be.",
+            "the input u is half of what it should be.",
         ),
         (
             "p5-f",
