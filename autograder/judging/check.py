@@ -10,13 +10,14 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from itertools import groupby
 from types import FunctionType
 
 import numpy as np
 
 from autograder.judging import changes, dependence
 from autograder.judging.criterion import Criterion, relative_errors
-from autograder.judging.diagnosis import Catalogue, Mistake, explains_all, sentences
+from autograder.judging.diagnosis import Catalogue, Mistake, Wrong, sentences
 from autograder.judging.faults import NUMBERS, describe_fault, describe_second_fault
 from autograder.judging.quantities import (
     Numbers,
@@ -26,6 +27,7 @@ from autograder.judging.quantities import (
     finite,
     one_number,
 )
+from autograder.judging.stacked import Layout, layouts, rows, stacked
 from autograder.judging.terms import Term
 from autograder.judging.verdict import Row, State, Verdict, Witness
 from autograder.judging.witness import witness
@@ -221,12 +223,10 @@ class Check:
         self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool], ask: Ask | None
     ) -> tuple[str, ...]:
         """What to say of the criteria that are not met."""
-        wrong = [(mistake, self._quantities_of(mistake.wrong, calls)) for mistake in self.mistakes]
-        if self.catalogue:
-            wrong += [(m, self.quantities(calls, values)) for m, values in self.catalogue(calls)]
-        for mistake, numbers in wrong:
-            if explains_all(self.criteria, numbers, given, met):
-                return (mistake.sentence,)
+        layout = layouts(given, expected)
+        wrong = self._wrong(layout, calls)
+        if mistake := wrong.explaining(self.criteria, layout, rows(layout, given), met):
+            return (mistake.sentence,)
 
         @cache  # calls are made once, and only where something is left to explain
         def tried() -> tuple[list[dependence.Probe], Numbers, Numbers] | None:
@@ -244,6 +244,27 @@ class Check:
             return [(term, self._quantities_of(term.model, calls)) for term in terms]
 
         return sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
+
+    def _wrong(self, layout: list[Layout], calls: list[Call]) -> Wrong:
+        """The numbers of every mistake."""
+        mistakes = list(self.mistakes)
+        found = [rows(layout, self._quantities_of(m.wrong, calls)) for m in mistakes]
+        parts = [
+            np.array([own[k] for own in found]).reshape(len(found), of.length)
+            for k, of in enumerate(layout)
+        ]
+        made = self.catalogue(calls) if self.catalogue else []
+        mistakes += [mistake for mistake, _ in made]
+        for shape, group in groupby((values for _, values in made), _shape):
+            alike = list(group)
+            if shape is None:
+                one_by_one = [rows(layout, self.quantities(calls, list(own))) for own in alike]
+                more = [np.array(own) for own in zip(*one_by_one, strict=True)]
+            else:
+                numbers = np.array([np.asarray(list(own), dtype=float) for own in alike])
+                more = stacked(layout, self.quantities, calls, numbers)
+            parts = [np.vstack(both) for both in zip(parts, more, strict=True)]
+        return Wrong(mistakes, parts)
 
     def _tried(
         self, ask: Ask, base: Call
@@ -294,6 +315,14 @@ class Check:
             problem=f"{type(error).__name__} in the check {self.id}: {shortened(str(error))}.",
             next_step="This is not your fault. Please tell your instructor.",
         )
+
+
+def _shape(values) -> tuple[int, ...] | None:
+    """Of what came for all calls; None where calls differ in it, as motions do."""
+    if isinstance(values, np.ndarray) and values.dtype != object:
+        return values.shape
+    shapes = {np.shape(value) for value in values}
+    return (len(values), *shapes.pop()) if len(shapes) == 1 else None
 
 
 def _needed(call: Call) -> str:

@@ -4,17 +4,23 @@ A mistake is named only if the student's numbers equal its numbers to rounding i
 or those of two mistakes at once. If none matches, `findings` says what is true of the numbers.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from autograder.judging import findings
-from autograder.judging.criterion import TOLERANCE, Criterion, relative_errors
+from autograder.judging.criterion import TOLERANCE, Criterion
 from autograder.judging.quantities import Numbers
+from autograder.judging.stacked import Layout, layouts, rows
 from autograder.judging.terms import Term
 from autograder.protocol import Call
+
+# By so many sums the errors of two mistakes are compared before they are compared number by number.
+PROJECTIONS = 4
+# So many pairs are compared at once, for memory's sake.
+AT_ONCE = 1024
 
 
 @dataclass(frozen=True)
@@ -34,11 +40,13 @@ class Mistake:
 
 
 class Catalogue(Protocol):
-    """Mistakes that are made when they are needed: called, each with what it returns for each call."""
+    """Mistakes that are made when they are needed: called, each with what it returns for each call, as
+    one array (calls, …) or a list of them.
+    """
 
     def mistakes(self) -> list[Mistake]: ...
 
-    def __call__(self, calls: list[Call], /) -> list[tuple[Mistake, list]]: ...
+    def __call__(self, calls: list[Call], /) -> Sequence[tuple[Mistake, Sequence | np.ndarray]]: ...
 
 
 @dataclass(frozen=True)
@@ -49,14 +57,26 @@ class Known:
     values: list[np.ndarray]
 
 
-def explains_all(
-    criteria: tuple[Criterion, ...], wrong: Numbers, given: Numbers, met: list[bool]
-) -> bool:
-    """Whether a mistake's numbers are those given; it is asked no further than where they differ."""
-    return all(
-        np.all(_errors_in(k, wrong, given) <= criterion.allows(met[k]))
-        for k, criterion in enumerate(criteria)
-    )
+@dataclass(frozen=True)
+class Wrong:
+    """All mistakes of a check with their numbers: for each criterion one row a mistake."""
+
+    mistakes: list[Mistake]
+    rows: list[np.ndarray]
+
+    def explaining(
+        self,
+        criteria: tuple[Criterion, ...],
+        layout: list[Layout],
+        given: list[np.ndarray],
+        met: list[bool],
+    ) -> Mistake | None:
+        """The first whose numbers are those given, in all criteria."""
+        left = np.arange(len(self.mistakes))
+        for k, criterion in enumerate(criteria):
+            same = layout[k].same(self.rows[k][left], given[k], criterion.allows(met[k]))
+            left = left[same]
+        return self.mistakes[left[0]] if len(left) else None
 
 
 def sentences(
@@ -64,7 +84,7 @@ def sentences(
     expected: Numbers,
     given: Numbers,
     met: list[bool],
-    mistakes: list[tuple[Mistake, Numbers]],
+    wrong: Wrong,
     terms: Callable[[], list[tuple[Term, Numbers]]],
     elsewhere: Callable[[int], str],
 ) -> tuple[str, ...]:
@@ -74,15 +94,21 @@ def sentences(
     criterion k, "" for nothing; it may cost calls.
     """
     said: list[str] = []
-    mistakes = sorted(mistakes, key=lambda one: _unlikely(criteria, expected, given, met, one[1]))
+    layout = layouts(given, expected)
+    order = _likeliest_first(
+        criteria, layout, rows(layout, expected), rows(layout, given), met, wrong
+    )
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
         right, theirs = _part(k, expected), _part(k, given)
-        wrong = [Known(mistake, _part(k, numbers)) for mistake, numbers in mistakes
-                 if not mistake.whole
-                 and (mistake.sentence in said or not criterion.is_property)]  # fmt: skip
-        shown = mistakes_shown(right, theirs, wrong, criterion.allows(met=False))
+        kept = [i for i in order if not wrong.mistakes[i].whole
+                and (not criterion.is_property or wrong.mistakes[i].sentence in said)]  # fmt: skip
+        known = [wrong.mistakes[i] for i in kept]
+        row = layout[k].row
+        shown = _shown(
+            layout[k], row(right), row(theirs), known, wrong.rows[k][kept], criterion.allows(False)
+        )
         said += [mistake.sentence for mistake in shown]
         if not shown:
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
@@ -91,82 +117,102 @@ def sentences(
     return tuple(dict.fromkeys(filter(None, said)))
 
 
-def _unlikely(
+def _likeliest_first(
     criteria: tuple[Criterion, ...],
-    expected: Numbers,
-    given: Numbers,
+    layout: list[Layout],
+    expected: list[np.ndarray],
+    given: list[np.ndarray],
     met: list[bool],
-    wrong: Numbers,
-) -> tuple[bool, int, int]:
-    """What makes a mistake the less likely one of several that explain a criterion, for sorting.
+    wrong: Wrong,
+) -> np.ndarray:
+    """The places of the mistakes, those last that are less likely where several explain a criterion.
 
-    It spoils what is right in the answer; it explains fewer criteria; it shows in others what the answer
-    does not.
+    Less likely is one that spoils what is right in the answer; that explains fewer criteria; that shows
+    in others what the answer does not.
     """
-    n = len(criteria)
-
-    def within(k: int, numbers: Numbers, tolerance: float) -> bool:
-        return bool(np.all(_errors_in(k, numbers, wrong) <= tolerance))
-
-    right = [within(k, expected, criteria[k].tolerance) for k in range(n)]
-    same = [not right[k] and within(k, given, criteria[k].allows(met=False)) for k in range(n)]
-    spoils = any(met[k] and not right[k] for k in range(n))
-    unseen = sum(not (right[k] or same[k]) for k in range(n))
-    return spoils, -sum(same), unseen
+    spoils, same, unseen = np.zeros((3, len(wrong.mistakes)), dtype=int)
+    for k, criterion in enumerate(criteria):
+        right = layout[k].same(expected[k], wrong.rows[k], criterion.tolerance)
+        shows = ~right & layout[k].same(given[k], wrong.rows[k], criterion.allows(met=False))
+        spoils |= met[k] & ~right
+        same += shows
+        unseen += ~(right | shows)
+    return np.lexsort((unseen, -same, spoils))
 
 
 def mistakes_shown(
     expected: list, given: list, mistakes: list[Known], tolerance: float = TOLERANCE
 ) -> tuple[Mistake, ...]:
     """The first mistake whose numbers these are; or the first two whose errors add up to theirs."""
+    layout = Layout.of(given, expected)
+    wrong = np.array([layout.row(known.values) for known in mistakes])
+    known = [one.of for one in mistakes]
+    return _shown(layout, layout.row(expected), layout.row(given), known, wrong, tolerance)
 
-    def same(wrong, right):
-        return bool(np.all(relative_errors(wrong, right) <= tolerance))
 
-    wrong = [known for known in mistakes if not same(expected, known.values)]
-    for known in wrong:
-        if same(known.values, given):
-            return (known.of,)
-    wrong = [known for known in wrong if known.of.combines]
-    if not wrong:
+def _shown(
+    layout: Layout,
+    expected: np.ndarray,
+    given: np.ndarray,
+    mistakes: list[Mistake],
+    wrong: np.ndarray,
+    tolerance: float,
+) -> tuple[Mistake, ...]:
+    if not mistakes:
         return ()
-    flat = np.array([_flat(known.values) for known in wrong])
-    slack = tolerance * float(np.max(np.abs(_flat(given)), initial=0.0))
-    for i, j in _nearly_adding_up(flat - _flat(expected), _flat(given) - _flat(expected), slack):
-        first, second = wrong[i], wrong[j]
-        sums = [x + y - e for x, y, e in zip(first.values, second.values, expected, strict=True)]
+    off = ~layout.same(expected, wrong, tolerance)
+    if (alone := np.flatnonzero(off & layout.same(wrong, given, tolerance))).size:
+        return (mistakes[alone[0]],)
+    combines = np.array([mistake.combines for mistake in mistakes])
+    places = np.flatnonzero(off & combines & np.all(np.isfinite(wrong), axis=1))
+    errors = wrong[places] - expected
+    first, second = _nearly_adding_up(errors, given - expected, np.abs(given), tolerance)
+    for start in range(0, len(first), AT_ONCE):
+        i, j = first[start : start + AT_ONCE], second[start : start + AT_ONCE]
+        sums = expected + errors[i] + errors[j]
         # One error twice is not two mistakes.
-        apart = not same(sums, expected) and not same(first.values, second.values)
-        if apart and same(sums, given):
-            return (first.of, second.of)
+        found = (
+            layout.same(sums, given, tolerance)
+            & ~layout.same(sums, expected, tolerance)
+            & ~layout.same(wrong[places[i]], wrong[places[j]], tolerance)
+        )
+        if np.any(found):
+            at = np.argmax(found)
+            return mistakes[places[i[at]]], mistakes[places[j[at]]]
     return ()
 
 
-def _nearly_adding_up(errors: np.ndarray, error: np.ndarray, slack: float) -> list[tuple[int, int]]:
-    """The pairs i < j whose errors may add up to this one to within `slack`, in the order of i.
+def _nearly_adding_up(
+    errors: np.ndarray, error: np.ndarray, size: np.ndarray, tolerance: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """The pairs i < j whose errors may add up to this one, in the order of i. size: of the answer.
 
-    There may be a hundred thousand pairs. So the errors are compared as one number each, a sum with
-    fixed weights, in which a pair that adds up does so too.
+    There may be millions of pairs. So the errors are compared as a few numbers each, sums with fixed
+    weights, in which a pair that adds up does so too.
     """
-    weights = np.random.default_rng(0).uniform(0.5, 1.0, len(error))
-    numbers, wanted = errors @ weights, float(error @ weights)
-    order = np.argsort(numbers)
-    slack = 10 * slack * np.sum(weights)
-    low = np.searchsorted(numbers[order], wanted - numbers - slack)
-    high = np.searchsorted(numbers[order], wanted - numbers + slack)
-    return [
-        (i, int(j)) for i in range(len(errors)) for j in sorted(order[low[i] : high[i]]) if j > i
-    ]
+    weights = np.random.default_rng(0).uniform(-1.0, 1.0, (PROJECTIONS, len(error)))
+    numbers, wanted = errors @ weights.T, weights @ error
+    # A pair adds up to the tolerance of the answer's size, and to rounding of its own.
+    largest = np.max(np.abs(errors), initial=0.0)
+    least = 3 * tolerance * np.max(size, initial=0.0) + 1e-13 * largest
+    slack = least * np.sum(np.abs(weights), axis=1)
+    order = np.argsort(numbers[:, 0])
+    of_order = numbers[order, 0]
+    low = np.searchsorted(of_order, wanted[0] - numbers[:, 0] - slack[0])
+    high = np.searchsorted(of_order, wanted[0] - numbers[:, 0] + slack[0])
+    count = high - low
+    first = np.repeat(np.arange(len(errors)), count)
+    within = np.arange(len(first)) - np.repeat(np.cumsum(count) - count, count)
+    second = order[np.repeat(low, count) + within]
+    kept = first < second
+    first, second = first[kept], second[kept]
+    for k in range(1, PROJECTIONS):
+        near = np.abs(numbers[first, k] + numbers[second, k] - wanted[k]) <= slack[k]
+        first, second = first[near], second[near]
+    sort = np.lexsort((second, first))
+    return first[sort], second[sort]
 
 
 def _part(k: int, numbers: Numbers) -> list[np.ndarray]:
     """The numbers of one criterion, case by case."""
     return [case[k] for case in numbers]
-
-
-def _errors_in(k: int, expected: Numbers, given: Numbers) -> np.ndarray:
-    return relative_errors(_part(k, expected), _part(k, given))
-
-
-def _flat(values: list) -> np.ndarray:
-    return np.concatenate([np.ravel(value) for value in values])

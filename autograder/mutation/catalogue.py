@@ -5,6 +5,7 @@ rewritten term contributes, less what the right one does.
 """
 
 from collections.abc import Sequence
+from dataclasses import astuple
 from functools import cached_property
 from types import SimpleNamespace
 
@@ -12,10 +13,13 @@ import numpy as np
 import sympy as sp
 
 from autograder.mechanisms import EnergyTerm, Mechanism
+from autograder.mutation import kept
 from autograder.mutation.answers import ANSWERS, PARTS
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.operators import astray, rewritings
 from autograder.mutation.steps import STEPS
+from autograder.mutation.tape import Tape
+from autograder.mutation.taping import taped
 from autograder.mutation.whole import whole
 
 # To less than this share of the answer two mistakes give the same numbers.
@@ -30,15 +34,48 @@ class Catalogue:
 
     def __init__(self, mechanism: Mechanism, answer: str):
         self.mechanism, self.answer = mechanism, (ANSWERS | PARTS)[answer]
+        self._kept, self._of_term, self._tape = kept.entry(
+            ("catalogue", sp.srepr(_definition(mechanism)), answer), self._made, self._read
+        )
+
+    def _made(self) -> dict:
+        """All mistakes, as plain data."""
         self._wrong = list(self._rewritten())
+        own = [e for entries in self._contributed for e in entries]
+        wrong = [e for _, _, contributed, _ in self._wrong for e in contributed]
+        self._of_term = np.array([k for k, *_ in self._wrong], dtype=int)
+        self._tape = taped(self._symbols, [*own, *wrong])
         every = self._all()
         drawn = self._drawn(np.random.default_rng(0))
         with np.errstate(all="ignore"):
             numbers = self._numbers_of(every, *drawn)
         right = self.right(*drawn)
-        if not self.answer.shape(mechanism.n):  # of an energy only its changes count
+        if not self.answer.shape(self.mechanism.n):  # of an energy only its changes count
             numbers, right = numbers[:, ::2] - numbers[:, 1::2], right[::2] - right[1::2]
-        self._kept = each_once(every, numbers, right)
+        return {
+            "mutants": [
+                [astuple(mutant), of if isinstance(of, str) else [of[0], _listed(of[1])]]
+                for mutant, of in each_once(every, numbers, right)
+            ],
+            "of_term": self._of_term.tolist(),
+            "tape": self._tape.as_data(),
+        }
+
+    def _read(self, data: dict) -> tuple:
+        of_term = np.array(data["of_term"], dtype=int)
+        found = []
+        for fields, of in data["mutants"]:
+            if isinstance(of, str):
+                STEPS[self.answer.name][of]  # KeyError where there is none
+            else:
+                of_term[of[0]]  # IndexError likewise
+                of = (of[0], None if of[1] is None else np.array(of[1], dtype=float))
+            found.append((Mutant(*fields), of))
+        tape = Tape.from_data(data["tape"])
+        entries = int(np.prod(self.answer.shape(self.mechanism.n)))
+        if len(tape.outputs) != (len(self.terms) + len(of_term)) * entries:
+            raise ValueError("the tape is not that of these mistakes")
+        return found, of_term, tape
 
     def _rewritten(self):
         """(term, rewriting, what it contributes, whether it was made in the energy).
@@ -84,7 +121,8 @@ class Catalogue:
 
     def contributions(self, q, qd, arms) -> np.ndarray:
         """What each right term contributes to the answer, (terms, cases, …)."""
-        return self._shaped(self._compiled_terms, q, qd, arms)
+        with np.errstate(all="ignore"):  # wrong terms come with them
+            return self._contributions(q, qd, arms)[0]
 
     def _all(self) -> list[tuple[Mutant, object]]:
         """Each mistake with what its numbers are made of: a step's name, or (rewriting, entry)."""
@@ -151,17 +189,17 @@ class Catalogue:
                 found[i] = STEPS[self.answer.name][of](numbers)
             else:
                 which, mask = of
-                change = sum(rewritten[r] - own[self._wrong[r][0]] for r in which)
+                change = sum(rewritten[r] - own[self._of_term[r]] for r in which)
                 found[i] = right + (change if mask is None else mask * change)
         return found
 
     def _contributions(self, q, qd, arms) -> tuple[np.ndarray, np.ndarray]:
         """Of the right terms, and of the rewritten ones: (…, cases, *shape) each."""
-        numbers = self._shaped(self._compiled, q, qd, arms)
+        numbers = self._shaped(q, qd, arms)
         return numbers[: len(self.terms)], numbers[len(self.terms) :]
 
-    def _shaped(self, compute, q, qd, arms) -> np.ndarray:
-        flat = np.array(compute(*self._columns(q, qd, arms)))
+    def _shaped(self, q, qd, arms) -> np.ndarray:
+        flat = self._tape(np.array(self._columns(q, qd, arms)))
         return np.moveaxis(flat.reshape(-1, *self.answer.shape(self.mechanism.n), len(q)), -1, 1)
 
     def _columns(self, q, qd, arms) -> list[np.ndarray]:
@@ -176,30 +214,21 @@ class Catalogue:
         return [*m.q, *m.qd, *(p.symbol for p in m.parameters)]
 
     @cached_property
-    def _compiled(self):
-        wrong = [contributed for _, _, contributed, _ in self._wrong]
-        return _function(
-            self._symbols, [e for entries in (*self._contributed, *wrong) for e in entries]
-        )
-
-    @cached_property
-    def _compiled_terms(self):
-        return _function(self._symbols, [e for entries in self._contributed for e in entries])
-
-    @cached_property
     def _contributed(self) -> list[list[sp.Expr]]:
         return [derived(term.energy, self.mechanism) for term, derived in self._derived]
 
 
-def _function(symbols, expressions):
-    """All expressions at once, for arrays of cases: a list of (cases,)."""
-    compute = sp.lambdify(symbols, expressions, modules="numpy", cse=True)
+def _definition(mechanism: Mechanism) -> sp.Tuple:
+    """What the mistakes follow from, in SymPy's terms."""
+    energies = (*mechanism.kinetic, *mechanism.potential)
+    words = [mechanism.name, *mechanism.coordinates, *mechanism.parameters]
+    words += [len(mechanism.kinetic), *(term.name for term in energies), *mechanism.friction]
+    formulas = [term.energy for term in energies] + [term.torque for term in mechanism.friction]
+    return sp.Tuple(sp.Symbol(str(words)), *map(sp.sympify, formulas))
 
-    def function(*columns):
-        size = np.shape(columns[0])
-        return [np.broadcast_to(value, size) for value in compute(*columns)]
 
-    return function
+def _listed(mask: np.ndarray | None) -> list | None:
+    return None if mask is None else mask.tolist()
 
 
 def each_once(every, numbers, right) -> list:

@@ -7,11 +7,13 @@ answer is asked for.
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.terms import Term
@@ -59,20 +61,35 @@ class Generated:
     def terms(self) -> tuple[Term, ...]:
         from autograder.mutation.checks import terms_of
 
-        return terms_of(self.mechanism, self.answer)
+        return tuple(
+            replace(term, model=partial(self._gathered, term.model))
+            for term in terms_of(self.mechanism, self.answer)
+        )
+
+    def _gathered(self, model: Callable, *args):
+        """What a model of (q, q̇, arm) gives for a function of all numbers, one by one."""
+        m, n = self.mechanism, self.mechanism.n
+        if isinstance(args[-1], SimpleNamespace):
+            return model(*args)
+        numbers = dict(zip([p.name for p in m.parameters], args[2 * n :], strict=True))
+        return model(np.array(args[:n]), np.array(args[n : 2 * n]), SimpleNamespace(**numbers))
 
     def mistakes(self) -> list[Mistake]:
         """Every mistake, with the sentence of its row, or else of its operator."""
+        return self._made
+
+    @cached_property
+    def _made(self) -> list[Mistake]:
         from autograder.mutation.checks import mistakes_of
 
         made = [self._said(mistake) for mistake in mistakes_of(self.mechanism, self.answer)]
         return made + ([self._of_example()] if self.example else [])
 
-    def __call__(self, calls: list[Call]) -> list[tuple[Mistake, list]]:
+    def __call__(self, calls: list[Call]) -> list[tuple[Mistake, Sequence | np.ndarray]]:
         """Every mistake, with what it returns for each call."""
         from autograder.mutation.checks import numbers_of
 
-        values = [*map(list, numbers_of(self.mechanism, self.answer, calls))]
+        values: list = [*numbers_of(self.mechanism, self.answer, calls)]
         if self.example:
             values.append([self._on_example(*call.args) for call in calls])
         return list(zip(self.mistakes(), values, strict=True))

@@ -88,7 +88,7 @@ def _given(check: Check, k: int, calls: list[Call]) -> list:
     """What the k-th mistake returns for all calls, in one step."""
     assert check.catalogue is not None
     _, values = check.catalogue(calls)[k]
-    return values
+    return list(values)
 
 
 def _asked(check: Check, answers: Callable[[list[Call]], list]) -> Verdict:

@@ -144,7 +144,9 @@ def test_scores(course, student, expected):
         (
             "wrong",
             [
-                *sentences("p3-lagrangian", "½ of K missing", "sine for cosine / the weight of the body"),
+                *sentences(
+                    "p3-lagrangian", "½ of K missing", "sine for cosine / the weight of the body"
+                ),
                 *sentences("p3-M", "parallel axis added / the rotation of the body / m / I"),
                 *sentences("p3-C", "point-mass centrifugal term"),
                 *sentences("p3-g_vec", "cosine for sine / the weight of the body"),

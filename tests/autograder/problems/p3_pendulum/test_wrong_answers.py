@@ -75,3 +75,11 @@ def test_mistake_is_named_only_where_it_matches_to_rounding():
     close = f"{MGL} * np.cos(q) * (1 + {20 * TOLERANCE})"
     assert judged("p3-g_vec", close).diagnosis == ()
     assert judged("p3-g_vec", f"np.float32({MGL} * np.cos(q))").diagnosis != ()
+
+
+def test_an_energy_that_no_mistake_explains_is_judged_all_the_same():
+    """The terms of L are asked for by numbers that come one by one."""
+    verdict = judged(
+        "p3-lagrangian", "I * qd**2 / 2 - m * g * lc * (1 - sp.cos(q)) * sp.cos(q / 3)"
+    )
+    assert verdict.state is State.PARTLY_CORRECT, verdict.problem

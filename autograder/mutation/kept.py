@@ -1,0 +1,76 @@
+"""Keeps on disk what was derived from a mechanism, so that it is derived once on a machine.
+
+An entry's name is a digest of what it follows from: the mechanism's definition, the code that derives,
+and SymPy's version. So none is ever out of date, and you may delete the folder at any time. An entry
+holds numbers and names alone, never code.
+"""
+
+import json
+import os
+import stat
+import sys
+from collections.abc import Callable
+from functools import cache
+from importlib import metadata
+from importlib.util import find_spec
+from pathlib import Path
+
+from autograder.digest import digest
+from autograder.files import put_in_place
+
+HERE = Path(__file__).parent
+DERIVING = (HERE, HERE.parent / "mechanisms")
+
+
+def entry(parts: tuple[str, ...], make: Callable[[], dict], fits: Callable[[dict], object]):
+    """What `fits` makes of the kept entry of these parts; it is made and kept where there is none.
+
+    fits: raises KeyError, TypeError, ValueError or IndexError where an entry is damaged, which is then
+    made anew. That the folder cannot be read or written is no error.
+    """
+    path = _folder() / f"{digest(code(), *parts)}.json"
+    try:
+        if _is_own(path.parent):
+            return fits(json.loads(path.read_text(encoding="utf-8")))
+    except (OSError, ValueError, KeyError, TypeError, IndexError):
+        pass  # none yet, or damaged
+    made = make()
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if _is_own(path.parent):
+            put_in_place(path, json.dumps(made), mode=0o600)
+    except OSError:
+        pass  # the next process makes it again
+    return fits(made)
+
+
+@cache
+def code() -> str:
+    """A digest of the code that derives, and of the packages under it."""
+    armdyn = find_spec("armdyn")  # importing it would load SciPy
+    assert armdyn is not None
+    assert armdyn.origin is not None
+    folders = (*DERIVING, Path(armdyn.origin).parent / "derive")
+    sources = sorted(path for folder in folders for path in folder.rglob("*.py"))
+    versions = [f"{name} {metadata.version(name)}" for name in ("numpy", "sympy")]
+    return digest(*versions, *(path.read_text(encoding="utf-8") for path in sources))
+
+
+def _folder() -> Path:
+    """Of this user, where the system keeps what may be deleted."""
+    if given := os.environ.get("XDG_CACHE_HOME"):
+        return Path(given) / "armdyn" / "mechanisms"
+    try:
+        home = Path.home()
+    except RuntimeError:  # a user without a home
+        return Path(os.devnull) / "none"
+    places = {"win32": "AppData/Local", "darwin": "Library/Caches"}
+    return home / places.get(sys.platform, ".cache") / "armdyn" / "mechanisms"
+
+
+def _is_own(folder: Path) -> bool:
+    """Whether nobody else can write here: an entry of others could call a wrong answer right."""
+    if sys.platform == "win32":
+        return folder.is_dir()  # a user's folder is the user's own there
+    found = folder.stat()
+    return found.st_uid == os.geteuid() and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
