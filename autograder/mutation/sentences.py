@@ -5,6 +5,7 @@ Where a teacher has written a better one for a place (ROWS), that one is said.
 """
 
 import fnmatch
+import re
 from dataclasses import dataclass
 
 from autograder.mechanisms import Mechanism
@@ -92,9 +93,9 @@ GENERAL = {
     "parameter of {arm} gives the gravitational acceleration?",
     "small angle": "In your {where}, {term} is right for small angles only. The joint turns all the "
     "way round.",
-    "radians converted": "In your {where}, you convert the angle of {term} to radians. It is in "
+    "radians converted": "In your {where}, you convert the angle in {term} to radians. It is in "
     "radians already.",
-    "angle in degrees": "In your {where}, you convert the angle of {term} to degrees. np.sin and "
+    "angle in degrees": "In your {where}, you convert the angle in {term} to degrees. np.sin and "
     "np.cos take radians.",
     "half of the whole": "Your {where} is half of the right one. Is there a ½ too many?",
     "twice the whole": "Your {where} is twice the right one. Is a ½ missing?",
@@ -174,7 +175,8 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
         "where": mutant.entry or head,
         "term": mutant.term,
         "put": mutant.put,
-        "instead_of": mutant.instead_of,
+        # On a slope a direction is an angle and a constant, of which only the angle is a student's.
+        "instead_of": re.sub(r" [+−-] (\d+\*)?pi(/\d+)?", "", mutant.instead_of),
         "put_doc": put.doc if put else "",
         "kind": KINDS.get(put.unit, "parameter") if put else "",
         "right": f"as {answer.unit}" if turning else "right",
