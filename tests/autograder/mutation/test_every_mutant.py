@@ -58,9 +58,9 @@ def earned(check, calls, given):
     cases = [list(zip(*check.quantities(calls, values), strict=True)) for values in (right, given)]
     total = 0.0
     for criterion, expected, got in zip(check.criteria, *cases, strict=True):
-        sizes = [np.abs(value).max() for value in expected]
+        sizes = [np.abs(value).max(initial=0.0) for value in expected]
         met = (
-            np.abs(g - e).max() <= 1e-5 * (max(size, max(sizes) / 20) or 1.0)
+            np.abs(g - e).max(initial=0.0) <= 1e-5 * (max(size, max(sizes) / 20) or 1.0)
             for e, g, size in zip(expected, got, sizes, strict=True)
         )
         total += criterion.share * all(met)
