@@ -178,7 +178,7 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
         # On a slope a direction is an angle and a constant, of which only the angle is a student's.
         "instead_of": re.sub(r" [+−-] (\d+\*)?pi(/\d+)?", "", mutant.instead_of),
         "put_doc": put.doc if put else "",
-        "kind": KINDS.get(put.unit, "parameter") if put else "",
+        "kind": KINDS.get(put.unit, "parameter") if put else "parameter",
         "right": f"as {answer.unit}" if turning else "right",
         "arm": answer.arguments[-1],
     }
@@ -188,6 +188,8 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
     )
     general = GENERAL if mutant.term else GENERAL | THROUGHOUT
     template = rows[0].sentence if rows else general[mutant.operator]
+    if not put:  # a combination of parameters has a name alone
+        template = template.replace(" ({put_doc})", "")
     if mutant.in_energy and answer.name in DERIVED:
         words["where"], source = ENERGIES[answer.name], DERIVED[answer.name]
         said = template.format(**words)
