@@ -5,7 +5,6 @@ Where a teacher has written a better one for a place (ROWS), that one is said.
 """
 
 import fnmatch
-import re
 from dataclasses import dataclass
 
 from autograder.mechanisms import Mechanism
@@ -175,8 +174,7 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
         "where": mutant.entry or head,
         "term": mutant.term,
         "put": mutant.put,
-        # On a slope a direction is an angle and a constant, of which only the angle is a student's.
-        "instead_of": re.sub(r" [+−-] (\d+\*)?pi(/\d+)?", "", mutant.instead_of),
+        "instead_of": mutant.instead_of,
         "put_doc": put.doc if put else "",
         "kind": KINDS.get(put.unit, "parameter") if put else "parameter",
         "right": f"as {answer.unit}" if turning else "right",
@@ -190,6 +188,8 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
     template = rows[0].sentence if rows else general[mutant.operator]
     if not put:  # a combination of parameters has a name alone
         template = template.replace(" ({put_doc})", "")
+    # On a slope a direction is an angle and a constant, of which only the angle is a student's.
+    words["instead_of"] = mutant.instead_of.partition(" + pi")[0].partition(" - pi")[0]
     if mutant.in_energy and answer.name in DERIVED:
         words["where"], source = ENERGIES[answer.name], DERIVED[answer.name]
         said = template.format(**words)
