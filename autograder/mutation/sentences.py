@@ -103,9 +103,9 @@ GENERAL = {
     "parameter of {arm} gives the gravitational acceleration?",
     "small angle": "In your {where}, {term} is right for small angles only. The joint turns all the "
     "way round.",
-    "radians converted": "In your {where}, you convert the angle of {term} to radians. It is in "
+    "radians converted": "In your {where}, you convert the angle in {term} to radians. It is in "
     "radians already.",
-    "angle in degrees": "In your {where}, you convert the angle of {term} to degrees. np.sin and "
+    "angle in degrees": "In your {where}, you convert the angle in {term} to degrees. np.sin and "
     "np.cos take radians.",
     "half of the whole": "Your {where} is half of the right one. Is there a ½ too many?",
     "twice the whole": "Your {where} is twice the right one. Is a ½ missing?",
@@ -368,7 +368,7 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
         "instead_of": mutant.instead_of,
         "all_of_them": PLURALS.get(mutant.instead_of, "parameters"),
         "put_doc": put.doc if put else "",
-        "kind": KINDS.get(put.unit, "parameter") if put else "",
+        "kind": KINDS.get(put.unit, "parameter") if put else "parameter",
         "right": f"as {answer.unit}" if turning else "right",
         "arm": answer.arguments[-1],
     }
@@ -380,6 +380,10 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
     )
     general = GENERAL if mutant.term else GENERAL | THROUGHOUT
     template = rows[0].sentence if rows else general[mutant.operator]
+    if not put:  # a combination of parameters has a name alone
+        template = template.replace(" ({put_doc})", "")
+    # On a slope a direction is an angle and a constant, of which only the angle is a student's.
+    words["instead_of"] = mutant.instead_of.partition(" + pi")[0].partition(" - pi")[0]
     if mutant.in_energy and answer.name in DERIVED:
         words["where"], source = ENERGIES[answer.name], DERIVED[answer.name]
         said = template.format(**words)

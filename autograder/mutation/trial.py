@@ -12,16 +12,8 @@ from autograder.judging.verdict import State, Verdict
 from autograder.mechanisms import MECHANISMS, Mechanism
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.checks import check_of, mistakes_of
+from autograder.mutation.styles import STYLES
 from autograder.protocol import Call, Reply, read, real
-
-# Ways in which right answers come.
-STYLES: dict[str, Callable] = {
-    "as an array": np.asarray,
-    "in single precision": np.float32,
-    "as nested lists": lambda value: np.asarray(value).tolist(),
-    "rounded in the last digits": lambda value: np.asarray(value) * (1 + 1e-13),
-    "as an array of objects": lambda value: np.asarray(value, dtype=object),
-}
 
 
 class NoMechanismError(ValueError):

@@ -240,7 +240,10 @@ def smooth_motion(n, moves=1.0):
     return q * moves, qd * moves, qdd * moves
 
 
-@pytest.mark.parametrize("digits", [3, 4, 6])
+LONG = pytest.mark.long
+
+
+@pytest.mark.parametrize("digits", [pytest.param(3, marks=LONG), 4, pytest.param(6, marks=LONG)])
 def test_what_only_rounding_of_the_geometry_shows_is_not_known(digits):
     # The arm is exact; its file is not.
     arm, state = puma_560(), smooth_motion(6)

@@ -100,16 +100,15 @@ def test_outside_the_courses_folder_one_line_says_what_to_do(tmp_path, monkeypat
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("command", ["grade", "report"])
 @pytest.mark.parametrize(
-    ("asked", "meant"),
+    ("command", "asked", "meant"),
     [
-        ("p3", "Did you mean p3-pendulum?"),
-        ("P3-Pendulum", "Did you mean p3-pendulum?"),
-        ("pendulum", "Did you mean p3-pendulum?"),
-        ("p3-pendelum", "Did you mean p3-pendulum?"),
-        ("nothing", "There are p3-pendulum."),
-        ("", "There are p3-pendulum."),
+        ("grade", "p3", "Did you mean p3-pendulum?"),
+        ("report", "P3-Pendulum", "Did you mean p3-pendulum?"),
+        ("grade", "pendulum", "Did you mean p3-pendulum?"),
+        ("report", "p3-pendelum", "Did you mean p3-pendulum?"),
+        ("grade", "nothing", "There are p3-pendulum."),
+        ("report", "", "There are p3-pendulum."),
     ],
 )
 def test_an_assignment_that_is_not_there_is_named_with_the_one_that_may_be_meant(
@@ -120,8 +119,10 @@ def test_an_assignment_that_is_not_there_is_named_with_the_one_that_may_be_meant
     assert capsys.readouterr().err == said
 
 
-@pytest.mark.parametrize("asked", [f"{P3}/", f"solutions/{P3}", f"./solutions/{P3}/"])
-@pytest.mark.parametrize("command", ["grade", "report"])
+@pytest.mark.parametrize(
+    ("command", "asked"),
+    [("grade", f"{P3}/"), ("report", f"solutions/{P3}"), ("grade", f"./solutions/{P3}/")],
+)
 def test_an_assignment_may_be_named_by_its_folder(course, capsys, command, asked):
     assert main([command, asked]) == 2  # nothing is released yet
     assert "there is no solutions/" not in capsys.readouterr().err

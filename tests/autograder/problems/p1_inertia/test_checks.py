@@ -11,6 +11,7 @@ from autograder.problems import CHECKS
 from autograder.problems.material.definiteness import MATRICES
 from autograder.problems.p1_inertia.checks import CHECKS as P1
 from tests.autograder.course_problems import problem
+from tests.autograder.seeds import A_THOUSAND
 from tests.autograder.verdicts import assert_right, judged, judged_in, namespace_of, sentences
 
 PROBLEM = problem("p1-inertia")
@@ -144,13 +145,14 @@ def test_ten_variants_each():
     assert all(len(variants) >= 10 for variants in RIGHT.values())
 
 
+@A_THOUSAND
 @pytest.mark.parametrize(
     ("check_id", "variants"),
     [("p1-inertia_from_links", (1, 5)), ("p1-M", (0, 3)), ("p1-is_spd", (0, 4))],
 )
-def test_no_false_alarm_over_a_thousand_seeds(check_id, variants):
+def test_no_false_alarm_over_a_thousand_seeds(check_id, variants, seeds):
     namespaces = [namespace_of(check_id, RIGHT[check_id][k]) for k in variants]
-    for seed in range(1000):
+    for seed in seeds:
         verdict = judged_in(namespaces[seed % 2], check_id, seed, VISIBLE_CASES)
         assert verdict.state is State.CORRECT, (seed, str(verdict))
 

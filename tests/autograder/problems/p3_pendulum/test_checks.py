@@ -9,6 +9,7 @@ from autograder.judging.check import VISIBLE_CASES
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from autograder.problems.p3_pendulum.checks import CHECKS as P3
+from tests.autograder.seeds import A_THOUSAND
 from tests.autograder.verdicts import assert_right, judged, judged_in, namespace_of
 
 MGL = "pend.m * pend.g * pend.lc"
@@ -95,20 +96,22 @@ def test_right_in_any_style(check_id, returned):
     assert_right(judged(check_id, returned, seed=1))
 
 
+@A_THOUSAND
 @pytest.mark.parametrize("check_id", [c.id for c in P3 if c.id != "p3-lagrangian"])
-def test_no_false_alarm_over_a_thousand_seeds(check_id):
+def test_no_false_alarm_over_a_thousand_seeds(check_id, seeds):
     single = f"np.float32({RIGHT[check_id][0]})"
     namespaces = [namespace_of(check_id, r) for r in (RIGHT[check_id][0], single)]
-    for seed in range(1000):
+    for seed in seeds:
         for namespace in namespaces:
             assert judged_in(namespace, check_id, seed, VISIBLE_CASES).state is State.CORRECT
 
 
-def test_no_false_alarm_on_the_lagrangian():
+@A_THOUSAND
+def test_no_false_alarm_on_the_lagrangian(seeds):
     """The same expression each time, as SymPy takes most of the time."""
     L = eval(f"lambda q, qd, m, lc, I, g: {RIGHT['p3-lagrangian'][1]}", {"sp": sp})
     written = L(*(sp.Symbol(name, real=True) for name in ("q", "qd", "m", "lc", "I", "g")))
-    for seed in range(1000):
+    for seed in seeds:
         verdict = judged_in(
             {"lagrangian": lambda *symbols: written}, "p3-lagrangian", seed, VISIBLE_CASES
         )
