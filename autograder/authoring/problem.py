@@ -14,12 +14,14 @@ from autograder.files import put_in_place
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.inertial_parameters import inertial_parameters
+from autograder.mutation.trial import nothing_to_ask
 
 POINTS = {
     "potential_energy": 2, "M": 3, "M_dot": 3, "g_vec": 2, "C": 4, "lagrangian": 2, "f": 4,
     "energy_drift": 2, "regressor": 4,
 }  # fmt: skip
 PROOF_POINTS = 4
+USUAL = ("potential_energy", "M", "g_vec", "C")
 WHAT = {
     "potential_energy": (
         "The potential energy",
@@ -91,23 +93,32 @@ class ProblemError(ValueError):
     """The problem cannot be written; the text says why, and what to do."""
 
 
+def usual_asks(mechanism: Mechanism) -> list[str]:
+    """What a problem asks if nobody says: P, M, g and C, less what is 0 for every motion."""
+    return [answer for answer in USUAL if not nothing_to_ask(mechanism, answer)]
+
+
 def write_problem(root: Path, mechanism: Mechanism, asks: list[str]) -> Path:
     """Write solutions/NAME/NAME.ipynb and its picture, and give the notebook's path.
 
-    asks: names of answers, each once. ProblemError for another name, and where the folder is there.
+    asks: names of answers, each once. ProblemError for another name, for an answer that is 0 for every
+    motion, and where the notebook is there.
     """
     unknown = [answer for answer in asks if answer not in ANSWERS]
     if unknown or not asks or len(set(asks)) < len(asks):
         raise ProblemError(
             f"asks {', '.join(asks) or 'nothing'}: needs some of {', '.join(ANSWERS)}, each once"
         )
+    for answer in asks:
+        if why := nothing_to_ask(mechanism, answer):
+            raise ProblemError(why)
     folder = root / "solutions" / mechanism.name
-    if folder.exists():
-        raise ProblemError(
-            f"{folder.relative_to(root)} is there already; move it away to write the problem again"
-        )
-    folder.mkdir(parents=True)
     path = folder / f"{mechanism.name}.ipynb"
+    if path.exists():
+        raise ProblemError(
+            f"{path.relative_to(root)} is there already; move it away to write the problem again"
+        )
+    folder.mkdir(parents=True, exist_ok=True)
     put_in_place(folder / f"{mechanism.name}.svg", picture(mechanism))
     put_in_place(path, nbformat.writes(notebook(mechanism, asks)) + "\n")
     return path

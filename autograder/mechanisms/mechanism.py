@@ -9,6 +9,8 @@ from types import SimpleNamespace
 import numpy as np
 import sympy as sp
 
+from autograder.mechanisms.units import ENERGY, UnitError, dimension_in, dimension_of, shown
+
 UNITS_OF_COORDINATES = ("rad", "m")
 
 
@@ -120,7 +122,8 @@ class Mechanism:
 
     ValueError, naming what is wrong: for names that are given twice; a coordinate that is no angle (rad)
     or length (m); a range that is empty or not positive; a symbol in an energy that is none of the
-    mechanism's; a term of K that is not quadratic in q̇, or one of P that holds q̇; `points` that fail.
+    mechanism's; a term of K that is not quadratic in q̇, or one of P that holds q̇; a unit that is not
+    known, or a term whose unit is not J; `points` that fail.
     """
 
     name: str
@@ -187,6 +190,7 @@ class Mechanism:
         for friction in self.friction:
             self._refuse_driving(where, friction)
         _once(where, "coefficients of friction", [term.symbol.name for term in self.friction])
+        self._refuse_other_units(where)
         self._try_points(where)
 
     def _refuse_foreign(self, where: str, energy: str, term: EnergyTerm) -> None:
@@ -249,6 +253,28 @@ class Mechanism:
             point = at | {v: sign * at.get(v, 1) for v in self.qd}
             if not float((term.torque * velocity).xreplace(point)) >= 0:
                 raise ValueError(f"{where}: {term.name!r} drives {term.coordinate}; it must resist")
+
+    def _refuse_other_units(self, where: str) -> None:
+        of = {}
+        units = [(c.name, c.unit, c.symbol) for c in self.coordinates]
+        units += [(p.name, p.unit, p.symbol) for p in self.parameters]
+        units += [(c.name, f"{c.unit}/s", c.velocity) for c in self.coordinates]
+        for name, unit, symbol in units:
+            try:
+                of[symbol] = dimension_of(unit)
+            except UnitError as error:
+                raise ValueError(f"{where}: {name}: {error}") from None
+        for energy, terms in (("K", self.kinetic), ("P", self.potential)):
+            for term in terms:
+                try:
+                    found = dimension_in(sp.sympify(term.energy), of)
+                except UnitError as error:
+                    raise ValueError(f"{where}: {term.name!r} of {energy}: {error}") from None
+                if found != ENERGY and sp.sympify(term.energy) != 0:
+                    raise ValueError(
+                        f"{where}: {term.name!r} of {energy} has the unit {shown(found)}, an energy "
+                        "needs J"
+                    )
 
     def _try_points(self, where: str) -> None:
         rng = np.random.default_rng(0)

@@ -7,12 +7,20 @@ import numpy as np
 import pytest
 
 from autograder.authoring.model_answer import model_answer
-from autograder.authoring.problem import ProblemError, notebook, write_problem
-from autograder.cli import main
+from autograder.authoring.problem import (
+    POINTS,
+    USUAL,
+    WHAT,
+    ProblemError,
+    notebook,
+    usual_asks,
+    write_problem,
+)
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.references import reference
-from tests.autograder.courses import NOTEBOOK, P3, new_course, run
+from autograder.mutation.trial import nothing_to_ask
+from tests.autograder.courses import new_course, run
 
 EVERY = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=list(MECHANISMS))
 CART = MECHANISMS["cart-pole"]
@@ -95,9 +103,14 @@ def test_answers_that_cannot_be_asked(tmp_path, asks):
     assert not (tmp_path / "solutions").exists()
 
 
-def test_a_mechanism_that_is_not_there(tmp_path, capsys, monkeypatch):
-    root = new_course(tmp_path / "course")
-    monkeypatch.chdir(root)
-    assert main(["new-problem", "cart"]) == 2
-    assert "there is no mechanism 'cart'; known are pendulum, " in capsys.readouterr().err
-    assert (root / "solutions" / P3 / NOTEBOOK).is_file()
+@EVERY
+def test_the_usual_problem_asks_nothing_that_is_0(mechanism):
+    asks = usual_asks(mechanism)
+    assert "M" in asks
+    assert [answer for answer in USUAL if nothing_to_ask(mechanism, answer)] == [
+        answer for answer in USUAL if answer not in asks
+    ]
+
+
+def test_every_answer_has_its_words_and_points():
+    assert set(POINTS) == set(WHAT) == set(ANSWERS)

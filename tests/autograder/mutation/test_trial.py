@@ -5,6 +5,9 @@ import textwrap
 import pytest
 
 from autograder.cli import main
+from autograder.mechanisms import MECHANISMS
+from autograder.mutation.answers import ANSWERS
+from autograder.mutation.trial import nothing_to_ask
 
 OWN = """
     import sympy as sp
@@ -56,3 +59,19 @@ def test_a_file_without_a_mechanism_says_so(tmp_path, capsys, text, said):
 def test_a_name_of_nothing(capsys, name):
     assert main(["try", name]) == 2
     assert name in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "zero"),
+    [
+        ("pendulum", {"C", "M_dot"}),
+        ("elastic-joint", {"C", "M_dot"}),
+        ("cart-pole", set()),
+        ("slider-crank", set()),
+    ],
+)
+def test_what_is_0_for_every_motion_is_not_asked(mechanism, zero):
+    why = {answer: nothing_to_ask(MECHANISMS[mechanism], answer) for answer in ANSWERS}
+    assert {answer for answer in ANSWERS if why[answer]} == zero
+    for answer in zero:
+        assert f"of {mechanism} is 0 for every motion: ask for something else" in why[answer]
