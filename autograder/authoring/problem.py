@@ -206,7 +206,7 @@ def _symbols(mechanism: Mechanism, friction: bool) -> str:
         for t in mechanism.friction
         if friction
     ]
-    alt = f"The mechanism {mechanism.name}, its links drawn as lines and its joints as circles."
+    alt = f"The mechanism {mechanism.name} in one position; its joints are circles."
     return f"![{alt}]({mechanism.name}.svg)\n\n" + "\n".join(rows)
 
 

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import sympy as sp
 
+from autograder.mechanisms.shapes import SHAPES, Shape, arm
 from autograder.mechanisms.units import ENERGY, UnitError, dimension_in, dimension_of, shown
 
 UNITS_OF_COORDINATES = ("rad", "m")
@@ -118,7 +119,8 @@ class Mechanism:
     kinetic, potential: the named terms whose sums are K (J) and P (J), expressions in the
     coordinates, velocities and parameters of the mechanism. points(q, arm): what is drawn, (x, y) in m
     one after the other; q: (n,), arm: a namespace of the parameters' numbers. friction: named terms
-    too; only an answer that asks for them has their coefficients in its arms.
+    too; only an answer that asks for them has their coefficients in its arms. draws(q, arm): the shapes
+    of the problem's picture (`shapes.py`); without it, links through the points.
 
     ValueError, naming what is wrong: for names that are given twice; a coordinate that is no angle (rad)
     or length (m); a range that is empty or not positive; a symbol in an energy that is none of the
@@ -133,6 +135,7 @@ class Mechanism:
     potential: tuple[EnergyTerm, ...]
     points: Callable[[np.ndarray, SimpleNamespace], Sequence[tuple[float, float]]]
     friction: tuple[FrictionTerm, ...] = ()
+    draws: Callable[[np.ndarray, SimpleNamespace], Sequence[Shape]] | None = None
 
     def __post_init__(self):
         where = f"mechanism {self.name!r}"
@@ -286,6 +289,22 @@ class Mechanism:
             raise ValueError(
                 f"{where}: points gave {points.shape}, needs one (x, y) for each point"
             )
+
+        if self.draws is None:
+            return
+        try:
+            drawn = list(self.draws(self.placed(rng), self.drawn(rng)))
+        except Exception as error:
+            raise ValueError(f"{where}: draws raised {type(error).__name__}: {error}") from error
+        if not drawn or not all(isinstance(shape, SHAPES) for shape in drawn):
+            kinds = ", ".join(kind.__name__ for kind in SHAPES)
+            raise ValueError(f"{where}: draws gave {drawn}, needs a list of {kinds}")
+
+    def shapes(self, q: np.ndarray, given: SimpleNamespace) -> list[Shape]:
+        """What the picture of one position is made of."""
+        if self.draws is not None:
+            return list(self.draws(q, given))
+        return arm([(float(x), float(y)) for x, y in self.points(q, given)])
 
     @property
     def n(self) -> int:
