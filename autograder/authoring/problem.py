@@ -78,7 +78,8 @@ WHAT = {
 }
 FRICTION = (
     " The friction $f(\\dot q)$ has two parts in each coordinate: the viscous one is its "
-    "coefficient times the velocity, and the Coulomb one is its coefficient times the sign of the velocity, 0 at rest."
+    "coefficient times the velocity, and the Coulomb one is its coefficient times the sign of "
+    "the velocity, 0 at rest."
 )
 PROOF = """\
 The Christoffel symbols $h_{ijk} = \\tfrac12\\left(\\frac{\\partial M_{ij}}{\\partial q_k} + \
