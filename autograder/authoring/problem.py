@@ -54,14 +54,15 @@ WHAT = {
     "f": (
         "The first-order form",
         "Write $\\dot x = f(x, u)$ for the state $x = [q;\\, \\dot q]$. Predict $\\dot x$ for a "
-        "mechanism at rest before you run the check.",
+        "mechanism at rest before you run the check.{friction}",
         "ẋ of the state x = [q; q̇], ({twice},), under the input u, ({n},).",
     ),
     "regressor": (
         "The regressor",
         "The left side of the equation of motion without friction is linear in the parameters "
         "$\\pi$ = ({pi}). Write $Y(q, \\dot q, \\ddot q)$ with $Y \\pi = M\\ddot q + C\\dot q + g$: "
-        "one column for each entry of $\\pi$, in this order. Of `arm`, $Y$ may use only what is known.",
+        "one column for each entry of $\\pi$, in this order. Of `arm`, $Y$ may use only "
+        "what is known: {known}.",
         "Y with Y π = M q̈ + C q̇ + g, ({n}, {count}), for π = ({pi}).",
     ),
     "energy_drift": (
@@ -77,6 +78,11 @@ WHAT = {
         "Coriolis and centrifugal matrix in Christoffel form, ({n}, {n}).",
     ),
 }
+FRICTION = (
+    " The friction $f(\\dot q)$ has two parts in each coordinate: the viscous one is its "
+    "coefficient times the velocity, and the Coulomb one is its coefficient times the sign of "
+    "the velocity, 0 at rest."
+)
 PROOF = """\
 The Christoffel symbols $h_{ijk} = \\tfrac12\\left(\\frac{\\partial M_{ij}}{\\partial q_k} + \
 \\frac{\\partial M_{ik}}{\\partial q_j} - \\frac{\\partial M_{jk}}{\\partial q_i}\\right)$ give \
@@ -234,9 +240,11 @@ def _what(mechanism: Mechanism, answer: str) -> list[str]:
         "twice": 2 * mechanism.n,
         "count": len(entries),
         "pi": ", ".join(entries),
+        "known": ", ".join(f"`{p.name}`" for p in mechanism.parameters if p.known) or "nothing",
+        "friction": FRICTION if mechanism.friction else "",
     }
     return [
-        re.sub(r"\{(n|twice|count|pi)\}", lambda at: str(known[at[1]]), text)
+        re.sub(r"\{(n|twice|count|pi|known|friction)\}", lambda at: str(known[at[1]]), text)
         for text in WHAT[answer]
     ]
 

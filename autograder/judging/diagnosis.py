@@ -108,9 +108,8 @@ def mistakes_shown(
     if not wrong:
         return ()
     flat = np.array([_flat(known.values) for known in wrong])
-    for i, j in _nearly_adding_up(
-        flat - _flat(expected), _flat(given) - _flat(expected), tolerance
-    ):
+    slack = tolerance * float(np.max(np.abs(_flat(given)), initial=0.0))
+    for i, j in _nearly_adding_up(flat - _flat(expected), _flat(given) - _flat(expected), slack):
         first, second = wrong[i], wrong[j]
         sums = [x + y - e for x, y, e in zip(first.values, second.values, expected, strict=True)]
         # One error twice is not two mistakes.
@@ -120,10 +119,8 @@ def mistakes_shown(
     return ()
 
 
-def _nearly_adding_up(
-    errors: np.ndarray, error: np.ndarray, tolerance: float
-) -> list[tuple[int, int]]:
-    """The pairs i < j whose errors may add up to this one, in the order of i.
+def _nearly_adding_up(errors: np.ndarray, error: np.ndarray, slack: float) -> list[tuple[int, int]]:
+    """The pairs i < j whose errors may add up to this one to within `slack`, in the order of i.
 
     There may be a hundred thousand pairs. So the errors are compared as one number each, a sum with
     fixed weights, in which a pair that adds up does so too.
@@ -131,8 +128,7 @@ def _nearly_adding_up(
     weights = np.random.default_rng(0).uniform(0.5, 1.0, len(error))
     numbers, wanted = errors @ weights, float(error @ weights)
     order = np.argsort(numbers)
-    size = np.max(np.abs(errors), initial=0.0) + np.max(np.abs(error), initial=0.0)
-    slack = 10 * tolerance * size * np.sum(weights)
+    slack = 10 * slack * np.sum(weights)
     low = np.searchsorted(numbers[order], wanted - numbers - slack)
     high = np.searchsorted(numbers[order], wanted - numbers + slack)
     return [

@@ -2,14 +2,8 @@
 
 from autograder.mechanisms.carts import CART_POLE, SPRING_CART
 from autograder.mechanisms.elastic_joint import ELASTIC_JOINT
-from autograder.mechanisms.mechanism import (
-    Coordinate,
-    EnergyTerm,
-    FrictionTerm,
-    Mechanism,
-    Parameter,
-    joint_friction,
-)
+from autograder.mechanisms.friction import FrictionTerm, joint_friction
+from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
 from autograder.mechanisms.pendulums import FURUTA, PENDULUM, SPHERICAL
 from autograder.mechanisms.planar_arms import (
     PLANAR_2R,

@@ -9,8 +9,9 @@ from types import SimpleNamespace
 import numpy as np
 import sympy as sp
 
+from autograder.mechanisms.friction import FrictionTerm, refuse_other_than_friction
 from autograder.mechanisms.shapes import SHAPES, Shape, arm
-from autograder.mechanisms.units import ENERGY, UnitError, dimension_in, dimension_of, shown
+from autograder.mechanisms.units import refuse_other_than_joules
 
 UNITS_OF_COORDINATES = ("rad", "m")
 
@@ -64,52 +65,6 @@ class EnergyTerm:
 
     name: str
     energy: sp.Expr
-
-
-@dataclass(frozen=True)
-class FrictionTerm:
-    """A torque or force that resists one coordinate, in words: "the viscous friction of joint 1".
-
-    coordinate: its name. coefficient: of the array of arm that holds its number, "viscous" for
-    arm.viscous, which has one entry for each coordinate, 0 where there is no such term; unit, low,
-    high: as a parameter's. torque: an expression in `symbol`, the velocities and the parameters. It
-    stands on the left of the equation of motion, and takes energy out.
-    """
-
-    name: str
-    coordinate: str
-    coefficient: str
-    unit: str
-    torque: sp.Expr
-    low: float = 0.2
-    high: float = 1.5
-
-    @property
-    def symbol(self) -> sp.Symbol:
-        return coefficient(self.coefficient, self.coordinate)
-
-
-def coefficient(name: str, coordinate: str) -> sp.Symbol:
-    """The number of a friction term: its name holds a "_", so that no parameter has it."""
-    return sp.Symbol(f"{name}_{coordinate}", positive=True)
-
-
-def joint_friction(*joints: tuple[Coordinate, str]) -> tuple[FrictionTerm, ...]:
-    """Viscous and Coulomb friction of joints, each with its name in words: (q1, "joint 1").
-
-    As `armdyn.friction`: f = d q̇ + k sign(q̇), and sign(0) = 0.
-    """
-    found = []
-    for c, words in joints:
-        viscous, dry = ("N·m·s/rad", "N·m") if c.unit == "rad" else ("N·s/m", "N")
-        slip, v = sp.sign(c.velocity), c.velocity
-        for name, kind, unit, of in (
-            (f"the viscous friction of {words}", "viscous", viscous, v),
-            (f"the Coulomb friction of {words}", "coulomb", dry, slip),
-        ):
-            torque = coefficient(kind, c.name) * of
-            found.append(FrictionTerm(name, c.name, kind, unit, torque))
-    return tuple(found)
 
 
 @dataclass(frozen=True)
@@ -191,9 +146,9 @@ class Mechanism:
                     "function of the coordinates alone"
                 )
         for friction in self.friction:
-            self._refuse_driving(where, friction)
+            refuse_other_than_friction(where, friction, self)
         _once(where, "coefficients of friction", [term.symbol.name for term in self.friction])
-        self._refuse_other_units(where)
+        refuse_other_than_joules(where, self)
         self._try_points(where)
 
     def _refuse_foreign(self, where: str, energy: str, term: EnergyTerm) -> None:
@@ -226,58 +181,6 @@ class Mechanism:
             [energy(2.0), energy(-3.0)], [4 * once, 9 * once], rtol=1e-9, atol=1e-12
         ):
             raise ValueError(f"{where}: {term.name!r} of K is not quadratic in the velocities")
-
-    def _refuse_driving(self, where: str, term: FrictionTerm) -> None:
-        taken = {p.name for p in self.parameters}
-        if term.coordinate not in [c.name for c in self.coordinates]:
-            raise ValueError(
-                f"{where}: {term.name!r} resists {term.coordinate!r}, which is none of its coordinates"
-            )
-        if not re.fullmatch(r"[A-Za-z]+", term.coefficient) or term.coefficient in taken:
-            raise ValueError(
-                f"{where}: the coefficient {term.coefficient!r} of {term.name!r} needs letters alone, "
-                "and to be no parameter's name"
-            )
-        if not 0 < term.low < term.high:
-            raise ValueError(
-                f"{where}: the coefficient of {term.name!r} is drawn from {term.low} to {term.high}; "
-                "needs 0 < low < high"
-            )
-        known = {*self.qd, term.symbol, *(p.symbol for p in self.parameters)}
-        symbols = sp.sympify(term.torque).free_symbols
-        if unknown := sorted(s.name for s in symbols - known):
-            raise ValueError(
-                f"{where}: {term.name!r} holds {', '.join(unknown)}; it is made of its coefficient, the "
-                "velocities and the parameters"
-            )
-        (velocity,) = (c.velocity for c in self.coordinates if c.name == term.coordinate)
-        at = {s: sp.Rational(k + 2, 3) for k, s in enumerate(sorted(symbols, key=str))}
-        for sign in (1, -1):
-            point = at | {v: sign * at.get(v, 1) for v in self.qd}
-            if not float((term.torque * velocity).xreplace(point)) >= 0:
-                raise ValueError(f"{where}: {term.name!r} drives {term.coordinate}; it must resist")
-
-    def _refuse_other_units(self, where: str) -> None:
-        of = {}
-        units = [(c.name, c.unit, c.symbol) for c in self.coordinates]
-        units += [(p.name, p.unit, p.symbol) for p in self.parameters]
-        units += [(c.name, f"{c.unit}/s", c.velocity) for c in self.coordinates]
-        for name, unit, symbol in units:
-            try:
-                of[symbol] = dimension_of(unit)
-            except UnitError as error:
-                raise ValueError(f"{where}: {name}: {error}") from None
-        for energy, terms in (("K", self.kinetic), ("P", self.potential)):
-            for term in terms:
-                try:
-                    found = dimension_in(sp.sympify(term.energy), of)
-                except UnitError as error:
-                    raise ValueError(f"{where}: {term.name!r} of {energy}: {error}") from None
-                if found != ENERGY and sp.sympify(term.energy) != 0:
-                    raise ValueError(
-                        f"{where}: {term.name!r} of {energy} has the unit {shown(found)}, an energy "
-                        "needs J"
-                    )
 
     def _try_points(self, where: str) -> None:
         rng = np.random.default_rng(0)

@@ -10,13 +10,8 @@ from typing import Literal
 import numpy as np
 import sympy as sp
 
-from autograder.mechanisms.mechanism import (
-    Coordinate,
-    EnergyTerm,
-    Mechanism,
-    Parameter,
-    joint_friction,
-)
+from autograder.mechanisms.friction import joint_friction
+from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
 
 PLACES = {1: "the shoulder", 2: "the elbow", 3: "the wrist"}
 

@@ -3,8 +3,12 @@
 import re
 from collections.abc import Mapping
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import sympy as sp
+
+if TYPE_CHECKING:
+    from autograder.mechanisms.mechanism import Mechanism
 
 # Exponents of kg, m and s. An angle is a number.
 Dimension = tuple[Fraction, Fraction, Fraction]
@@ -130,3 +134,27 @@ def dimension_in(expression: sp.Expr, of: Mapping[sp.Symbol, Dimension]) -> Dime
 def _times(one: Dimension, other: Dimension, power: Fraction | int = 1) -> Dimension:
     kg, m, s = (a + b * power for a, b in zip(one, other, strict=True))
     return kg, m, s
+
+
+def refuse_other_than_joules(where: str, mechanism: "Mechanism") -> None:
+    """ValueError for a term of K or P whose unit is not J, and for a unit that cannot be read."""
+    units = [(c.name, c.unit, c.symbol) for c in mechanism.coordinates]
+    units += [(p.name, p.unit, p.symbol) for p in mechanism.parameters]
+    units += [(c.name, f"{c.unit}/s", c.velocity) for c in mechanism.coordinates]
+    of = {}
+    for name, unit, symbol in units:
+        try:
+            of[symbol] = dimension_of(unit)
+        except UnitError as error:
+            raise ValueError(f"{where}: {name}: {error}") from None
+    for energy, terms in (("K", mechanism.kinetic), ("P", mechanism.potential)):
+        for term in terms:
+            expression = sp.sympify(term.energy)
+            try:
+                found = dimension_in(expression, of)
+            except UnitError as error:
+                raise ValueError(f"{where}: {term.name!r} of {energy}: {error}") from None
+            if found != ENERGY and expression != 0:
+                raise ValueError(
+                    f"{where}: {term.name!r} of {energy} has the unit {shown(found)}, an energy needs J"
+                )

@@ -1,7 +1,8 @@
 """Makes the checks of a mechanism: what is asked, the right answer, and every mistake that follows."""
 
-from collections.abc import Iterator
-from functools import partial
+from collections.abc import Mapping
+from functools import lru_cache, partial
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -35,7 +36,7 @@ def check_of(mechanism: Mechanism, answer: str) -> Check:
         calls=partial(asked.calls, mechanism),
         quantities=quantities,
         criteria=criteria,
-        terms=tuple(_terms(mechanism, asked)),
+        terms=terms_of(mechanism, answer),
         catalogue=partial(_mistakes, mechanism, answer),
         hints=_hints(mechanism, asked),
         pose=lambda call: list(mechanism.points(asked.position(call.args), call.args[-1])),
@@ -65,13 +66,40 @@ def _places(mutant: Mutant) -> list[str]:
 
 
 def _mistakes(mechanism: Mechanism, answer: str, calls: list[Call]) -> list[tuple[Mistake, list]]:
-    numbers = _numbers(mechanism, answer, [call.args for call in calls])
+    numbers = numbers_of(mechanism, answer, calls)
     return list(zip(mistakes_of(mechanism, answer), map(list, numbers), strict=True))
 
 
-def _one(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:
-    """What the k-th mistake returns for one call."""
-    return _numbers(mechanism, answer, [args])[k, 0]
+def numbers_of(mechanism: Mechanism, answer: str, calls: list[Call]) -> np.ndarray:
+    """What each mistake returns for each call, (mistakes, calls, …).
+
+    A call of symbols gives a number for each of its points. Where calls differ in their numbers of
+    rows, as motions do, the array is one of objects, (mistakes, calls).
+    """
+    if calls[0].at:
+        points = [_state(mechanism, point) for call in calls for point in call.at]
+        return _numbers(mechanism, answer, points).reshape(-1, len(calls), len(calls[0].at))
+    args = [call.args for call in calls]
+    places: dict[tuple, list[int]] = {}
+    for k, (first, *_) in enumerate(args):
+        places.setdefault(np.shape(first), []).append(k)
+    if len(places) == 1:
+        return _numbers(mechanism, answer, args)
+    found = np.empty((len(catalogue_of(mechanism, answer).mutants), len(calls)), dtype=object)
+    for alike in places.values():
+        numbers = _numbers(mechanism, answer, [args[k] for k in alike])
+        for m, case in np.ndindex(numbers.shape[:2]):
+            found[m, alike[case]] = numbers[m, case]
+    return found
+
+
+def _state(mechanism: Mechanism, point: Mapping[str, float]) -> tuple:
+    """q, q̇ and the arm of a point at which an expression is tried, by the mechanism's names."""
+    q, qd = (
+        np.array([point[symbol.name] for symbol in symbols])
+        for symbols in (mechanism.q, mechanism.qd)
+    )
+    return q, qd, SimpleNamespace(**{p.name: point[p.name] for p in mechanism.parameters})
 
 
 def _numbers(mechanism: Mechanism, answer: str, calls: list[tuple]) -> np.ndarray:
@@ -80,13 +108,24 @@ def _numbers(mechanism: Mechanism, answer: str, calls: list[tuple]) -> np.ndarra
     return catalogue_of(mechanism, answer).numbers(*columns)
 
 
-def _terms(mechanism: Mechanism, asked: Answer) -> Iterator[Term]:
-    for k, (term, _) in enumerate(asked.terms(mechanism)):
-        yield Term(term.name, partial(_contribution, mechanism, asked.name, k))
+def _one(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:
+    """What the k-th mistake returns for one call."""
+    return _numbers(mechanism, answer, [args])[k, 0]
+
+
+@lru_cache(maxsize=64)
+def terms_of(mechanism: Mechanism, answer: str) -> tuple[Term, ...]:
+    """The parts of the right answer, by the terms of the energies or the torques they come from."""
+    asked = ANSWERS[answer]
+    found = [
+        Term(term.name, partial(_contribution, mechanism, answer, k))
+        for k, (term, _) in enumerate(asked.terms(mechanism))
+    ]
     if asked.composition:
         composed = asked.composition(mechanism)
         for name, numbers in composed.terms.items():
-            yield Term(name, partial(_part, composed, numbers))
+            found.append(Term(name, partial(_part, composed, numbers)))
+    return tuple(found)
 
 
 def _contribution(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:

@@ -170,6 +170,14 @@ GENERAL = {
     "should be. In how many places of the sum over j and k does it appear?",
     "product doubled": "In {where} of your C q̇, the product of velocities {put} counts twice. In how "
     "many places of the sum over j and k does it appear?",
+    "velocity dropped": "In your {where}, the part with the velocity {put} is missing. Which "
+    "derivatives of M does it come with?",
+    "velocity of the wrong sign": "In your {where}, the part with the velocity {put} has the wrong "
+    "sign. Which derivatives of M does it come with?",
+    "velocity halved": "In your {where}, the part with the velocity {put} is half of what it should be. "
+    "Which derivatives of M does it come with?",
+    "velocity doubled": "In your {where}, the part with the velocity {put} counts twice. Which "
+    "derivatives of M does it come with?",
     "lower triangle alone": "Your {where} is 0 above its diagonal. Which property do inertia "
     "matrices have?",
     "sign below the diagonal": "In your {where}, what is below the diagonal has the wrong sign. Which "

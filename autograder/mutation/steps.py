@@ -115,6 +115,10 @@ def _in_one_column(later: bool) -> Step:
     return step
 
 
+# With less, a wrong M is singular but for rounding.
+LEAST_VOLUME = 1e-9
+
+
 def solved(M: np.ndarray, rest: np.ndarray) -> np.ndarray:
     """M⁻¹ times vectors, (…, n); not a number where a wrong M has no inverse."""
     good = _invertible(M)
@@ -128,8 +132,10 @@ def _inverse(M: np.ndarray) -> np.ndarray:
 
 
 def _invertible(M: np.ndarray) -> np.ndarray:
-    volume = np.linalg.det(M)
-    return (np.isfinite(volume) & (volume != 0))[..., np.newaxis]
+    """Whether rows do not all but lie in fewer dimensions: their volume beside that of a box, (…, 1)."""
+    volume = np.abs(np.linalg.det(M))
+    box = np.prod(np.linalg.norm(M, axis=-1), axis=-1)
+    return (np.isfinite(volume) & (volume > LEAST_VOLUME * box))[..., np.newaxis]
 
 
 def rate(first: np.ndarray, second: np.ndarray) -> np.ndarray:

@@ -17,12 +17,7 @@ from autograder.mutation.steps import Right
 from autograder.mutation.whole import slopes, whole
 
 # How often a product of two velocities is held, by what is wrong with it.
-TIMES = {
-    "product dropped": 0.0,
-    "product of the wrong sign": -1.0,
-    "product halved": 0.5,
-    "product doubled": 2.0,
-}
+TIMES = {"dropped": 0.0, "of the wrong sign": -1.0, "halved": 0.5, "doubled": 2.0}
 
 
 def _judged(mechanism: Mechanism) -> Judged:
@@ -104,18 +99,22 @@ def propagated(mechanism: Mechanism, inertia) -> tuple[list[int], Callable[..., 
 
 
 def wrong_products(mechanism: Mechanism) -> Group:
-    """One product of two velocities, in one row of C q̇, that is missing, or not there once."""
+    """A product of two velocities in a row of C q̇, or a velocity in an entry of C, not there once."""
     n, right = mechanism.n, whole(mechanism)
     names = [v.name for v in mechanism.qd]
     mutants, weights = [], []
-    for operator, times in TIMES.items():
+    for words, times in TIMES.items():
         for i in range(n):
             for j, k in combinations_with_replacement(range(n), 2):
                 product = f"{names[j]}²" if j == k else f"{names[j]} {names[k]}"
-                mutants.append(Mutant(operator, entry=f"row {i + 1}", put=product))
-                weight = np.ones((n, n, n))
-                weight[i, [j, k], [k, j]] = times
-                weights.append(weight)
+                mutants.append(Mutant(f"product {words}", entry=f"row {i + 1}", put=product))
+                weights.append(np.ones((n, n, n)))
+                weights[-1][i, [j, k], [k, j]] = times
+        for i, j, k in np.ndindex(n, n, n) if n > 1 else ():
+            entry = f"C{i + 1}{j + 1}"
+            mutants.append(Mutant(f"velocity {words}", entry=entry, put=names[k]))
+            weights.append(np.ones((n, n, n)))
+            weights[-1][i, j, k] = times
 
     def numbers(q, qd, arms):
         h = right(q, qd, arms).christoffel()

@@ -16,7 +16,7 @@ from autograder.mechanisms import (
     Mechanism,
     Parameter,
 )
-from autograder.mechanisms.mechanism import coefficient
+from autograder.mechanisms.friction import coefficient
 from autograder.mutation.references import reference
 
 EVERY = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=list(MECHANISMS))

@@ -10,12 +10,12 @@ from armdyn import Planar2R
 from autograder.judging.verdict import State
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.answers import ANSWERS
-from autograder.mutation.checks import check_of
+from autograder.mutation.checks import check_of, numbers_of
 from autograder.mutation.composed import catalogue_of
 from autograder.mutation.inertial_parameters import inertial_parameters
 from autograder.mutation.references import reference
 from autograder.mutation.sentences import sentence
-from autograder.problems import check_for
+from autograder.problems import CHECKS, check_for
 from tests.autograder.mutation.test_mistakes import judged
 
 EVERY = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=list(MECHANISMS))
@@ -189,6 +189,32 @@ def _absolute(absolute, x, u, arm):
     friction = arm.viscous * qd + arm.coulomb * np.sign(qd)
     loose = SimpleNamespace(**vars(arm) | {"viscous": np.zeros(2), "coulomb": np.zeros(2)})
     return absolute(x, u - friction, loose)
+
+
+@pytest.mark.parametrize(
+    ("id", "mechanism", "answer", "operator", "times"),
+    [
+        ("p5-energy_drift", "planar-2r", "energy_drift", "sign of the whole", -1),  # 5 to 8 rows
+        ("p5-f", "planar-2r", "f", "halves of ẋ swapped", np.eye(4)[[2, 3, 0, 1]]),
+        ("p2-M_dot", "planar-2r", "M_dot", "half of the whole", 0.5),
+        ("p3-lagrangian", "pendulum", "lagrangian", "twice the whole", 2),  # symbols, at points
+    ],
+)
+def test_the_mistakes_are_tried_on_the_calls_of_problems(id, mechanism, answer, operator, times):
+    check, known = CHECKS[id], catalogue_of(MECHANISMS[mechanism], answer).mutants
+    calls = check.calls(np.random.default_rng(7), 6)
+    (place,) = (k for k, mutant in enumerate(known) if mutant.operator == operator)
+    wrong = numbers_of(MECHANISMS[mechanism], answer, calls)[place]
+    assert len(wrong) == len(calls)
+    for call, given in zip(calls, wrong, strict=True):
+        if call.at:
+            right = np.array([check.reference(*point.values()) for point in call.at])
+            # A constant in P is free.
+            assert np.ptp(given - times * right) < 1e-9
+        else:
+            right = check.reference(*call.args)
+            expected = times @ right if np.ndim(times) else times * right
+            np.testing.assert_allclose(given, expected, rtol=1e-9, atol=1e-9)
 
 
 @pytest.mark.parametrize("answer", ANSWERS)
