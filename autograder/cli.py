@@ -52,6 +52,7 @@ def main(arguments: list[str] | None = None) -> int:
         help="try the checks of a mechanism: right answers, every mistake, and what students read",
     )
     trying.add_argument("mechanism", help="its name, such as cart-pole, or a file with MECHANISM")
+    trying.add_argument("--asks", help="try these answers alone, as M,C (default: all)")
     new = commands.add_parser(
         "new-problem", help="write the problem of a mechanism to solutions/, ready to be released"
     )
@@ -70,7 +71,7 @@ def main(arguments: list[str] | None = None) -> int:
         return lab(arguments[1:])
     given = parser.parse_args(arguments)
     if given.command == "try":
-        return try_mechanism(Path.cwd(), given.mechanism)
+        return try_mechanism(Path.cwd(), given.mechanism, given.asks)
     root = Path.cwd()
     if not (root / "nbgrader_config.py").exists():
         return _complain(
@@ -132,12 +133,13 @@ def open_recorder(root: Path, assignment: str) -> "AbstractContextManager[Record
     return recorder.Recorder(root, assignment)
 
 
-def try_mechanism(root: Path, name: str) -> int:
+def try_mechanism(root: Path, name: str, asks: str | None) -> int:
     """Try a mechanism's checks; the exit status is 1 if a mistake is not named by its sentence."""
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.authoring.course import NoMechanismError, files_of, found
     from autograder.authoring.rehearsal import rehearsed
     from autograder.mechanisms.file import MechanismFileError
+    from autograder.mutation.answers import ANSWERS
     from autograder.mutation.trial import tried
 
     try:
@@ -145,8 +147,12 @@ def try_mechanism(root: Path, name: str) -> int:
         files = files_of(root, name, mechanism)
     except (NoMechanismError, MechanismFileError) as error:
         return _complain(str(error))
+    asked = list(ANSWERS) if asks is None else asks.split(",")
+    if unknown := [answer for answer in asked if answer not in ANSWERS]:
+        return _complain(f"there is no answer {unknown[0]!r}; known are {', '.join(ANSWERS)}")
     failed = 0
-    for line, is_as_it_should_be in chain(tried(mechanism), rehearsed(mechanism, files)):
+    lines = chain(tried(mechanism, asked), rehearsed(mechanism, files, asked))
+    for line, is_as_it_should_be in lines:
         say(line if is_as_it_should_be else f"! {line}")
         failed += not is_as_it_should_be
     if failed:

@@ -1,7 +1,7 @@
 """Hands in a problem's own model answers, in ten styles, to the grader that grades the class."""
 
 import copy
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from nbformat import NotebookNode
 
@@ -39,13 +39,15 @@ STYLES = {
 }
 
 
-def rehearsed(mechanism: Mechanism, files: Mapping[str, str]) -> Iterator[tuple[str, bool]]:
+def rehearsed(
+    mechanism: Mechanism, files: Mapping[str, str], asks: Sequence[str] = tuple(ANSWERS)
+) -> Iterator[tuple[str, bool]]:
     """A line for each style: what it gets, and whether that is full credit.
 
     files: the mechanism's own file, name → text, as the grader finds it beside the source.
     """
-    asks = [answer for answer in ANSWERS if not nothing_to_ask(mechanism, answer)]
-    source = notebook(mechanism, asks)
+    asked = [answer for answer in asks if not nothing_to_ask(mechanism, answer)]
+    source = notebook(mechanism, asked)
     yield f"{mechanism.name}, its model answers handed in and graded:", True
     for style, code in STYLES.items():
         graded = grade(_handed_in(source, code), source, "rehearsal", Beside(mechanisms=files))

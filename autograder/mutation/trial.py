@@ -1,6 +1,6 @@
 """Tries the checks of a mechanism: right answers in several styles, and every mistake."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
@@ -37,9 +37,9 @@ def nothing_to_ask(mechanism: Mechanism, answer: str) -> str:
     return f"{of} of {mechanism.name} is 0 for every motion: ask for something else"
 
 
-def tried(mechanism: Mechanism) -> Iterator[tuple[str, bool]]:
+def tried(mechanism: Mechanism, asks: Sequence[str] = tuple(ANSWERS)) -> Iterator[tuple[str, bool]]:
     """Line by line what students will read, each with whether it is as it should be."""
-    for answer in ANSWERS:
+    for answer in asks:
         check = check_of(mechanism, answer)
         if why := nothing_to_ask(mechanism, answer):
             yield f"{check.id}: {why}", True

@@ -7,6 +7,7 @@ import pytest
 from autograder.cli import main
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.answers import ANSWERS
+from autograder.mutation.checks import mistakes_of
 from autograder.mutation.trial import nothing_to_ask
 
 OWN = """
@@ -53,6 +54,23 @@ def test_a_file_without_a_mechanism_says_so(tmp_path, capsys, text, said):
     shown = capsys.readouterr().err
     assert "mine.py" in shown
     assert said in shown
+
+
+def test_some_answers_alone(tmp_path, capsys):
+    path = tmp_path / "block.py"
+    path.write_text(textwrap.dedent(OWN), encoding="utf-8")
+    assert main(["try", str(path), "--asks", "g_vec"]) == 0
+    shown = capsys.readouterr().out
+    assert "block-g_vec: the right answer is correct" in shown
+    assert "block-M" not in shown
+    assert "as SymPy's numbers: full points" in shown
+    assert main(["try", str(path), "--asks", "g"]) == 2
+    assert "there is no answer 'g'; known are M, C" in capsys.readouterr().err
+
+
+def test_a_wrong_column_of_a_regressor_is_named():
+    said = [m.sentence for m in mistakes_of(MECHANISMS["planar-2r-absolute"], "regressor")]
+    assert not [sentence for sentence in said if "()" in sentence or " pi" in sentence]
 
 
 @pytest.mark.parametrize("name", ["cart", "none.py"])
