@@ -5,6 +5,7 @@ import difflib
 import os
 import sys
 from contextlib import AbstractContextManager
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -51,14 +52,18 @@ def main(arguments: list[str] | None = None) -> int:
         help="try the checks of a mechanism: right answers, every mistake, and what students read",
     )
     trying.add_argument("mechanism", help="its name, such as cart-pole, or a file with MECHANISM")
+    trying.add_argument("--asks", help="try these answers alone, as M,C (default: all)")
     new = commands.add_parser(
         "new-problem", help="write the problem of a mechanism to solutions/, ready to be released"
     )
-    new.add_argument("mechanism", help="its name, such as cart-pole; `autograder try` lists them")
+    new.add_argument(
+        "mechanism",
+        help="its name, such as cart-pole; for a name that is new, its file to fill in is written",
+    )
     new.add_argument(
         "--asks",
-        default="potential_energy,M,g_vec,C",
-        help="what students write, in this order (default: %(default)s)",
+        help="what students write, in this order, with commas between (default: "
+        "potential_energy,M,g_vec,C, less what is 0 for every motion)",
     )
     if arguments[:1] == ["lab"]:
         from autograder.lab import lab  # imports Jupyter, which takes a second
@@ -66,7 +71,7 @@ def main(arguments: list[str] | None = None) -> int:
         return lab(arguments[1:])
     given = parser.parse_args(arguments)
     if given.command == "try":
-        return try_mechanism(given.mechanism)
+        return try_mechanism(Path.cwd(), given.mechanism, given.asks)
     root = Path.cwd()
     if not (root / "nbgrader_config.py").exists():
         return _complain(
@@ -78,7 +83,7 @@ def main(arguments: list[str] | None = None) -> int:
     if given.command == "report":
         return report(root, given.assignment)
     if given.command == "new-problem":
-        return new_problem(root, given.mechanism, given.asks.split(","))
+        return new_problem(root, given.mechanism, given.asks)
     return problems(root)
 
 
@@ -128,38 +133,53 @@ def open_recorder(root: Path, assignment: str) -> "AbstractContextManager[Record
     return recorder.Recorder(root, assignment)
 
 
-def try_mechanism(name: str) -> int:
+def try_mechanism(root: Path, name: str, asks: str | None) -> int:
     """Try a mechanism's checks; the exit status is 1 if a mistake is not named by its sentence."""
-    from autograder.mutation.trial import NoMechanismError, found, tried  # imports SymPy
+    from autograder import lean  # noqa: F401  before nbformat is imported
+    from autograder.authoring.course import NoMechanismError, files_of, found
+    from autograder.authoring.rehearsal import rehearsed
+    from autograder.mechanisms.file import MechanismFileError
+    from autograder.mutation.answers import ANSWERS
+    from autograder.mutation.trial import tried
 
     try:
-        mechanism = found(name)
-        failed = 0
-        for line, is_as_it_should_be in tried(mechanism):
-            say(line if is_as_it_should_be else f"! {line}")
-            failed += not is_as_it_should_be
-    except NoMechanismError as error:
+        mechanism = found(root, name)
+        files = files_of(root, name, mechanism)
+    except (NoMechanismError, MechanismFileError) as error:
         return _complain(str(error))
+    asked = list(ANSWERS) if asks is None else asks.split(",")
+    if unknown := [answer for answer in asked if answer not in ANSWERS]:
+        return _complain(f"there is no answer {unknown[0]!r}; known are {', '.join(ANSWERS)}")
+    failed = 0
+    lines = chain(tried(mechanism, asked), rehearsed(mechanism, files, asked))
+    for line, is_as_it_should_be in lines:
+        say(line if is_as_it_should_be else f"! {line}")
+        failed += not is_as_it_should_be
     if failed:
-        return _complain(f"{failed} lines, marked with !, are not as they should be")
+        return _complain(f"{failed} lines, marked with !, are not as they should be", 1)
     return 0
 
 
-def new_problem(root: Path, name: str, asks: list[str]) -> int:
-    """Write a mechanism's problem to solutions/."""
+def new_problem(root: Path, name: str, asks: str | None) -> int:
+    """Write a mechanism's problem to solutions/, or first the file of a new mechanism."""
     from autograder import lean  # noqa: F401  before nbformat is imported
-    from autograder.authoring.problem import ProblemError, write_problem
-    from autograder.mechanisms import MECHANISMS
+    from autograder.authoring.course import FillInError, NoMechanismError, own
+    from autograder.authoring.problem import ProblemError, usual_asks, write_problem
+    from autograder.mechanisms.file import MechanismFileError
 
-    if name not in MECHANISMS:
-        return _complain(f"there is no mechanism {name!r}; known are {', '.join(MECHANISMS)}")
     try:
-        path = write_problem(root, MECHANISMS[name], asks)
-    except ProblemError as error:
+        mechanism = own(root, name)
+        asked = usual_asks(mechanism) if asks is None else asks.split(",")
+        path = write_problem(root, mechanism, asked)
+    except FillInError as error:
+        say(str(error))
+        return 0
+    except (NoMechanismError, MechanismFileError, ProblemError) as error:
         return _complain(str(error))
-    say(f"{path.relative_to(root)}: written. Read it, write the story at its top, and try it:")
-    say(f"  autograder try {name}")
-    say(f"  nbgrader generate_assignment {name}")
+    say(f"{path.relative_to(root)}: written; it asks for {', '.join(asked)}.")
+    say("Read it, write the story at its top, and try it:")
+    say(f"  autograder try {mechanism.name}")
+    say(f"  nbgrader generate_assignment {mechanism.name}")
     return 0
 
 

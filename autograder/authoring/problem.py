@@ -14,12 +14,14 @@ from autograder.files import put_in_place
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.inertial_parameters import inertial_parameters
+from autograder.mutation.trial import nothing_to_ask
 
 POINTS = {
     "potential_energy": 2, "M": 3, "M_dot": 3, "g_vec": 2, "C": 4, "lagrangian": 2, "f": 4,
     "energy_drift": 2, "regressor": 4,
 }  # fmt: skip
 PROOF_POINTS = 4
+USUAL = ("potential_energy", "M", "g_vec", "C")
 WHAT = {
     "potential_energy": (
         "The potential energy",
@@ -52,14 +54,15 @@ WHAT = {
     "f": (
         "The first-order form",
         "Write $\\dot x = f(x, u)$ for the state $x = [q;\\, \\dot q]$. Predict $\\dot x$ for a "
-        "mechanism at rest before you run the check.",
+        "mechanism at rest before you run the check.{friction}",
         "ẋ of the state x = [q; q̇], ({twice},), under the input u, ({n},).",
     ),
     "regressor": (
         "The regressor",
         "The left side of the equation of motion without friction is linear in the parameters "
         "$\\pi$ = ({pi}). Write $Y(q, \\dot q, \\ddot q)$ with $Y \\pi = M\\ddot q + C\\dot q + g$: "
-        "one column for each entry of $\\pi$, in this order. Of `arm`, $Y$ may use only what is known.",
+        "one column for each entry of $\\pi$, in this order. Of `arm`, $Y$ may use only "
+        "what is known: {known}.",
         "Y with Y π = M q̈ + C q̇ + g, ({n}, {count}), for π = ({pi}).",
     ),
     "energy_drift": (
@@ -75,6 +78,11 @@ WHAT = {
         "Coriolis and centrifugal matrix in Christoffel form, ({n}, {n}).",
     ),
 }
+FRICTION = (
+    " The friction $f(\\dot q)$ has two parts in each coordinate: the viscous one is its "
+    "coefficient times the velocity, and the Coulomb one is its coefficient times the sign of "
+    "the velocity, 0 at rest."
+)
 PROOF = """\
 The Christoffel symbols $h_{ijk} = \\tfrac12\\left(\\frac{\\partial M_{ij}}{\\partial q_k} + \
 \\frac{\\partial M_{ik}}{\\partial q_j} - \\frac{\\partial M_{jk}}{\\partial q_i}\\right)$ give \
@@ -91,23 +99,32 @@ class ProblemError(ValueError):
     """The problem cannot be written; the text says why, and what to do."""
 
 
+def usual_asks(mechanism: Mechanism) -> list[str]:
+    """What a problem asks if nobody says: P, M, g and C, less what is 0 for every motion."""
+    return [answer for answer in USUAL if not nothing_to_ask(mechanism, answer)]
+
+
 def write_problem(root: Path, mechanism: Mechanism, asks: list[str]) -> Path:
     """Write solutions/NAME/NAME.ipynb and its picture, and give the notebook's path.
 
-    asks: names of answers, each once. ProblemError for another name, and where the folder is there.
+    asks: names of answers, each once. ProblemError for another name, for an answer that is 0 for every
+    motion, and where the notebook is there.
     """
     unknown = [answer for answer in asks if answer not in ANSWERS]
     if unknown or not asks or len(set(asks)) < len(asks):
         raise ProblemError(
             f"asks {', '.join(asks) or 'nothing'}: needs some of {', '.join(ANSWERS)}, each once"
         )
+    for answer in asks:
+        if why := nothing_to_ask(mechanism, answer):
+            raise ProblemError(why)
     folder = root / "solutions" / mechanism.name
-    if folder.exists():
-        raise ProblemError(
-            f"{folder.relative_to(root)} is there already; move it away to write the problem again"
-        )
-    folder.mkdir(parents=True)
     path = folder / f"{mechanism.name}.ipynb"
+    if path.exists():
+        raise ProblemError(
+            f"{path.relative_to(root)} is there already; move it away to write the problem again"
+        )
+    folder.mkdir(parents=True, exist_ok=True)
     put_in_place(folder / f"{mechanism.name}.svg", picture(mechanism))
     put_in_place(path, nbformat.writes(notebook(mechanism, asks)) + "\n")
     return path
@@ -195,7 +212,7 @@ def _symbols(mechanism: Mechanism, friction: bool) -> str:
         for t in mechanism.friction
         if friction
     ]
-    alt = f"The mechanism {mechanism.name}, its links drawn as lines and its joints as circles."
+    alt = f"The mechanism {mechanism.name} in one position; its joints are circles."
     return f"![{alt}]({mechanism.name}.svg)\n\n" + "\n".join(rows)
 
 
@@ -223,9 +240,11 @@ def _what(mechanism: Mechanism, answer: str) -> list[str]:
         "twice": 2 * mechanism.n,
         "count": len(entries),
         "pi": ", ".join(entries),
+        "known": ", ".join(f"`{p.name}`" for p in mechanism.parameters if p.known) or "nothing",
+        "friction": FRICTION if mechanism.friction else "",
     }
     return [
-        re.sub(r"\{(n|twice|count|pi)\}", lambda at: str(known[at[1]]), text)
+        re.sub(r"\{(n|twice|count|pi|known|friction)\}", lambda at: str(known[at[1]]), text)
         for text in WHAT[answer]
     ]
 

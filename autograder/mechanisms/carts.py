@@ -6,6 +6,7 @@ import sympy as sp
 
 from autograder.mechanisms.friction import joint_friction
 from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.shapes import Cart, Link, Mass, Rail, Spring, Wall
 
 
 def _cart(name: str, spring: bool) -> Mechanism:
@@ -30,17 +31,27 @@ def _cart(name: str, spring: bool) -> Mechanism:
     )
     weight = EnergyTerm("the weight of the pole", pole * g.symbol * sp.cos(theta.symbol))
     energy = EnergyTerm("the spring", k.symbol * x.symbol**2 / 2)
+
+    def points(at, arm):
+        return [
+            (at[0], 0.0),
+            (at[0] + arm.lc * math.sin(at[1]), arm.lc * math.cos(at[1])),
+        ]
+
+    def draws(at, arm):
+        cart, pole = points(at, arm)
+        held = [Wall((-0.8, 0.0)), Spring((-0.8, 0.0), cart)] if spring else []
+        return [Rail(-0.8, 0.9), *held, Cart(cart), Link(cart, pole), Mass(pole)]
+
     return Mechanism(
         name,
         (x, theta),
         (mc, m, lc, I, g, k) if spring else (mc, m, lc, I, g),
         kinetic,
         (weight, energy) if spring else (weight,),
-        lambda at, arm: [
-            (at[0], 0.0),
-            (at[0] + arm.lc * math.sin(at[1]), arm.lc * math.cos(at[1])),
-        ],
+        points,
         joint_friction((x, "the cart"), (theta, "the hinge")),
+        draws,
     )
 
 

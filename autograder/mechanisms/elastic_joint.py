@@ -5,6 +5,7 @@ import math
 import sympy as sp
 
 from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.shapes import Ground, Link, Mass, Spring
 
 
 def _elastic_joint() -> Mechanism:
@@ -34,7 +35,17 @@ def _elastic_joint() -> Mechanism:
             EnergyTerm("the spring", k.symbol * (q1.symbol - q2.symbol) ** 2 / 2),
         ),
         lambda at, arm: [(0.0, 0.0), (arm.lc * math.cos(at[0]), arm.lc * math.sin(at[0]))],
+        draws=_drawn,
     )
+
+
+def _drawn(at, arm):
+    """The motor as a short bar, with the joint's spring between it and the link."""
+    (x, y), (u, v) = ((math.cos(angle), math.sin(angle)) for angle in at)
+    short, held = 0.5 * arm.lc, 0.6 * arm.lc
+    motor, hook = (short * u, short * v), (held * x, held * y)
+    link = [Link((0.0, 0.0), (arm.lc * x, arm.lc * y)), Mass((arm.lc * x, arm.lc * y))]
+    return [Ground((0.0, 0.0)), Spring(motor, hook), Link((0.0, 0.0), motor), *link]
 
 
 ELASTIC_JOINT = _elastic_joint()

@@ -10,6 +10,8 @@ import numpy as np
 import sympy as sp
 
 from autograder.mechanisms.friction import FrictionTerm, refuse_other_than_friction
+from autograder.mechanisms.shapes import SHAPES, Shape, arm
+from autograder.mechanisms.units import refuse_other_than_joules
 
 UNITS_OF_COORDINATES = ("rad", "m")
 
@@ -72,11 +74,13 @@ class Mechanism:
     kinetic, potential: the named terms whose sums are K (J) and P (J), expressions in the
     coordinates, velocities and parameters of the mechanism. points(q, arm): what is drawn, (x, y) in m
     one after the other; q: (n,), arm: a namespace of the parameters' numbers. friction: named terms
-    too; only an answer that asks for them has their coefficients in its arms.
+    too; only an answer that asks for them has their coefficients in its arms. draws(q, arm): the shapes
+    of the problem's picture (`shapes.py`); without it, links through the points.
 
     ValueError, naming what is wrong: for names that are given twice; a coordinate that is no angle (rad)
     or length (m); a range that is empty or not positive; a symbol in an energy that is none of the
-    mechanism's; a term of K that is not quadratic in q̇, or one of P that holds q̇; `points` that fail.
+    mechanism's; a term of K that is not quadratic in q̇, or one of P that holds q̇; a unit that is not
+    known, or a term whose unit is not J; `points` that fail.
     """
 
     name: str
@@ -86,6 +90,7 @@ class Mechanism:
     potential: tuple[EnergyTerm, ...]
     points: Callable[[np.ndarray, SimpleNamespace], Sequence[tuple[float, float]]]
     friction: tuple[FrictionTerm, ...] = ()
+    draws: Callable[[np.ndarray, SimpleNamespace], Sequence[Shape]] | None = None
 
     def __post_init__(self):
         where = f"mechanism {self.name!r}"
@@ -143,6 +148,7 @@ class Mechanism:
         for friction in self.friction:
             refuse_other_than_friction(where, friction, self)
         _once(where, "coefficients of friction", [term.symbol.name for term in self.friction])
+        refuse_other_than_joules(where, self)
         self._try_points(where)
 
     def _refuse_foreign(self, where: str, energy: str, term: EnergyTerm) -> None:
@@ -186,6 +192,22 @@ class Mechanism:
             raise ValueError(
                 f"{where}: points gave {points.shape}, needs one (x, y) for each point"
             )
+
+        if self.draws is None:
+            return
+        try:
+            drawn = list(self.draws(self.placed(rng), self.drawn(rng)))
+        except Exception as error:
+            raise ValueError(f"{where}: draws raised {type(error).__name__}: {error}") from error
+        if not drawn or not all(isinstance(shape, SHAPES) for shape in drawn):
+            kinds = ", ".join(kind.__name__ for kind in SHAPES)
+            raise ValueError(f"{where}: draws gave {drawn}, needs a list of {kinds}")
+
+    def shapes(self, q: np.ndarray, given: SimpleNamespace) -> list[Shape]:
+        """What the picture of one position is made of."""
+        if self.draws is not None:
+            return list(self.draws(q, given))
+        return arm([(float(x), float(y)) for x, y in self.points(q, given)])
 
     @property
     def n(self) -> int:

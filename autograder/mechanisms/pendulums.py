@@ -6,6 +6,7 @@ import sympy as sp
 
 from autograder.mechanisms.friction import joint_friction
 from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.shapes import arm as links
 
 G = Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0)
 
@@ -51,6 +52,7 @@ def _spherical() -> Mechanism:
             ),
         ),
         lambda at, arm: [(0.0, 0.0), (arm.l * math.sin(at[0]), -arm.l * math.cos(at[0]))],
+        draws=_spherical_drawn,
     )
 
 
@@ -86,7 +88,26 @@ def _furuta() -> Mechanism:
         (EnergyTerm("the weight of the pendulum", -m * G.symbol * c * sp.cos(q2.symbol)),),
         lambda at, arm: [(0.0, 0.0), (arm.lc2 * math.sin(at[1]), -arm.lc2 * math.cos(at[1]))],
         joint_friction((q1, "the arm"), (q2, "the pivot")),
+        _furuta_drawn,
     )
+
+
+def _seen(x: float, y: float, z: float) -> tuple[float, float]:
+    """A place in space as it is drawn, the y axis aslant."""
+    return x + 0.4 * y, z + 0.25 * y
+
+
+def _furuta_drawn(at, arm):
+    x, y = arm.l1 * math.cos(at[0]), arm.l1 * math.sin(at[0])
+    swing = arm.lc2 * math.sin(at[1])
+    end = x - swing * math.sin(at[0]), y + swing * math.cos(at[0]), -arm.lc2 * math.cos(at[1])
+    return links([(0.0, 0.0), _seen(x, y, 0.0), _seen(*end)])
+
+
+def _spherical_drawn(at, arm):
+    out = arm.l * math.sin(at[0])
+    bob = _seen(out * math.cos(at[1]), out * math.sin(at[1]), -arm.l * math.cos(at[0]))
+    return links([(0.0, 0.0), bob])
 
 
 PENDULUM = _pendulum()

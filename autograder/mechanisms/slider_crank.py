@@ -6,6 +6,7 @@ import sympy as sp
 
 from autograder.mechanisms.friction import joint_friction
 from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.shapes import Cart, Ground, Link, Rail
 
 
 def _slider_crank() -> Mechanism:
@@ -26,6 +27,11 @@ def _slider_crank() -> Mechanism:
         pin = arm.r * math.cos(at[0]), arm.r * math.sin(at[0])
         return [(0.0, 0.0), pin, (pin[0] + math.sqrt(arm.l**2 - pin[1] ** 2), 0.0)]
 
+    def draws(at, arm):
+        axis, pin, slider = points(at, arm)
+        rail = Rail(slider[0] - 0.2, slider[0] + 0.2)
+        return [Ground(axis), rail, Cart(slider), Link(axis, pin), Link(pin, slider)]
+
     return Mechanism(
         "slider-crank",
         (q,),
@@ -37,6 +43,7 @@ def _slider_crank() -> Mechanism:
         (EnergyTerm("the weight of the crank", mc.symbol * g.symbol * lc.symbol * sp.sin(angle)),),
         points,
         joint_friction((q, "the crank")),
+        draws,
     )
 
 

@@ -6,6 +6,7 @@ import sympy as sp
 
 from autograder.mechanisms.friction import joint_friction
 from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.shapes import Ground, Link, Mass, Slide
 
 
 def _sliding_arm() -> Mechanism:
@@ -35,7 +36,15 @@ def _sliding_arm() -> Mechanism:
         ),
         lambda at, arm: [(0.0, 0.0), (at[1] * math.cos(at[0]), at[1] * math.sin(at[0]))],
         joint_friction((q1, "joint 1"), (q2, "joint 2")),
+        _drawn,
     )
+
+
+def _drawn(at, arm):
+    """Link 1 as a bar, with link 2 as a sleeve on it and its mass in the sleeve."""
+    direction = math.cos(at[0]), math.sin(at[0])
+    end, centre = ((x * direction[0], x * direction[1]) for x in (max(0.9, at[1] + 0.2), at[1]))
+    return [Ground((0.0, 0.0)), Link((0.0, 0.0), end), Slide((0.0, 0.0), centre), Mass(centre)]
 
 
 TURN_AND_SLIDE = _sliding_arm()

@@ -80,6 +80,7 @@ def in_inertial_parameters(mechanism: Mechanism) -> Mechanism:
         potential=rewritten(mechanism.potential),
         points=lambda q, arm: [(0.0, 0.0)],
         friction=(),
+        draws=None,
     )
 
 

@@ -5,10 +5,12 @@ Where a teacher has written a better one for a place (ROWS), that one is said.
 """
 
 import fnmatch
+import re
 from dataclasses import dataclass, replace
 
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS, Answer
+from autograder.mutation.inertial_parameters import inertial_parameters
 from autograder.mutation.mutant import Mutant
 
 PLURALS = {"m": "lengths", "kg": "masses", "kg·m²": "inertias"}
@@ -372,6 +374,12 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
         "right": f"as {answer.unit}" if turning else "right",
         "arm": answer.arguments[-1],
     }
+    if re.fullmatch(r"pi\d+", mutant.put):  # a mistake among the columns of a regressor
+        entries = inertial_parameters(mechanism)
+        for name in ("put", "instead_of"):
+            if match := re.fullmatch(r"pi(\d+)", words[name]):
+                words[name] = entries[int(match[1]) - 1].words
+        words |= {"put_doc": "an entry of π", "kind": "entry"}
     rows = [row for row in ROWS if _fits(row, mutant, mechanism, answer)]
     if mutant.source and not any(row.answer == answer.name for row in rows):
         return f"{FOLLOWS[answer.name][mutant.source]} {_of_source(mutant, mechanism)}"

@@ -1,58 +1,41 @@
 """Tries the checks of a mechanism: right answers in several styles, and every mistake."""
 
-import importlib.util
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check
 from autograder.judging.verdict import State, Verdict
-from autograder.mechanisms import MECHANISMS, Mechanism
+from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.checks import check_of, mistakes_of
 from autograder.mutation.styles import STYLES
 from autograder.protocol import Call, Reply, read, real
 
 
-class NoMechanismError(ValueError):
-    """There is no mechanism of this name, or none in this file; the text says what there is."""
+def nothing_to_ask(mechanism: Mechanism, answer: str) -> str:
+    """Why a problem cannot ask for an answer: it is 0 for every motion, so that zeros earn all points.
+
+    Empty if it can. Tried in numbers, on what the check judges: of P only the changes.
+    """
+    check = check_of(mechanism, answer)
+    calls = check.calls(np.random.default_rng(0), VISIBLE_CASES)
+    right = [check.reference(*map(real, call.args)) for call in calls]
+    judged = [part for parts in check.quantities(calls, right) for part in parts]
+    if any(np.any(np.abs(part) > 1e-12) for part in judged):
+        return ""
+    of = "the change of P" if answer == "potential_energy" else ANSWERS[answer].head
+    return f"{of} of {mechanism.name} is 0 for every motion: ask for something else"
 
 
-def found(name: str) -> Mechanism:
-    """The mechanism of this name, or the MECHANISM of this Python file."""
-    if name in MECHANISMS:
-        return MECHANISMS[name]
-    path = Path(name)
-    if path.suffix != ".py":
-        raise NoMechanismError(
-            f"there is no mechanism {name!r}; known are {', '.join(MECHANISMS)}; a mechanism of your "
-            "own is named by its file, such as my_arm.py"
-        )
-    if not path.is_file():
-        raise NoMechanismError(f"{name}: there is no such file")
-    spec = importlib.util.spec_from_file_location("own_mechanism", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    try:
-        spec.loader.exec_module(module)
-    except Exception as error:  # whatever the lecturer's file raises
-        raise NoMechanismError(f"{name}: {type(error).__name__}: {error}") from error
-    own = getattr(module, "MECHANISM", None)
-    if not isinstance(own, Mechanism):
-        raise NoMechanismError(
-            f"{name}: needs MECHANISM = Mechanism(…), of autograder.mechanisms; it has "
-            f"{'none' if own is None else repr(own)}"
-        )
-    return own
-
-
-def tried(mechanism: Mechanism) -> Iterator[tuple[str, bool]]:
+def tried(mechanism: Mechanism, asks: Sequence[str] = tuple(ANSWERS)) -> Iterator[tuple[str, bool]]:
     """Line by line what students will read, each with whether it is as it should be."""
-    for answer in ANSWERS:
+    for answer in asks:
         check = check_of(mechanism, answer)
+        if why := nothing_to_ask(mechanism, answer):
+            yield f"{check.id}: {why}", True
+            continue
         wrong_styles = [
             style
             for style, given in STYLES.items()

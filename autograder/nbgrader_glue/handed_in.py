@@ -10,7 +10,7 @@ import nbformat
 from nbformat import NotebookNode
 from nbgrader import utils
 
-from autograder.notebook.beside import Beside, choose
+from autograder.notebook.beside import DEFINES, Beside, choose
 from autograder.notebook.recognise import Likeness, likeness
 from autograder.protocol import one_line
 
@@ -51,16 +51,35 @@ def counted(folder: Path, name: str, source: NotebookNode) -> tuple[Path, list[s
 
 
 def beside(folder: Path, source: Path, ignore: list[str], kept: list[str]) -> Beside:
-    """A submission's files without notebooks. The source's replace the student's, except for `kept`."""
+    """A submission's files without notebooks. The source's replace the student's, except for `kept`.
+
+    A mechanism of the source is for the checks alone.
+    """
     found = _files(folder, ignore)
     theirs = {name: path for name, path in found.items() if path.suffix != ".ipynb"}
     ours = _files(source, [*ignore, "*.ipynb"])
     own = theirs.keys() - ours
+    mechanisms = _mechanisms(ours)
+    for name in mechanisms:
+        theirs.pop(name, None)
+        ours.pop(name)
     for name in kept:
         ours.pop(Path(name).as_posix(), None)
     chosen = choose(theirs | ours, own)
     notebooks = dict.fromkeys(found.keys() - theirs.keys(), "it is a notebook")
-    return replace(chosen, left_out={**chosen.left_out, **notebooks})
+    judging = dict.fromkeys(mechanisms, "the checks alone use a mechanism's file")
+    left_out = {**chosen.left_out, **notebooks, **judging}
+    return replace(chosen, left_out=left_out, mechanisms=mechanisms)
+
+
+def _mechanisms(files: dict[str, Path]) -> dict[str, str]:
+    """The texts of those Python files that define a mechanism, by their names."""
+    texts = {
+        name: path.read_text(encoding="utf-8", errors="replace")
+        for name, path in files.items()
+        if path.suffix == ".py" and "/" not in name
+    }
+    return {name: text for name, text in texts.items() if DEFINES.search(text)}
 
 
 def _files(folder: Path, ignore: list[str]) -> dict[str, Path]:

@@ -36,6 +36,8 @@ MISSING_FILE = re.compile(
     r"No such file or directory: '([^']+)'|File `'([^']+)'` not found"
     r"|FileNotFoundError: (?:there is no file )?([^\s;]+)(?: not found\.|[;.])"
 )
+# What tells a mechanism's file from another module of the course.
+DEFINES = re.compile(r"^MECHANISM\b", re.MULTILINE)
 MISSING_MODULE = re.compile(r"No module named '(\w+)")
 
 
@@ -44,17 +46,20 @@ class Beside:
     """The files beside a notebook, by their path from it.
 
     laid: those that its cells find. left_out: why its cells do not find the others. documents: a
-    student's own pictures and texts.
+    student's own pictures and texts. mechanisms: the course's own, as texts, of which checks are made;
+    they are the source's, and no cell finds them.
     """
 
     laid: Mapping[str, bytes] = field(default_factory=dict)
     left_out: Mapping[str, str] = field(default_factory=dict)
     documents: tuple[str, ...] = ()
+    mechanisms: Mapping[str, str] = field(default_factory=dict)
 
     def digest(self) -> str:
         """A name for these files; other files have another name."""
         laid = (part for item in sorted(self.laid.items()) for part in item)
-        return digest(*laid, repr((sorted(self.left_out.items()), self.documents)))
+        mechanisms = sorted(self.mechanisms.items())
+        return digest(*laid, repr((sorted(self.left_out.items()), self.documents, *mechanisms)))
 
     def explanation(self, error: str) -> str:
         """Why a file or module that an error names is not there; empty if it names none."""

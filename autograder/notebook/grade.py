@@ -78,12 +78,15 @@ def _graded(submission, source, seed, beside, said) -> Graded:
                 cell.outputs += _explanations(cell.outputs, beside)
                 continue
             name = grade_id(cell) or ""
-            check = check_for(name)
+            try:
+                check, problem = check_for(name, beside.mechanisms), ""
+            except ValueError as error:  # a broken file of the course's own mechanism
+                check, problem = None, str(error)
             if check is not None:
                 verdict = check.run(ask, stream(seed, name), HIDDEN_CASES)
                 verdict = sitting.naming_an_earlier(check, verdict)
             else:
-                problem = f"No check belongs to the grade cell {name}."
+                problem = problem or f"No check belongs to the grade cell {name}."
                 verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
             if verdict.state is State.CHECK_FAILED:
                 log.error("%s: %s", shown_name(name), shown_note(verdict.problem))

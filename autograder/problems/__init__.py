@@ -2,10 +2,13 @@
 
 import difflib
 import re
+from collections.abc import Mapping
 from functools import lru_cache
+from types import MappingProxyType
 
 from autograder.judging.check import Check
 from autograder.problems.c6_regressor import checks as c6_regressor
+from autograder.problems.own_mechanisms import check_of_file, files_here
 from autograder.problems.p1_inertia import checks as p1_inertia
 from autograder.problems.p2_energy_skew import checks as p2_energy_skew
 from autograder.problems.p3_pendulum import checks as p3_pendulum
@@ -27,10 +30,16 @@ CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 READ = ("p1-proof", "p2-proof", "p3-derivation", "p4-check", "p5-discussion", "c6-discussion")
 
 
-def check_for(id: str) -> Check | None:
-    """The check of this id: of a problem, or of a mechanism such as `cart-pole-M`; None for neither."""
+def check_for(id: str, files: Mapping[str, str] = MappingProxyType({})) -> Check | None:
+    """The check of this id: of a problem, or of a mechanism such as `cart-pole-M`; None for neither.
+
+    files: the course's own mechanisms, name of the file → its text. MechanismFileError if the one that
+    the check needs is broken.
+    """
     if id in CHECKS:
         return CHECKS[id]
+    if check := check_of_file(id, files):
+        return check
     if re.fullmatch(
         r"[a-z0-9-]+-(M|M_dot|C|g_vec|potential_energy|lagrangian|f|energy_drift|regressor)", id
     ):
@@ -57,7 +66,8 @@ class UnknownCheckError(ValueError):
 def known_check(id: object) -> Check:
     """The check of this id; where there is none, UnknownCheckError, with those that are nearest.
 
-    The error says so if a person reads the answer.
+    A mechanism's own file is found in the folder of the notebook. The error says so if a person reads
+    the answer, or if that file may be missing.
     """
     if not isinstance(id, str):
         name = getattr(id, "__name__", "")
@@ -67,9 +77,12 @@ def known_check(id: object) -> Check:
         )
     if id in READ or id.endswith("-proof"):
         raise UnknownCheckError(f"no check judges {id!r}: a person reads it and gives its points")
-    check = check_for(id)
+    check = check_for(id, files_here(id))
     if check is None:
         meant = _meant(nearest(id)) or f"; the checks are {', '.join(CHECKS)}"
+        mechanism, _, answer = id.rpartition("-")
+        if mechanism and answer in {known.name for known in CHECKS.values()}:
+            meant = f", and no {mechanism}.py beside the notebook that could give it{meant}"
         raise UnknownCheckError(f"there is no check {id!r}{meant}")
     return check
 

@@ -1,18 +1,30 @@
 """`autograder new-problem`: a mechanism's notebook, whose model answers pass, released and graded."""
 
 import json
+import re
+from dataclasses import replace
+from xml.etree import ElementTree
 
 import nbformat
 import numpy as np
 import pytest
 
 from autograder.authoring.model_answer import model_answer
-from autograder.authoring.problem import ProblemError, notebook, write_problem
-from autograder.cli import main
+from autograder.authoring.picture import WIDTH, picture
+from autograder.authoring.problem import (
+    POINTS,
+    USUAL,
+    WHAT,
+    ProblemError,
+    notebook,
+    usual_asks,
+    write_problem,
+)
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.references import reference
-from tests.autograder.courses import NOTEBOOK, P3, new_course, run
+from autograder.mutation.trial import nothing_to_ask
+from tests.autograder.courses import new_course, run
 
 EVERY = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=list(MECHANISMS))
 CART = MECHANISMS["cart-pole"]
@@ -83,7 +95,7 @@ def test_a_problem_is_written_released_and_graded(tmp_path):
 def test_nothing_is_written_over(tmp_path):
     path = write_problem(tmp_path, CART, ["M"])
     before = path.read_bytes()
-    with pytest.raises(ProblemError, match="solutions/cart-pole is there already; move it away"):
+    with pytest.raises(ProblemError, match=r"cart-pole\.ipynb is there already; move it away"):
         write_problem(tmp_path, CART, ["M", "C"])
     assert path.read_bytes() == before
 
@@ -95,9 +107,57 @@ def test_answers_that_cannot_be_asked(tmp_path, asks):
     assert not (tmp_path / "solutions").exists()
 
 
-def test_a_mechanism_that_is_not_there(tmp_path, capsys, monkeypatch):
-    root = new_course(tmp_path / "course")
-    monkeypatch.chdir(root)
-    assert main(["new-problem", "cart"]) == 2
-    assert "there is no mechanism 'cart'; known are pendulum, " in capsys.readouterr().err
-    assert (root / "solutions" / P3 / NOTEBOOK).is_file()
+@EVERY
+def test_the_usual_problem_asks_nothing_that_is_0(mechanism):
+    asks = usual_asks(mechanism)
+    assert "M" in asks
+    assert [answer for answer in USUAL if nothing_to_ask(mechanism, answer)] == [
+        answer for answer in USUAL if answer not in asks
+    ]
+
+
+def test_every_answer_has_its_words_and_points():
+    assert set(POINTS) == set(WHAT) == set(ANSWERS)
+
+
+SEEN = {
+    "cart-pole": {"Rail", "Cart", "Link", "Mass"},
+    "spring-cart": {"Rail", "Wall", "Spring", "Cart", "Link", "Mass"},
+    "turn-and-slide": {"Ground", "Link", "Slide", "Mass"},
+    "slider-crank": {"Ground", "Rail", "Cart", "Link"},
+    "planar-3r": {"Ground", "Link", "Mass"},
+}
+
+
+@pytest.mark.parametrize("name", SEEN)
+def test_a_picture_has_the_shapes_of_its_mechanism(name):
+    mechanism, rng = MECHANISMS[name], np.random.default_rng(2)
+    shapes = mechanism.shapes(mechanism.placed(rng), mechanism.drawn(rng))
+    assert {type(shape).__name__ for shape in shapes} == SEEN[name]
+
+
+@EVERY
+def test_a_picture_lies_within_its_frame(mechanism):
+    root = ElementTree.fromstring(picture(mechanism))
+    numbers = [float(x) for x in re.findall(r"-?\d+\.\d", " ".join(_places(root)))]
+    assert min(numbers) >= 0
+    assert max(numbers) <= WIDTH
+
+
+def _places(root):
+    for element in root.iter():
+        yield from (element.get(name, "") for name in ("d", "cx", "cy", "x", "y"))
+
+
+@pytest.mark.parametrize(
+    ("draws", "said"),
+    [
+        (lambda q, arm: [(q[0], 0.0)], "draws gave [("),
+        (lambda q, arm: [], "draws gave [], needs a list of Link, Spring, Slide, Cart"),
+        (lambda q, arm: [arm.nothing], "draws raised AttributeError"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused(draws, said):
+    with pytest.raises(ValueError, match=r"^mechanism 'cart-pole': ") as refused:
+        replace(CART, draws=draws)
+    assert said in str(refused.value)

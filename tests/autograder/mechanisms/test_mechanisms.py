@@ -226,3 +226,73 @@ def test_friction_is_drawn_only_where_it_is_asked_for(mechanism):
 
 def test_lists_are_taken_for_tuples():
     assert replace(PENDULUM, kinetic=list(PENDULUM.kinetic)).kinetic == PENDULUM.kinetic
+
+
+X, THETA = Coordinate("x", "m", "the left end"), Coordinate("theta", "rad", "down")
+MASS, STIFF = Parameter("m", "kg", "mass", 1.0, 2.0), Parameter("k", "N/m", "stiffness", 1.0, 2.0)
+
+
+def _with(term, stiffness="N/m"):
+    """A block on a track with this term of P."""
+    return Mechanism(
+        "block",
+        (X, THETA),
+        (MASS, replace(STIFF, unit=stiffness)),
+        (EnergyTerm("the motion", MASS.symbol * X.velocity**2 / 2),),
+        (EnergyTerm("the spring", term),),
+        lambda q, arm: [(q[0], 0.0)],
+    )
+
+
+x, theta, k = X.symbol, THETA.symbol, STIFF.symbol
+
+
+@pytest.mark.parametrize(
+    ("term", "said"),
+    [
+        (k * x**3, "'the spring' of P has the unit N·m², an energy needs J"),
+        (k * x, "'the spring' of P has the unit N, an energy needs J"),
+        (k * x**2 * THETA.symbol + k * x, "cannot be added or compared"),
+        (k * (x - sp.Rational(1, 10)) ** 2, "a number that has a unit is a Parameter"),
+        (k * x**2 * sp.cos(x), "cos(x) has an argument in m; it needs an angle in rad"),
+        (k ** sp.Rational(3, 2) * x**2, "has the unit kg^(3/2)·m²/s³, an energy needs J"),
+        (k * x**2 * 2**x, "2 has the power x, which needs to be a number"),
+    ],
+)
+def test_a_term_that_is_no_energy_is_refused(term, said):
+    with pytest.raises(ValueError, match=r"^mechanism 'block': 'the spring' of P") as refused:
+        _with(term)
+    assert said in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "term",
+    [
+        k * x**2 * sp.cos(2 * theta) / 2,
+        k * sp.sqrt(x**4) * sp.exp(theta),
+        k * x**2 * sp.atan2(x, 2 * x) * 2**theta,
+        k * sp.Abs(x) * sp.Max(x, 2 * x),
+        sp.S.Zero,
+    ],
+)
+def test_a_term_that_is_an_energy_is_taken(term):
+    assert _with(term).potential[0].energy == term
+
+
+@pytest.mark.parametrize("unit", ["N/m", "kg/s²", "kg s^-2", "kg·m/(m·s²)", "J/m²", "N * m / m**2"])
+def test_one_unit_written_in_other_ways(unit):
+    _with(k * x**2, unit)
+
+
+@pytest.mark.parametrize(
+    ("unit", "said"),
+    [
+        ("N/cm", "k: the unit 'N/cm' holds 'cm'; known are kg, m, s, rad, 1, N, J, W, Hz"),
+        ("N··m", "k: the unit 'N··m' holds ''"),
+        ("kg/m·s", "k: the unit 'kg/m·s' may be read in two ways; write …/(…)"),
+    ],
+)
+def test_a_unit_that_is_not_known(unit, said):
+    with pytest.raises(ValueError, match=r"^mechanism 'block': k: ") as refused:
+        _with(k * x**2, unit)
+    assert said in str(refused.value)

@@ -5,6 +5,10 @@ import textwrap
 import pytest
 
 from autograder.cli import main
+from autograder.mechanisms import MECHANISMS
+from autograder.mutation.answers import ANSWERS
+from autograder.mutation.checks import mistakes_of
+from autograder.mutation.trial import nothing_to_ask
 
 OWN = """
     import sympy as sp
@@ -52,7 +56,40 @@ def test_a_file_without_a_mechanism_says_so(tmp_path, capsys, text, said):
     assert said in shown
 
 
+def test_some_answers_alone(tmp_path, capsys):
+    path = tmp_path / "block.py"
+    path.write_text(textwrap.dedent(OWN), encoding="utf-8")
+    assert main(["try", str(path), "--asks", "g_vec"]) == 0
+    shown = capsys.readouterr().out
+    assert "block-g_vec: the right answer is correct" in shown
+    assert "block-M" not in shown
+    assert "as SymPy's numbers: full points" in shown
+    assert main(["try", str(path), "--asks", "g"]) == 2
+    assert "there is no answer 'g'; known are M, C" in capsys.readouterr().err
+
+
+def test_a_wrong_column_of_a_regressor_is_named():
+    said = [m.sentence for m in mistakes_of(MECHANISMS["planar-2r-absolute"], "regressor")]
+    assert not [sentence for sentence in said if "()" in sentence or " pi" in sentence]
+
+
 @pytest.mark.parametrize("name", ["cart", "none.py"])
 def test_a_name_of_nothing(capsys, name):
     assert main(["try", name]) == 2
     assert name in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "zero"),
+    [
+        ("pendulum", {"C", "M_dot"}),
+        ("elastic-joint", {"C", "M_dot"}),
+        ("cart-pole", set()),
+        ("slider-crank", set()),
+    ],
+)
+def test_what_is_0_for_every_motion_is_not_asked(mechanism, zero):
+    why = {answer: nothing_to_ask(MECHANISMS[mechanism], answer) for answer in ANSWERS}
+    assert {answer for answer in ANSWERS if why[answer]} == zero
+    for answer in zero:
+        assert f"of {mechanism} is 0 for every motion: ask for something else" in why[answer]
