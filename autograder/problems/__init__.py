@@ -5,7 +5,9 @@ import re
 from functools import lru_cache
 
 from autograder.judging.check import Check
+from autograder.problems import families
 from autograder.problems.c6_regressor import checks as c6_regressor
+from autograder.problems.material.conventions import Convention
 from autograder.problems.p1_inertia import checks as p1_inertia
 from autograder.problems.p2_energy_skew import checks as p2_energy_skew
 from autograder.problems.p3_pendulum import checks as p3_pendulum
@@ -27,10 +29,17 @@ CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 READ = ("p1-proof", "p2-proof", "p3-derivation", "p4-check", "p5-discussion", "c6-discussion")
 
 
-def check_for(id: str) -> Check | None:
-    """The check of this id: of a problem, or of a mechanism such as `cart-pole-M`; None for neither."""
+# Those that can give each student an arm of the student's own.
+PROBLEMS_WITH_FAMILIES = families.PROBLEMS
+
+
+def check_for(id: str, own: Convention | None = None) -> Check | None:
+    """The check of this id: of a problem, or of a mechanism such as `cart-pole-M`; None for neither.
+
+    own: the student's own arm, where the problem asks for a family.
+    """
     if id in CHECKS:
-        return CHECKS[id]
+        return CHECKS[id] if own is None else families.on(own, CHECKS[id])
     if re.fullmatch(r"[a-z0-9-]+-(M|C|g_vec|potential_energy)", id):
         return _of_mechanism(id)
     return None
@@ -52,7 +61,7 @@ class UnknownCheckError(ValueError):
         return [str(self)]
 
 
-def known_check(id: object) -> Check:
+def known_check(id: object, own: Convention | None = None) -> Check:
     """The check of this id; where there is none, UnknownCheckError, with those that are nearest.
 
     The error says so if a person reads the answer.
@@ -65,7 +74,7 @@ def known_check(id: object) -> Check:
         )
     if id in READ or id.endswith("-proof"):
         raise UnknownCheckError(f"no check judges {id!r}: a person reads it and gives its points")
-    check = check_for(id)
+    check = check_for(id, own)
     if check is None:
         meant = _meant(nearest(id)) or f"; the checks are {', '.join(CHECKS)}"
         raise UnknownCheckError(f"there is no check {id!r}{meant}")

@@ -79,6 +79,19 @@ class Convention:
         )
 
     @property
+    def zero_at(self) -> tuple[str, str]:
+        """Where q1 and q2 are 0, in words."""
+        places = {0: "along the x axis", -1: "along the −y axis"}
+        first, second = np.round(self.zeros / (np.pi / 2)).astype(int)
+        if self.angles == "relative":
+            of_second = "link 2 is in line with link 1"
+        elif self.angles == "square":
+            of_second = "link 2 is at a right angle to link 1, to its left"
+        else:
+            of_second = f"link 2 is {places[int(second)]}, wherever link 1 points"
+        return f"link 1 is {places[int(first)]}", of_second
+
+    @property
     def mechanism(self) -> "Mechanism":
         """The same arm by its energies, of which mistakes are made."""
         return _mechanism(self)
