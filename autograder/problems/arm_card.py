@@ -19,14 +19,20 @@ def mimebundle(own: Convention, whose: str, arm: object, code: str) -> dict[str,
 
     whose: "the arm of s1234". arm: its parameters, or None. code: the functions that are given.
     """
-    title = f"This is {whose}" + (": the arm of the figure above." if own == BOOK else ".")
+    title = f"This is {whose}" + (
+        ": the one that the table above describes." if own == BOOK else "."
+    )
     rows = [
         ("q1 = 0", f"{own.zero_at[0]}; q1 grows counter-clockwise"),
         ("q2 = 0", f"{own.zero_at[1]}; q2 grows counter-clockwise"),
         ("gravity", f"{own.facts[2].removeprefix('gravity ')}"),
         *([("parameters", _numbers(arm))] if arm is not None else []),
     ]
-    note = "" if own == BOOK else "This table and this picture count, and not the figure above."
+    note = (
+        ""
+        if own == BOOK
+        else "What is said here of the angles and of gravity counts, not what is said above."
+    )
     text = "\n".join(
         [title, *(f"  {name:11} {value}" for name, value in rows), *filter(None, [note])]
     )
