@@ -10,14 +10,19 @@ from autograder.mutation.answers import ANSWERS
 
 def model_answer(mechanism: Mechanism, answer: str) -> list[str]:
     """The lines of the function's body: a name for each entry that is not 0, then what is returned."""
+    if answer in MADE_OF_OTHERS:
+        return MADE_OF_OTHERS[answer](mechanism)
+    lines, value = _entries(mechanism, answer)
+    return [*lines, f"return {value}"]
+
+
+def _entries(mechanism: Mechanism, answer: str) -> tuple[list[str], str]:
+    """The lines that name the entries, and the array or number that they make."""
     asked = ANSWERS[answer]
-    derived = asked.of_kinetic or asked.of_potential
-    assert derived is not None
-    energy = mechanism.K if asked.of_kinetic else mechanism.P
-    texts = [_python(mechanism, entry) for entry in derived(energy, mechanism)]
+    texts = [_python(mechanism, entry) for entry in asked.entries(mechanism)]
     shape = asked.shape(mechanism.n)
     if not shape:
-        return [f"return {texts[0]}"]
+        return [], texts[0]
     head = answer.removesuffix("_vec")
     lines, shown = [], np.empty(shape, dtype=object)
     named = {"0": "0.0"}
@@ -27,13 +32,48 @@ def model_answer(mechanism: Mechanism, answer: str) -> list[str]:
             lines.append(f"{named[text]} = {text}")
         shown[at] = named[text]
     rows = shown if len(shape) == 1 else [f"[{', '.join(row)}]" for row in shown]
-    return [*lines, f"return np.array([{', '.join(rows)}])"]
+    return lines, f"np.array([{', '.join(rows)}])"
+
+
+def _first_order(mechanism: Mechanism) -> list[str]:
+    lines = [f"q, qd = x[:{mechanism.n}], x[{mechanism.n}:]"]
+    for answer in ("M", "C", "g_vec"):
+        entries, value = _entries(mechanism, answer)
+        lines += [*entries, f"{answer.removesuffix('_vec')} = {value}"]
+    rest = "u - C @ qd - g"
+    if mechanism.friction:
+        torques = [
+            sum(t.torque for t in mechanism.friction if mechanism.place(t) == i)
+            for i in range(mechanism.n)
+        ]
+        shown = ", ".join(_python(mechanism, torque) for torque in torques)
+        lines.append(f"friction = np.array([{shown}])")
+        rest += " - friction"
+    return [*lines, f"return np.concatenate([qd, np.linalg.solve(M, {rest})])"]
+
+
+def _energy_drift(mechanism: Mechanism) -> list[str]:
+    return [
+        f"q, qd = x[:, :{mechanism.n}].T, x[:, {mechanism.n}:].T",
+        f"K = {_python(mechanism, mechanism.K)}",
+        f"P = {_python(mechanism, mechanism.P)}",
+        "E = K + P",
+        "return E - E[0]",
+    ]
+
+
+MADE_OF_OTHERS = {"f": _first_order, "energy_drift": _energy_drift}
 
 
 def _python(mechanism: Mechanism, expression: sp.Expr) -> str:
     """The expression in q, qd and arm, as derived or with its common factors out, as is shorter."""
+    expression = sp.sympify(expression)
     shorter = min(expression, sp.factor_terms(sp.expand(expression)), key=sp.count_ops)
     written = {s: sp.Symbol(f"q[{i}]") for i, s in enumerate(mechanism.q)}
     written |= {s: sp.Symbol(f"qd[{i}]") for i, s in enumerate(mechanism.qd)}
     written |= {p.symbol: sp.Symbol(f"arm.{p.name}") for p in mechanism.parameters}
+    written |= {
+        t.symbol: sp.Symbol(f"arm.{t.coefficient}[{mechanism.place(t)}]")
+        for t in mechanism.friction
+    }
     return NumPyPrinter().doprint(shorter.xreplace(written)).replace("numpy.", "np.")

@@ -1,6 +1,7 @@
 """Writes a problem's notebook in nbgrader's source form: symbols, answers, checks and a proof."""
 
 from pathlib import Path
+from string import ascii_uppercase
 
 import nbformat
 import numpy as np
@@ -12,7 +13,10 @@ from autograder.files import put_in_place
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
 
-POINTS = {"potential_energy": 2, "M": 3, "g_vec": 2, "C": 4}
+POINTS = {
+    "potential_energy": 2, "M": 3, "M_dot": 3, "g_vec": 2, "C": 4, "lagrangian": 2, "f": 4,
+    "energy_drift": 2, "regressor": 4,
+}  # fmt: skip
 PROOF_POINTS = 4
 WHAT = {
     "potential_energy": (
@@ -27,11 +31,33 @@ WHAT = {
         "Before you run the check, say which of its entries change with $q$.",
         "Inertia matrix, ({n}, {n}).",
     ),
+    "M_dot": (
+        "The rate of the inertia matrix",
+        "Write $\\dot M(q, \\dot q)$, the derivative of $M(q(t))$ with respect to time along a motion.",
+        "dM/dt along qd, ({n}, {n}).",
+    ),
     "g_vec": (
         "The vector $g(q)$",
         "Write $g(q) = \\partial P / \\partial q$, on the **left** of the equation of motion. Predict "
         "its signs for one position before you run the check.",
         "∂P/∂q, ({n},): gravity and springs.",
+    ),
+    "lagrangian": (
+        "The Lagrangian",
+        "Write $L = K - P$. Where you put the zero of $P$ is up to you.",
+        "Lagrangian K − P, J.",
+    ),
+    "f": (
+        "The first-order form",
+        "Write $\\dot x = f(x, u)$ for the state $x = [q;\\, \\dot q]$. Predict $\\dot x$ for a "
+        "mechanism at rest before you run the check.",
+        "ẋ of the state x = [q; q̇], ({twice},), under the input u, ({n},).",
+    ),
+    "energy_drift": (
+        "The drift of the energy",
+        "A simulation gives states, one in each row of `x`. Write by how much the energy $E = K + P$ "
+        "has changed since the first of them, for each row.",
+        "E of each row of x less E of the first, (len(x),), J.",
     ),
     "C": (
         "The matrix $C(q, \\dot q)$",
@@ -82,13 +108,16 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
     """The problem in nbgrader's source form, with model answers."""
     name = mechanism.name
     proof = "C" in asks  # what it asks about
+    friction = any(ANSWERS[answer].friction for answer in asks)
     total = sum(POINTS[answer] for answer in asks) + (PROOF_POINTS if proof else 0)
     cells = [
-        new_markdown_cell(_title(mechanism, total), id=f"{name}-title"),
-        new_markdown_cell(_symbols(mechanism), id=f"{name}-symbols"),
-        new_code_cell(_setup(mechanism), id=f"{name}-setup", metadata=_locked(f"{name}-setup")),
+        new_markdown_cell(_title(mechanism, total, friction), id=f"{name}-title"),
+        new_markdown_cell(_symbols(mechanism, friction), id=f"{name}-symbols"),
+        new_code_cell(
+            _setup(mechanism, friction), id=f"{name}-setup", metadata=_locked(f"{name}-setup")
+        ),
     ]
-    for letter, answer in zip("ABCDEFGH", asks, strict=False):
+    for letter, answer in zip(ascii_uppercase, asks, strict=False):
         title, task, doc = WHAT[answer]
         points = POINTS[answer]
         cells += [
@@ -112,7 +141,7 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
         ]
     if proof:
         cells += [
-            new_markdown_cell(_proof_task("ABCDEFGH"[len(asks)]), id=f"{name}-proof-task"),
+            new_markdown_cell(_proof_task(ascii_uppercase[len(asks)]), id=f"{name}-proof-task"),
             new_markdown_cell(
                 f"### BEGIN SOLUTION\n{PROOF}\n### END SOLUTION",
                 id=f"{name}-proof",
@@ -132,16 +161,17 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
     )
 
 
-def _title(mechanism: Mechanism, total: int) -> str:
+def _title(mechanism: Mechanism, total: int, friction: bool) -> str:
     words = mechanism.name.replace("-", " ")
+    resisting = " + f(\\dot q)" if friction and mechanism.friction else ""
     return (
         f"# Problem: {words}\n\nThe equation of motion of this mechanism has the canonical form\n\n"
-        "$$M(q)\\,\\ddot q + C(q,\\dot q)\\,\\dot q + g(q) = u .$$\n\n"
+        f"$$M(q)\\,\\ddot q + C(q,\\dot q)\\,\\dot q + g(q){resisting} = u .$$\n\n"
         f"You will write its parts as functions of numbers. {total} points."
     )
 
 
-def _symbols(mechanism: Mechanism) -> str:
+def _symbols(mechanism: Mechanism, friction: bool) -> str:
     rows = ["| in code | meaning | unit |", "|---|---|---|"]
     for i, c in enumerate(mechanism.coordinates):
         rows.append(f"| `q[{i}]` | ${_latex(c.name)}$: 0 is {c.zero} | {c.unit} |")
@@ -150,6 +180,11 @@ def _symbols(mechanism: Mechanism) -> str:
     rows += [
         f"| `arm.{p.name}` | {p.doc.replace('|', '&#124;')} | {p.unit} |"
         for p in mechanism.parameters
+    ]
+    rows += [
+        f"| `arm.{t.coefficient}[{mechanism.place(t)}]` | coefficient of {t.name} | {t.unit} |"
+        for t in mechanism.friction
+        if friction
     ]
     alt = f"The mechanism {mechanism.name}, its links drawn as lines and its joints as circles."
     return f"![{alt}]({mechanism.name}.svg)\n\n" + "\n".join(rows)
@@ -162,18 +197,24 @@ def _latex(name: str) -> str:
     return f"{head}_{index}" if index else head
 
 
-def _setup(mechanism: Mechanism) -> str:
-    drawn = mechanism.drawn(np.random.default_rng(1))
-    given = ", ".join(f"{name}={value:.3g}" for name, value in vars(drawn).items())
+def _setup(mechanism: Mechanism, friction: bool) -> str:
+    drawn = vars(mechanism.drawn(np.random.default_rng(1), friction))
+    given = ", ".join(f"{name}={_number(value)}" for name, value in drawn.items())
     return (
         "from types import SimpleNamespace\n\nimport numpy as np\n\n"
         f"from autograder import check, hint\n\narm = SimpleNamespace({given})"
     )
 
 
+def _number(value: float | np.ndarray) -> str:
+    if isinstance(value, np.ndarray):
+        return f"np.array([{', '.join(f'{entry:.3g}' for entry in value)}])"
+    return f"{value:.3g}"
+
+
 def _answer(mechanism: Mechanism, answer: str, doc: str) -> str:
     body = ["### BEGIN SOLUTION", *model_answer(mechanism, answer), "### END SOLUTION"]
-    lines = [f'"""{doc.format(n=mechanism.n)}"""', *body]
+    lines = [f'"""{doc.format(n=mechanism.n, twice=2 * mechanism.n)}"""', *body]
     return f"def {ANSWERS[answer].signature}:\n" + "\n".join(f"    {line}" for line in lines)
 
 

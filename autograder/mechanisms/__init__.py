@@ -2,7 +2,14 @@
 
 from autograder.mechanisms.carts import CART_POLE, SPRING_CART
 from autograder.mechanisms.elastic_joint import ELASTIC_JOINT
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    FrictionTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 from autograder.mechanisms.pendulums import FURUTA, PENDULUM, SPHERICAL
 from autograder.mechanisms.planar_arms import (
     PLANAR_2R,
@@ -15,7 +22,15 @@ from autograder.mechanisms.planar_arms import (
 from autograder.mechanisms.slider_crank import SLIDER_CRANK
 from autograder.mechanisms.sliding_arm import TURN_AND_SLIDE
 
-__all__ = ["MECHANISMS", "Coordinate", "EnergyTerm", "Mechanism", "Parameter"]
+__all__ = [
+    "MECHANISMS",
+    "Coordinate",
+    "EnergyTerm",
+    "FrictionTerm",
+    "Mechanism",
+    "Parameter",
+    "joint_friction",
+]
 
 MECHANISMS = {
     mechanism.name: mechanism

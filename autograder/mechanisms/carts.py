@@ -4,7 +4,13 @@ import math
 
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 
 def _cart(name: str, spring: bool) -> Mechanism:
@@ -39,6 +45,7 @@ def _cart(name: str, spring: bool) -> Mechanism:
             (at[0], 0.0),
             (at[0] + arm.lc * math.sin(at[1]), arm.lc * math.cos(at[1])),
         ],
+        joint_friction((x, "the cart"), (theta, "the hinge")),
     )
 
 

@@ -55,12 +55,59 @@ class EnergyTerm:
 
 
 @dataclass(frozen=True)
+class FrictionTerm:
+    """A torque or force that resists one coordinate, in words: "the viscous friction of joint 1".
+
+    coordinate: its name. coefficient: of the array of arm that holds its number, "viscous" for
+    arm.viscous, which has one entry for each coordinate, 0 where there is no such term; unit, low,
+    high: as a parameter's. torque: an expression in `symbol`, the velocities and the parameters. It
+    stands on the left of the equation of motion, and takes energy out.
+    """
+
+    name: str
+    coordinate: str
+    coefficient: str
+    unit: str
+    torque: sp.Expr
+    low: float = 0.2
+    high: float = 1.5
+
+    @property
+    def symbol(self) -> sp.Symbol:
+        return coefficient(self.coefficient, self.coordinate)
+
+
+def coefficient(name: str, coordinate: str) -> sp.Symbol:
+    """The number of a friction term: its name holds a "_", so that no parameter has it."""
+    return sp.Symbol(f"{name}_{coordinate}", positive=True)
+
+
+def joint_friction(*joints: tuple[Coordinate, str]) -> tuple[FrictionTerm, ...]:
+    """Viscous and Coulomb friction of joints, each with its name in words: (q1, "joint 1").
+
+    As `armdyn.friction`: f = d q̇ + k sign(q̇), and sign(0) = 0.
+    """
+    found = []
+    for c, words in joints:
+        viscous, dry = ("N·m·s/rad", "N·m") if c.unit == "rad" else ("N·s/m", "N")
+        slip, v = sp.sign(c.velocity), c.velocity
+        for name, kind, unit, of in (
+            (f"the viscous friction of {words}", "viscous", viscous, v),
+            (f"the Coulomb friction of {words}", "coulomb", dry, slip),
+        ):
+            torque = coefficient(kind, c.name) * of
+            found.append(FrictionTerm(name, c.name, kind, unit, torque))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
 class Mechanism:
     """A robot given by its energies.
 
     kinetic, potential: the named terms whose sums are K (J) and P (J), expressions in the
     coordinates, velocities and parameters of the mechanism. points(q, arm): what is drawn, (x, y) in m
-    one after the other; q: (n,), arm: a namespace of the parameters' numbers.
+    one after the other; q: (n,), arm: a namespace of the parameters' numbers. friction: named terms
+    too; only an answer that asks for them has their coefficients in its arms.
 
     ValueError, naming what is wrong: for names that are given twice; a coordinate that is no angle (rad)
     or length (m); a range that is empty or not positive; a symbol in an energy that is none of the
@@ -73,6 +120,7 @@ class Mechanism:
     kinetic: tuple[EnergyTerm, ...]
     potential: tuple[EnergyTerm, ...]
     points: Callable[[np.ndarray, SimpleNamespace], Sequence[tuple[float, float]]]
+    friction: tuple[FrictionTerm, ...] = ()
 
     def __post_init__(self):
         where = f"mechanism {self.name!r}"
@@ -98,7 +146,9 @@ class Mechanism:
         names = [c.name for c in self.coordinates] + [p.name for p in self.parameters]
         names += [c.velocity.name for c in self.coordinates]
         _once(where, "symbols", names)
-        _once(where, "energy terms", [term.name for term in (*self.kinetic, *self.potential)])
+        terms = [term.name for term in (*self.kinetic, *self.potential)]
+        _once(where, "energy terms", terms)
+        _once(where, "terms", [*terms, *(term.name for term in self.friction)])
         for coordinate in self.coordinates:
             if coordinate.unit not in UNITS_OF_COORDINATES:
                 raise ValueError(
@@ -125,6 +175,9 @@ class Mechanism:
                     f"{where}: {term.name!r} of P holds {', '.join(held)}, a velocity; P is a "
                     "function of the coordinates alone"
                 )
+        for friction in self.friction:
+            self._refuse_driving(where, friction)
+        _once(where, "coefficients of friction", [term.symbol.name for term in self.friction])
         self._try_points(where)
 
     def _refuse_foreign(self, where: str, energy: str, term: EnergyTerm) -> None:
@@ -158,6 +211,36 @@ class Mechanism:
         ):
             raise ValueError(f"{where}: {term.name!r} of K is not quadratic in the velocities")
 
+    def _refuse_driving(self, where: str, term: FrictionTerm) -> None:
+        taken = {p.name for p in self.parameters}
+        if term.coordinate not in [c.name for c in self.coordinates]:
+            raise ValueError(
+                f"{where}: {term.name!r} resists {term.coordinate!r}, which is none of its coordinates"
+            )
+        if not re.fullmatch(r"[A-Za-z]+", term.coefficient) or term.coefficient in taken:
+            raise ValueError(
+                f"{where}: the coefficient {term.coefficient!r} of {term.name!r} needs letters alone, "
+                "and to be no parameter's name"
+            )
+        if not 0 < term.low < term.high:
+            raise ValueError(
+                f"{where}: the coefficient of {term.name!r} is drawn from {term.low} to {term.high}; "
+                "needs 0 < low < high"
+            )
+        known = {*self.qd, term.symbol, *(p.symbol for p in self.parameters)}
+        symbols = sp.sympify(term.torque).free_symbols
+        if unknown := sorted(s.name for s in symbols - known):
+            raise ValueError(
+                f"{where}: {term.name!r} holds {', '.join(unknown)}; it is made of its coefficient, the "
+                "velocities and the parameters"
+            )
+        (velocity,) = (c.velocity for c in self.coordinates if c.name == term.coordinate)
+        at = {s: sp.Rational(k + 2, 3) for k, s in enumerate(sorted(symbols, key=str))}
+        for sign in (1, -1):
+            point = at | {v: sign * at.get(v, 1) for v in self.qd}
+            if not float((term.torque * velocity).xreplace(point)) >= 0:
+                raise ValueError(f"{where}: {term.name!r} drives {term.coordinate}; it must resist")
+
     def _try_points(self, where: str) -> None:
         rng = np.random.default_rng(0)
         try:
@@ -189,11 +272,21 @@ class Mechanism:
     def P(self) -> sp.Expr:
         return sp.Add(*(term.energy for term in self.potential))
 
-    def drawn(self, rng: np.random.Generator) -> SimpleNamespace:
-        """Random parameters from their ranges, by their names."""
-        return SimpleNamespace(
+    def drawn(self, rng: np.random.Generator, friction: bool = False) -> SimpleNamespace:
+        """Random parameters from their ranges, by their names; with friction also its coefficients, an
+        array (n,) of each kind.
+        """
+        arm = SimpleNamespace(
             **{p.name: float(rng.uniform(p.low, p.high)) for p in self.parameters}
         )
+        for term in self.friction if friction else ():
+            numbers = vars(arm).setdefault(term.coefficient, np.zeros(self.n))
+            numbers[self.place(term)] = rng.uniform(term.low, term.high)
+        return arm
+
+    def place(self, term: FrictionTerm) -> int:
+        """The place of the coordinate that a friction term resists."""
+        return [c.name for c in self.coordinates].index(term.coordinate)
 
     def placed(self, rng: np.random.Generator) -> np.ndarray:
         """A random q, (n,): angles whose sine and cosine do not nearly vanish, lengths up to 1 m."""
@@ -211,6 +304,7 @@ _KINDS = {
     "parameters": Parameter,
     "kinetic": EnergyTerm,
     "potential": EnergyTerm,
+    "friction": FrictionTerm,
 }
 
 

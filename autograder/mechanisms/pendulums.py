@@ -4,7 +4,13 @@ import math
 
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 G = Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0)
 
@@ -22,6 +28,7 @@ def _pendulum() -> Mechanism:
         (EnergyTerm("the rotation of the body", I.symbol * q.velocity**2 / 2),),
         (EnergyTerm("the weight of the body", weight * (1 - sp.cos(q.symbol))),),
         lambda at, arm: [(0.0, 0.0), (arm.lc * math.sin(at[0]), -arm.lc * math.cos(at[0]))],
+        joint_friction((q, "the pivot")),
     )
 
 
@@ -81,6 +88,7 @@ def _furuta() -> Mechanism:
         ),
         (EnergyTerm("the weight of the pendulum", -m * G.symbol * c * sp.cos(q2.symbol)),),
         lambda at, arm: [(0.0, 0.0), (arm.lc2 * math.sin(at[1]), -arm.lc2 * math.cos(at[1]))],
+        joint_friction((q1, "the arm"), (q2, "the pivot")),
     )
 
 

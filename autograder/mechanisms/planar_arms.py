@@ -10,7 +10,13 @@ from typing import Literal
 import numpy as np
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 PLACES = {1: "the shoulder", 2: "the elbow", 3: "the wrist"}
 
@@ -73,7 +79,8 @@ def planar_arm(
             drawn.append((float(at[0]), float(at[1])))
         return drawn
 
-    return Mechanism(name, tuple(q), parameters, tuple(kinetic), tuple(potential), points)
+    friction = joint_friction(*((c, f"joint {i}") for i, c in enumerate(q, 1)))
+    return Mechanism(name, tuple(q), parameters, tuple(kinetic), tuple(potential), points, friction)
 
 
 def _of_link(i: int, beside: bool) -> list[Parameter]:

@@ -4,7 +4,13 @@ import math
 
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 
 def _slider_crank() -> Mechanism:
@@ -35,6 +41,7 @@ def _slider_crank() -> Mechanism:
         ),
         (EnergyTerm("the weight of the crank", mc.symbol * g.symbol * lc.symbol * sp.sin(angle)),),
         points,
+        joint_friction((q, "the crank")),
     )
 
 

@@ -4,7 +4,13 @@ import math
 
 import sympy as sp
 
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import (
+    Coordinate,
+    EnergyTerm,
+    Mechanism,
+    Parameter,
+    joint_friction,
+)
 
 
 def _sliding_arm() -> Mechanism:
@@ -33,6 +39,7 @@ def _sliding_arm() -> Mechanism:
             EnergyTerm("the weight of link 2", m2.symbol * g.symbol * q2.symbol * sine),
         ),
         lambda at, arm: [(0.0, 0.0), (at[1] * math.cos(at[0]), at[1] * math.sin(at[0]))],
+        joint_friction((q1, "joint 1"), (q2, "joint 2")),
     )
 
 

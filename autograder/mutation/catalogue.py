@@ -5,7 +5,6 @@ rewritten term contributes, less what the right one does.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
 
@@ -13,42 +12,24 @@ import numpy as np
 import sympy as sp
 
 from autograder.mechanisms import EnergyTerm, Mechanism
-from autograder.mutation.answers import ANSWERS, coriolis, gradient, inertia
-from autograder.mutation.operators import rewritings
-from autograder.mutation.steps import STEPS, Right
+from autograder.mutation.answers import ANSWERS, PARTS
+from autograder.mutation.mutant import Mutant
+from autograder.mutation.operators import astray, rewritings
+from autograder.mutation.steps import STEPS
+from autograder.mutation.whole import whole
 
 # To less than this share of the answer two mistakes give the same numbers.
 SAME = 1e-7
 CASES = 8
 # Of one entry, what is done to a term of it; the other operators change all entries alike.
-OF_AN_ENTRY = ("dropped", "wrong sign", "doubled", "halved")
-
-
-@dataclass(frozen=True)
-class Mutant:
-    """A mistake: what was done to which term, in which entry ("" for all) or on which step.
-
-    in_energy: whether it was done to the energy, from which the answer was then derived.
-    """
-
-    operator: str
-    term: str = ""
-    entry: str = ""
-    put: str = ""
-    instead_of: str = ""
-    in_energy: bool = False
-
-    @property
-    def is_step(self) -> bool:
-        """Whether it was done to the answer as a whole."""
-        return self.operator in {name for steps in STEPS.values() for name in steps}
+OF_AN_ENTRY = ("dropped", "wrong sign", "doubled", "halved", "wrong velocity")
 
 
 class Catalogue:
     """The mistakes of an answer, each once, none equal to the right one. The simplest reading counts."""
 
     def __init__(self, mechanism: Mechanism, answer: str):
-        self.mechanism, self.answer = mechanism, ANSWERS[answer]
+        self.mechanism, self.answer = mechanism, (ANSWERS | PARTS)[answer]
         self._wrong = list(self._rewritten())
         every = self._all()
         drawn = self._drawn(np.random.default_rng(0))
@@ -57,28 +38,36 @@ class Catalogue:
         right = self.right(*drawn)
         if not self.answer.shape(mechanism.n):  # of an energy only its changes count
             numbers, right = numbers[:, ::2] - numbers[:, 1::2], right[::2] - right[1::2]
-        self._kept = _each_once(every, numbers, right)
+        self._kept = each_once(every, numbers, right)
 
     def _rewritten(self):
         """(term, rewriting, what it contributes, whether it was made in the energy).
 
         What was done to a term of the answer itself is the simpler reading, so it comes first.
         """
-        derived = self.answer.of_kinetic or self.answer.of_potential
-        assert derived is not None
         m = self.mechanism
-        for k, term in enumerate(self.terms):
-            for rewriting in rewritings(sp.Tuple(*derived(term.energy, m)), m):
+        for k, (term, derived) in enumerate(self._derived):
+            entries = sp.Tuple(*derived(term.energy, m))
+            for rewriting in rewritings(entries, m):
                 yield k, rewriting, list(rewriting.expressions), False
-        for k, term in enumerate(self.terms):
+            if names := [name for name, _ in self._places()]:
+                copies, moves = self._copies(), len(self.answer.shape(m.n)) == 1
+                for rewriting in astray(entries, names, copies, moves):
+                    yield k, rewriting, list(rewriting.expressions), False
+        if self.answer.composition or not self.answer.shape(m.n):
+            return  # it shows in the part that follows from the energy, or is done to it above
+        for k, (term, derived) in enumerate(self._derived):
             for rewriting in rewritings(sp.Tuple(term.energy), m):
                 yield k, rewriting, derived(rewriting.expressions[0], m), True
 
+    @cached_property
+    def _derived(self):
+        return list(self.answer.terms(self.mechanism))
+
     @property
-    def terms(self) -> tuple[EnergyTerm, ...]:
-        """The terms of the energy that the answer follows from."""
-        of_K = self.answer.of_kinetic is not None
-        return self.mechanism.kinetic if of_K else self.mechanism.potential
+    def terms(self) -> list[EnergyTerm]:
+        """The terms of the energies that the answer follows from."""
+        return [term for term, _ in self._derived]
 
     @property
     def mutants(self) -> list[Mutant]:
@@ -99,41 +88,49 @@ class Catalogue:
 
     def _all(self) -> list[tuple[Mutant, object]]:
         """Each mistake with what its numbers are made of: a step's name, or (rewriting, entry)."""
-        plain: list = [(Mutant(name), name) for name in STEPS[self.answer.name]]
+        plain: list = [(Mutant(name), name) for name in STEPS.get(self.answer.name, ())]
         others: list = []
         alike: dict[tuple, list[int]] = {}
         entries = []
         for r, (k, done, _, in_energy) in enumerate(self._wrong):
             name = self.terms[k].name
-            mutant = Mutant(done.operator, name, "", done.put, done.instead_of, in_energy)
+            mutant = Mutant(done.operator, name, done.entry, done.put, done.instead_of, in_energy)
             (plain if done.operator in OF_AN_ENTRY else others).append((mutant, ([r], None)))
             if done.operator in OF_AN_ENTRY:
                 for entry, mask in self._entries():
-                    entries.append((Mutant(done.operator, name, entry), ([r], mask)))
-            else:
-                alike.setdefault((done.operator, done.put, done.instead_of, in_energy), []).append(
-                    r
-                )
-        for (operator, put, instead_of, in_energy), all_of_them in alike.items():
+                    at = Mutant(done.operator, name, entry, done.put, done.instead_of)
+                    entries.append((at, ([r], mask)))
+            if done.operator not in OF_AN_ENTRY or done.put:
+                kind = (done.operator, done.entry, done.put, done.instead_of, in_energy)
+                alike.setdefault(kind, []).append(r)
+        for (operator, entry, put, instead_of, in_energy), all_of_them in alike.items():
             if len({self._wrong[r][0] for r in all_of_them}) > 1:
-                mutant = Mutant(operator, "", "", put, instead_of, in_energy)
+                mutant = Mutant(operator, "", entry, put, instead_of, in_energy)
                 others.append((mutant, (all_of_them, None)))
         return plain + entries + others
 
+    def _places(self) -> list[tuple[str, tuple[int, ...]]]:
+        """The entries by name, with their indices, row by row; none of what has one entry alone."""
+        n, shape = self.mechanism.n, self.answer.shape(self.mechanism.n)
+        return [
+            (self.answer.head + "".join(str(i + 1) for i in at), at)
+            for at in (np.ndindex(shape) if n > 1 and shape else ())
+        ]
+
+    def _copies(self) -> list[int]:
+        """For each entry the place of the one that equals it by symmetry."""
+        places = [at for _, at in self._places()]
+        return [places.index(at[::-1] if self.answer.symmetric else at) for at in places]
+
     def _entries(self) -> list[tuple[str, np.ndarray]]:
         """The entries by name, with where they are; M12 stands for M21 too."""
-        n, shape = self.mechanism.n, self.answer.shape(self.mechanism.n)
-        found = []
-        for at in np.ndindex(shape):
-            if self.answer.name == "M" and at[0] > at[-1]:
-                continue
-            mask = np.zeros(shape)
-            mask[at] = 1
-            if self.answer.name == "M":
-                mask[at[::-1]] = 1
-            head = self.answer.name.removesuffix("_vec")
-            found.append((head + "".join(str(i + 1) for i in at), mask))
-        return found if n > 1 and shape else []
+        found, copies = [], self._copies()
+        for place, (name, _) in enumerate(self._places()):
+            mask = np.zeros(self.answer.shape(self.mechanism.n))
+            mask.flat[[place, copies[place]]] = 1
+            if place <= copies[place]:
+                found.append((name, mask))
+        return found
 
     def _drawn(self, rng):
         m = self.mechanism
@@ -146,11 +143,12 @@ class Catalogue:
     def _numbers_of(self, chosen, q, qd, arms) -> np.ndarray:
         own, rewritten = self._contributions(q, qd, arms)
         right = np.sum(own, axis=0)
-        found = np.empty((len(chosen), *right.shape))
-        whole = self._whole(q, qd, arms)
+        numbers = whole(self.mechanism)(q, qd, arms)
+        # Complex where q is, as slopes are taken by complex steps.
+        found = np.empty((len(chosen), *right.shape), np.result_type(right, numbers.M))
         for i, (_, of) in enumerate(chosen):
             if isinstance(of, str):
-                found[i] = STEPS[self.answer.name][of](whole)
+                found[i] = STEPS[self.answer.name][of](numbers)
             else:
                 which, mask = of
                 change = sum(rewritten[r] - own[self._wrong[r][0]] for r in which)
@@ -165,16 +163,6 @@ class Catalogue:
     def _shaped(self, compute, q, qd, arms) -> np.ndarray:
         flat = np.array(compute(*self._columns(q, qd, arms)))
         return np.moveaxis(flat.reshape(-1, *self.answer.shape(self.mechanism.n), len(q)), -1, 1)
-
-    def _whole(self, q, qd, arms) -> Right:
-        n = self.mechanism.n
-        flat = np.array(self._compiled_whole(*self._columns(q, qd, arms))).T
-        sizes = np.cumsum([n * n, n**3, n * n, n])
-        M, slopes, C, g, P = np.split(flat, sizes, axis=-1)
-        square = (-1, n, n)
-        return Right(
-            M.reshape(square), slopes.reshape(-1, n, n, n), qd, C.reshape(square), g, P[:, 0]
-        )
 
     def _columns(self, q, qd, arms) -> list[np.ndarray]:
         parameters = [
@@ -200,16 +188,7 @@ class Catalogue:
 
     @cached_property
     def _contributed(self) -> list[list[sp.Expr]]:
-        derived = self.answer.of_kinetic or self.answer.of_potential
-        assert derived is not None
-        return [derived(term.energy, self.mechanism) for term in self.terms]
-
-    @cached_property
-    def _compiled_whole(self):
-        m = self.mechanism
-        M = inertia(m.K, m)
-        slopes = [e.diff(x) for e in M for x in m.q]
-        return _function(self._symbols, [*M, *slopes, *coriolis(m.K, m), *gradient(m.P, m), m.P])
+        return [derived(term.energy, self.mechanism) for term, derived in self._derived]
 
 
 def _function(symbols, expressions):
@@ -223,14 +202,17 @@ def _function(symbols, expressions):
     return function
 
 
-def _each_once(every, numbers, right) -> list:
+def each_once(every, numbers, right) -> list:
     """Those with numbers of their own, in their order: not the right ones, nor an earlier one's."""
     scale = np.max(np.abs(right))
     flat = numbers.reshape(len(every), -1)
+    found = np.empty((len(every) + 1, flat.shape[1]))
+    found[0] = right.ravel()
     kept: list[int] = []
     for i, own in enumerate(flat):
-        others = np.array([right.ravel(), *flat[kept]])
         size = max(scale, np.max(np.abs(own)))
-        if np.all(np.isfinite(own)) and np.all(np.max(np.abs(others - own), axis=1) > SAME * size):
+        apart = np.max(np.abs(found[: len(kept) + 1] - own), axis=1)
+        if np.all(np.isfinite(own)) and np.all(apart > SAME * size):
             kept.append(i)
+            found[len(kept)] = own
     return [every[i] for i in kept]

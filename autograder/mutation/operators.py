@@ -5,6 +5,7 @@ contributes to the answer, where somebody made the mistake later. The same rewri
 once is a mistake too: "m1 for m2 everywhere".
 """
 
+import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -25,6 +26,7 @@ class Rewriting:
     expressions: sp.Tuple
     put: str = ""
     instead_of: str = ""
+    entry: str = ""
 
 
 Operator = Callable[[sp.Tuple, Mechanism], Iterator[Rewriting]]
@@ -103,8 +105,58 @@ def velocity_left_out(term, mechanism):
                 yield Rewriting("velocity left out", wrong, str(one), str(total - one))
 
 
+def wrong_velocity(term, mechanism):
+    """The velocity of another joint."""
+    for one in mechanism.qd:
+        for other in mechanism.qd:
+            if one != other and one in term.free_symbols:
+                wrong = term.xreplace({one: other})
+                yield Rewriting("wrong velocity", wrong, other.name, one.name)
+
+
+def another_convention(term, mechanism):
+    """The energy of an arm whose angle counts from another line: from the one that the angle before
+    counts from, or from the link before. Velocities go with it.
+    """
+    if len(term) > 1:
+        return  # entries, which have been derived for these coordinates already
+    angles = [(c.symbol, c.velocity) for c in mechanism.coordinates if c.unit == "rad"]
+    for (before, its_rate), (angle, rate) in itertools.pairwise(angles):
+        for name, sign in (("absolute angle", -1), ("relative angle", 1)):
+            changes = {angle: angle + sign * before, rate: rate + sign * its_rate}
+            yield Rewriting(name, term.xreplace(changes), angle.name, before.name)
+
+
+def about_another_point(term, mechanism):
+    """An inertia to which the parallel-axis theorem was applied, wrongly, or a point mass for it."""
+    for inertia in mechanism.parameters:
+        if inertia.unit != "kg·m²" or inertia.symbol not in term.free_symbols:
+            continue
+        for mass in _beside(inertia, "kg", mechanism):
+            for length in _beside(inertia, "m", mechanism):
+                moved = mass.symbol * length.symbol**2
+                for name, put in (
+                    ("parallel axis added", inertia.symbol + moved),
+                    ("parallel axis taken off", inertia.symbol - moved),
+                    ("point mass", moved),
+                ):
+                    wrong = term.xreplace({inertia.symbol: put})
+                    yield Rewriting(name, wrong, mass.name, inertia.name)
+            wrong = term.xreplace({inertia.symbol: mass.symbol})
+            yield Rewriting("mass for inertia", wrong, mass.name, inertia.name)
+
+
+def _beside(parameter, unit, mechanism):
+    """The parameters of a unit that have the same number: m2, l2 and lc2 of I2."""
+    number = parameter.name[len(parameter.name.rstrip("0123456789")) :]
+    for other in mechanism.parameters:
+        if other.unit == unit and other.name[len(other.name.rstrip("0123456789")) :] == number:
+            yield other
+
+
 def square_lost(term, mechanism):
     known = {p.symbol for p in mechanism.parameters}
+    known |= {c.symbol for c in mechanism.coordinates if c.unit == "m"}
     squares = [e for e in term.atoms(sp.Pow) if e.base in known and e.exp == 2]
     for square in sorted(squares, key=sp.default_sort_key):
         wrong = term.xreplace({square: square.base})
@@ -122,6 +174,15 @@ def parameter_left_out(term, mechanism):
         if parameter.symbol in term.free_symbols:
             wrong = term.xreplace({parameter.symbol: sp.S.One})
             yield Rewriting("parameter left out", wrong, "", parameter.name)
+
+
+def kind_left_out(term, mechanism):
+    """All masses, say, where a formula is written for bodies of 1 kg."""
+    for unit in dict.fromkeys(p.unit for p in mechanism.parameters):
+        there = [p.symbol for p in mechanism.parameters if p.unit == unit]
+        if len(there) > 1 and term.free_symbols & set(there):
+            wrong = term.xreplace(dict.fromkeys(there, sp.S.One))
+            yield Rewriting("kind left out", wrong, "", unit)
 
 
 def gravity_of_earth(term, mechanism):
@@ -156,9 +217,13 @@ OPERATORS: tuple[Operator, ...] = (
     wrong_angle,
     sine_for_cosine,
     velocity_left_out,
+    wrong_velocity,
+    another_convention,
+    about_another_point,
     square_lost,
     wave_lost,
     parameter_left_out,
+    kind_left_out,
     gravity_of_earth,
     small_angle,
     degrees,
@@ -169,6 +234,28 @@ def rewritings(term: sp.Tuple, mechanism: Mechanism) -> Iterator[Rewriting]:
     """All wrong forms of a term, the likeliest first; some may be equal to each other or to it."""
     for operator in OPERATORS:
         yield from operator(term, mechanism)
+
+
+def astray(
+    entries: sp.Tuple, names: list[str], copies: list[int], moves: bool
+) -> Iterator[Rewriting]:
+    """What a term contributes to one entry, in another to which it contributes nothing.
+
+    names: of the entries. copies: for each entry the place of the one that equals it by symmetry.
+    moves: also where it then lacks in the entry to which it belongs.
+    """
+    for target, old in enumerate(entries):
+        if old != 0 or target > copies[target]:
+            continue
+        for source, value in enumerate(entries):
+            if value == 0 or value in entries[:source]:
+                continue
+            wrong = list(entries)
+            wrong[target] = wrong[copies[target]] = value
+            yield Rewriting("astray", sp.Tuple(*wrong), names[source], "", names[target])
+            if moves:
+                wrong[source] = sp.S.Zero
+                yield Rewriting("moved", sp.Tuple(*wrong), names[source], "", names[target])
 
 
 def _times(factor, term: sp.Tuple) -> sp.Tuple:

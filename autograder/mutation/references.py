@@ -14,23 +14,25 @@ from autograder.mutation.answers import ANSWERS, Answer
 def reference(mechanism: Mechanism, answer: str) -> Callable:
     """The right answer, with the arguments of the student's function."""
     asked = ANSWERS[answer]
-    return _of_energy(mechanism, asked, mechanism.K if asked.of_kinetic else mechanism.P)
+    if asked.of_kinetic or asked.of_potential:
+        return _of_entries(mechanism, asked, asked.entries(mechanism))
+    assert asked.composition is not None
+    composed = asked.composition(mechanism)
+    return lambda *args: composed.right(*composed.columns([args]))[0]
 
 
 @lru_cache(maxsize=1024)
 def contribution(mechanism: Mechanism, answer: str, term: int) -> Callable:
-    """What one term of the energy, by its place, contributes to the right answer."""
+    """What one term of the energies, by its place, contributes to the right answer."""
     asked = ANSWERS[answer]
-    terms = mechanism.kinetic if asked.of_kinetic else mechanism.potential
-    return _of_energy(mechanism, asked, terms[term].energy)
+    part, derived = list(asked.terms(mechanism))[term]
+    return _of_entries(mechanism, asked, derived(part.energy, mechanism))
 
 
-def _of_energy(mechanism: Mechanism, asked: Answer, energy: sp.Expr) -> Callable:
-    derived = asked.of_kinetic or asked.of_potential
-    assert derived is not None
+def _of_entries(mechanism: Mechanism, asked: Answer, entries: list[sp.Expr]) -> Callable:
     names = [p.name for p in mechanism.parameters]
     symbols = [*mechanism.q, *mechanism.qd, *(p.symbol for p in mechanism.parameters)]
-    compute = sp.lambdify(symbols, derived(energy, mechanism), modules="numpy", cse=True)
+    compute = sp.lambdify(symbols, entries, modules="numpy", cse=True)
     shape, n = asked.shape(mechanism.n), mechanism.n
 
     def right(q, *rest):

@@ -1,11 +1,11 @@
 """What people do wrong on the way from the terms to the answer: with derivatives, indices and order.
 
 Each step is a function of the mechanism's right numbers: M (…, n, n), its slopes ∂M_ij/∂q_k
-(…, n, n, n), q̇, C, g and P. It gives what the answer then is.
+(…, n, n, n), q̇, g and P. It gives what the answer then is.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,13 +17,20 @@ class Right:
     M: np.ndarray
     slopes: np.ndarray
     qd: np.ndarray
-    C: np.ndarray
     g_vec: np.ndarray
     P: np.ndarray
 
     @property
+    def C(self) -> np.ndarray:
+        return np.einsum("...ijk,...k->...ij", self.christoffel(), self.qd)
+
+    @property
     def M_dot(self) -> np.ndarray:
         return np.einsum("...ijk,...k->...ij", self.slopes, self.qd)
+
+    @property
+    def K(self) -> np.ndarray:
+        return np.einsum("...i,...ij,...j->...", self.qd, self.M, self.qd) / 2
 
     def christoffel(self, first=0.5, second=0.5, third=0.5) -> np.ndarray:
         """h_ijk with these weights on ∂M_ij/∂q_k, ∂M_ik/∂q_j and −∂M_jk/∂q_i."""
@@ -31,7 +38,52 @@ class Right:
         return first * D + second * np.swapaxes(D, -1, -2) - third * np.moveaxis(D, -1, -3)
 
 
-Step = Callable[[Right], np.ndarray]
+@dataclass(frozen=True)
+class Driven(Right):
+    """What also makes a motion: q, the input u and the friction, (…, n) each."""
+
+    q: np.ndarray
+    u: np.ndarray
+    friction: np.ndarray
+
+    @property
+    def torques(self) -> dict[str, np.ndarray]:
+        """What adds up to M q̈, by name."""
+        return {
+            "the input u": self.u,
+            "C q̇": -times(self.C, self.qd),
+            "g(q)": -self.g_vec,
+            "the friction": -self.friction,
+        }
+
+    @property
+    def rest(self) -> np.ndarray:
+        """u − C q̇ − g − f."""
+        return sum(self.torques.values(), np.zeros_like(self.u))
+
+    @property
+    def acceleration(self) -> np.ndarray:
+        return solved(self.M, self.rest)
+
+
+@dataclass(frozen=True)
+class Run(Right):
+    """The numbers along motions: the rows are the last of the leading axes. q: (…, rows, n)."""
+
+    q: np.ndarray
+
+    @property
+    def E(self) -> np.ndarray:
+        return self.K + self.P
+
+
+def drift(energy: np.ndarray) -> np.ndarray:
+    """What an energy has gained since the first row, (…, rows)."""
+    return energy - energy[..., :1]
+
+
+# Of any answer; those of f take what drives the motion, those of energy_drift a motion.
+Step = Callable[..., np.ndarray]
 
 
 def _weighted(**weights) -> Step:
@@ -42,6 +94,44 @@ def _transposed(array: np.ndarray) -> np.ndarray:
     return np.swapaxes(array, -1, -2)
 
 
+def _diagonal(vector: np.ndarray) -> np.ndarray:
+    """A vector in the place of a matrix; read so where a check asks for C."""
+    return vector[..., np.newaxis] * np.eye(vector.shape[-1])
+
+
+def times(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    return np.einsum("...ij,...j->...i", matrix, vector)
+
+
+def _in_one_column(later: bool) -> Step:
+    """Each product q̇_j q̇_k of C q̇ whole in the column of one of its two velocities."""
+
+    def step(right: Right) -> np.ndarray:
+        n = right.M.shape[-1]
+        apart = 2 * (np.tril(np.ones((n, n)), -1) if later else np.triu(np.ones((n, n)), 1))
+        shared = right.christoffel() * (apart + np.eye(n))
+        return np.einsum("...ijk,...k->...ij", shared, right.qd)
+
+    return step
+
+
+def solved(M: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """M⁻¹ times vectors, (…, n); not a number where a wrong M has no inverse."""
+    volume = np.linalg.det(M)
+    good = (np.isfinite(volume) & (volume != 0))[..., np.newaxis, np.newaxis]
+    some = np.where(good, M, np.eye(M.shape[-1]))
+    return np.where(good[..., 0], np.linalg.solve(some, rest[..., np.newaxis])[..., 0], np.nan)
+
+
+def rate(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """ẋ of its two halves, (…, 2n)."""
+    return np.concatenate(np.broadcast_arrays(first, second), axis=-1)
+
+
+def _accelerating(acceleration: Callable[[Driven], np.ndarray]) -> Step:
+    return lambda driven: rate(driven.qd, acceleration(driven))
+
+
 STEPS: dict[str, dict[str, Step]] = {
     "M": {
         "half of the whole": lambda right: right.M / 2,
@@ -50,9 +140,35 @@ STEPS: dict[str, dict[str, Step]] = {
         "inverse": lambda right: np.linalg.inv(right.M),
         "diagonal alone": lambda right: right.M * np.eye(right.M.shape[-1]),
         "upper triangle alone": lambda right: np.triu(right.M),
+        "lower triangle alone": lambda right: np.tril(right.M),
+        "sign below the diagonal": lambda right: np.triu(right.M) - np.tril(right.M, -1),
+        "mixed terms not shared": lambda right: 2 * right.M - right.M * np.eye(right.M.shape[-1]),
+        "mixed terms in one triangle": lambda right: np.triu(right.M) + np.triu(right.M, 1),
+        "joints exchanged": lambda right: right.M[..., ::-1, ::-1],
+    },
+    "M_dot": {
+        "sign of the whole": lambda right: -right.M_dot,
+        "half of the whole": lambda right: right.M_dot / 2,
+        "twice the whole": lambda right: 2 * right.M_dot,
+        "velocities exchanged": lambda right: np.einsum(
+            "...ijk,...k->...ij", right.slopes, right.qd[..., ::-1]
+        ),
+        "sum of the velocities": lambda right: (
+            np.sum(right.slopes, axis=-1) * np.sum(right.qd, axis=-1)[..., None, None]
+        ),
+        "chain rule forgotten": lambda right: np.sum(right.slopes, axis=-1),
+        "zero": lambda right: np.zeros_like(right.M),
+        "C": lambda right: right.C,
+        "twice C": lambda right: 2 * right.C,
+        "M": lambda right: right.M,
+        "constants differentiated": lambda right: right.M * right.qd[..., -1, None, None],
+        "product with the velocities": lambda right: right.M * right.qd[..., None, :],
+        "diagonal alone": lambda right: right.M_dot * np.eye(right.M.shape[-1]),
+        "upper triangle alone": lambda right: np.triu(right.M_dot),
     },
     "C": {
         "sign of the whole": lambda right: -right.C,
+        "half of the whole": lambda right: right.C / 2,
         "twice the whole": lambda right: 2 * right.C,
         "transposed": lambda right: _transposed(right.C),
         "rate of M": lambda right: right.M_dot,
@@ -60,12 +176,17 @@ STEPS: dict[str, dict[str, Step]] = {
         "rate of M less 2C": lambda right: right.M_dot - 2 * right.C,
         "M": lambda right: right.M,
         "zero": lambda right: np.zeros_like(right.C),
+        "torque for C": lambda right: _diagonal(times(right.C, right.qd)),
+        "C times ones": lambda right: _diagonal(np.sum(right.C, axis=-1)),
         "last derivative missing": _weighted(third=0),
         "sign of the last derivative": _weighted(third=-0.5),
         "last derivative not halved": _weighted(third=1),
         "second derivative missing": _weighted(second=0),
         "first derivative missing": _weighted(first=0),
         "not symmetrised": _weighted(first=1, second=0),
+        "second derivative twice": _weighted(first=0, second=1),
+        "products in the later column": _in_one_column(later=True),
+        "products in the earlier column": _in_one_column(later=False),
         "summed over the first index": lambda right: np.einsum(
             "...kij,...k->...ij", right.christoffel(), right.qd
         ),
@@ -76,6 +197,12 @@ STEPS: dict[str, dict[str, Step]] = {
         "velocity of the row": lambda right: (
             np.sum(right.christoffel(), axis=-1) * right.qd[..., :, np.newaxis]
         ),
+        "velocities exchanged": lambda right: np.einsum(
+            "...ijk,...k->...ij", right.christoffel(), right.qd[..., ::-1]
+        ),
+        "second kind": lambda right: np.linalg.solve(right.M, right.C),
+        "gravity for C": lambda right: _diagonal(right.g_vec),
+        "momentum for C": lambda right: _diagonal(times(right.M, right.qd)),
     },
     "g_vec": {
         "sign of the whole": lambda right: -right.g_vec,
@@ -83,10 +210,68 @@ STEPS: dict[str, dict[str, Step]] = {
         "twice the whole": lambda right: 2 * right.g_vec,
         "joints exchanged": lambda right: right.g_vec[..., ::-1],
         "zero": lambda right: np.zeros_like(right.g_vec),
+        "energy for its derivative": lambda right: np.broadcast_to(
+            right.P[..., np.newaxis], right.g_vec.shape
+        ),
+        "divided by M": lambda right: solved(right.M, right.g_vec),
     },
     "potential_energy": {
         "sign of the whole": lambda right: -right.P,
         "half of the whole": lambda right: right.P / 2,
         "twice the whole": lambda right: 2 * right.P,
+    },
+    "lagrangian": {
+        "energy for L": lambda right: right.K + right.P,
+        "sign of the whole": lambda right: right.P - right.K,
+        "half of the whole": lambda right: (right.K - right.P) / 2,
+        "twice the whole": lambda right: 2 * (right.K - right.P),
+        "½ of K missing": lambda right: 2 * right.K - right.P,
+        "½ of K twice": lambda right: right.K / 2 - right.P,
+        "K missing": lambda right: -right.P,
+        "P missing": lambda right: right.K,
+        "diagonal of M alone": lambda right: (
+            np.einsum("...ii,...i->...", right.M, right.qd**2) / 2 - right.P
+        ),
+    },
+    "energy_drift": {
+        "sign of the whole": lambda run: -drift(run.E),
+        "half of the whole": lambda run: drift(run.E) / 2,
+        "twice the whole": lambda run: 2 * drift(run.E),
+        "½ of K missing": lambda run: drift(2 * run.K + run.P),
+        "½ of K twice": lambda run: drift(run.K / 2 + run.P),
+        "K missing": lambda run: drift(run.P),
+        "P missing": lambda run: drift(run.K),
+        "L for the energy": lambda run: drift(run.K - run.P),
+        "diagonal of M alone": lambda run: drift(
+            np.einsum("...ii,...i->...", run.M, run.qd**2) / 2 + run.P
+        ),
+        "M of the start": lambda run: drift(replace(run, M=run.M[..., :1, :, :]).K + run.P),
+        "C in the energy": lambda run: drift(run.E + replace(run, M=run.C).K),
+        "C for M": lambda run: drift(replace(run, M=run.C).K + run.P),
+        "torque times coordinate": lambda run: drift(
+            run.K + np.einsum("...i,...i->...", run.g_vec, run.q)
+        ),
+        "from the row before": lambda run: np.diff(run.E, axis=-1, prepend=run.E[..., :1]),
+        "size of the drift": lambda run: np.abs(drift(run.E)),
+        "energy for its drift": lambda run: run.E,
+        "from the mean": lambda run: run.E - np.mean(run.E, axis=-1, keepdims=True),
+        "from the end": lambda run: run.E - run.E[..., -1:],
+        "share for the drift": lambda run: drift(run.E) / run.E[..., :1],
+    },
+    "f": {
+        "halves of ẋ swapped": lambda driven: rate(driven.acceleration, driven.qd),
+        "q for its rate": lambda driven: rate(driven.q, driven.acceleration),
+        "M not inverted": _accelerating(lambda driven: times(driven.M, driven.rest)),
+        "torque for acceleration": _accelerating(lambda driven: driven.rest),
+        "divided by the diagonal of M": _accelerating(
+            lambda driven: driven.rest / np.einsum("...ii->...i", driven.M)
+        ),
+        "entries of M inverted": _accelerating(lambda driven: times(1 / driven.M, driven.rest)),
+        "divided by M entry by entry": _accelerating(
+            lambda driven: np.sum(driven.rest[..., np.newaxis, :] / driven.M, axis=-2)
+        ),
+        "C times ones in the torque": _accelerating(
+            lambda driven: solved(driven.M, driven.rest + times(driven.C, driven.qd - 1))
+        ),
     },
 }

@@ -40,7 +40,9 @@ def check_for(id: str, own: Convention | None = None) -> Check | None:
     """
     if id in CHECKS:
         return CHECKS[id] if own is None else families.on(own, CHECKS[id])
-    if re.fullmatch(r"[a-z0-9-]+-(M|C|g_vec|potential_energy)", id):
+    if re.fullmatch(
+        r"[a-z0-9-]+-(M|M_dot|C|g_vec|potential_energy|lagrangian|f|energy_drift|regressor)", id
+    ):
         return _of_mechanism(id)
     return None
 

@@ -27,13 +27,9 @@ def test_a_model_answer_is_right(mechanism, answer):
     )
     namespace = {"np": np}
     exec(source, namespace)
-    rng = np.random.default_rng(1)
-    for _ in range(5):
-        arm, q, qd = mechanism.drawn(rng), mechanism.placed(rng), mechanism.moving(rng)
-        given = {"q": q, "qd": qd, "arm": arm}
-        arguments = [given[name] for name in asked.arguments]
-        right = reference(mechanism, answer)(*arguments)
-        np.testing.assert_allclose(namespace[answer](*arguments), right, rtol=1e-10, atol=1e-12)
+    for call in asked.calls(mechanism, np.random.default_rng(1), 1)[:6]:
+        right = reference(mechanism, answer)(*call.args)
+        np.testing.assert_allclose(namespace[answer](*call.args), right, rtol=1e-9, atol=1e-10)
 
 
 @EVERY
@@ -94,9 +90,7 @@ def test_nothing_is_written_over(tmp_path):
 
 @pytest.mark.parametrize("asks", [[], ["M", "M"], ["m"], ["M", ""]])
 def test_answers_that_cannot_be_asked(tmp_path, asks):
-    with pytest.raises(
-        ProblemError, match="needs some of M, C, g_vec, potential_energy, each once"
-    ):
+    with pytest.raises(ProblemError, match=f"needs some of {', '.join(ANSWERS)}, each once"):
         write_problem(tmp_path, CART, asks)
     assert not (tmp_path / "solutions").exists()
 

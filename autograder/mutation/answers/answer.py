@@ -1,0 +1,125 @@
+"""What an answer is: its function, how it follows from the energies, and how it is judged."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import sympy as sp
+
+from autograder.judging.criterion import Criterion
+from autograder.judging.quantities import Quantities
+from autograder.mechanisms import EnergyTerm, Mechanism
+from autograder.protocol import Call
+
+if TYPE_CHECKING:
+    from autograder.mutation.answers.composition import Composition
+
+# Random cases at least, so that no few terms fit just any error.
+LEAST_CASES = 12
+
+Judged = tuple[Quantities, tuple[Criterion, ...]]
+Derived = Callable[[sp.Expr, Mechanism], list[sp.Expr]]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a student's function returns, how it follows from the energies, and how it is judged.
+
+    shape(n): of the array, as of the entries in a row below. judged(mechanism): the quantities and
+    criteria of its check. case(mechanism, rng, k): the arguments of the k-th call or calls. hints: all
+    three, or the last alone, which says how to derive it. of_kinetic, of_potential: what a term of K
+    or of P contributes to its entries, in a row; None where it contributes nothing. symmetric: whether
+    the entries ij and ji are one. friction: whether its arms have friction. position: q of a call's
+    arguments. composition(mechanism): how it is made of other answers, where it is not linear in the
+    energies, or where a mistake in another answer shows in it.
+    """
+
+    name: str
+    arguments: tuple[str, ...]
+    unit: str
+    shape: Callable[[int], tuple[int, ...]]
+    judged: Callable[[Mechanism], Judged]
+    case: Callable[[Mechanism, np.random.Generator, int], list[tuple]]
+    hints: tuple[str, ...]
+    of_kinetic: Derived | None = None
+    of_potential: Derived | None = None
+    symmetric: bool = False
+    friction: bool = False
+    position: Callable[[tuple], np.ndarray] = lambda args: args[0]
+    composition: "Callable[[Mechanism], Composition] | None" = None
+
+    @property
+    def signature(self) -> str:
+        return f"{self.name}({', '.join(self.arguments)})"
+
+    @property
+    def head(self) -> str:
+        """How sentences call it: g for g_vec."""
+        return HEADS.get(self.name, self.name)
+
+    def terms(self, mechanism: Mechanism) -> Iterator[tuple[EnergyTerm, Derived]]:
+        """The terms of the energies that it follows from, with what derives it from them."""
+        for energies, derived in (
+            (mechanism.kinetic, self.of_kinetic),
+            (mechanism.potential, self.of_potential),
+        ):
+            if derived:
+                yield from ((term, derived) for term in energies)
+
+    def entries(self, mechanism: Mechanism) -> list[sp.Expr]:
+        """The right entries, in a row."""
+        parts = [
+            derived(energy, mechanism)
+            for energy, derived in (
+                (mechanism.K, self.of_kinetic),
+                (mechanism.P, self.of_potential),
+            )
+            if derived
+        ]
+        return [sp.Add(*entry) for entry in zip(*parts, strict=True)]
+
+    def calls(self, mechanism: Mechanism, rng: np.random.Generator, count: int) -> list[Call]:
+        return [
+            Call(self.name, args)
+            for k in range(max(count, LEAST_CASES))
+            for args in self.case(mechanism, rng, k)
+        ]
+
+
+HEADS = {"g_vec": "g", "potential_energy": "P", "M_dot": "Ṁ", "lagrangian": "L", "f": "ẋ",
+         "energy_drift": "drift", "regressor": "Y"}  # fmt: skip
+
+
+def at_rest(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]:
+    """Arguments (q, arm)."""
+    arm = mechanism.drawn(rng)
+    return [(mechanism.placed(rng), arm)]
+
+
+def in_motion(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]:
+    """Arguments (q, q̇, arm)."""
+    arm, q = mechanism.drawn(rng), mechanism.placed(rng)
+    return [(q, mechanism.moving(rng), arm)]
+
+
+def states(calls: list[tuple]) -> tuple[np.ndarray, np.ndarray, list[SimpleNamespace]]:
+    """q, q̇ (cases, n) and the arms of calls with the arguments (q, arm) or (q, q̇, arm)."""
+    q = np.array([args[0] for args in calls])
+    qd = np.array([args[1] for args in calls]) if len(calls[0]) == 3 else np.zeros_like(q)
+    return q, qd, [args[-1] for args in calls]
+
+
+def unit_of_inertia(mechanism: Mechanism, i: int, j: int) -> str:
+    """The unit of M_ij: a length among the coordinates takes one metre from it."""
+    slides = [mechanism.coordinates[k].unit for k in (i, j)].count("m")
+    return ("kg·m²", "kg·m", "kg")[slides]
+
+
+def mixed(mechanism: Mechanism, turning: str, sliding: str) -> str:
+    """The unit of a vector or matrix, where its entries may have several."""
+    kinds = {c.unit for c in mechanism.coordinates}
+    if kinds == {"rad"}:
+        return turning
+    return sliding if kinds == {"m"} else f"{turning} or {sliding}"

@@ -1,0 +1,140 @@
+"""C(q, q̇): the Coriolis and centrifugal matrix in Christoffel form."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import combinations_with_replacement
+
+import numpy as np
+
+from autograder.judging.criterion import TOLERANCE, Criterion
+from autograder.judging.quantities import array, each
+from autograder.mechanisms import Mechanism
+from autograder.mutation.answers.answer import Answer, Judged, in_motion, mixed, states
+from autograder.mutation.answers.composition import Composition, Group
+from autograder.mutation.derivatives import coriolis
+from autograder.mutation.mutant import Mutant
+from autograder.mutation.steps import Right
+from autograder.mutation.whole import slopes, whole
+
+# How often a product of two velocities is held, by what is wrong with it.
+TIMES = {
+    "product dropped": 0.0,
+    "product of the wrong sign": -1.0,
+    "product halved": 0.5,
+    "product doubled": 2.0,
+}
+
+
+def _judged(mechanism: Mechanism) -> Judged:
+    @each
+    def steps(call, value):
+        C, qd = _matrix(mechanism, call, value), call.args[1]
+        return C @ qd, qd @ C @ qd, C + C.T
+
+    energy = "With your C the energy would change although nobody does work."
+    skew = (
+        "Ṁ − 2C is not skew-symmetric with your C. A right C q̇ is not enough: how does the Christoffel "
+        "form share the products of two velocities?"
+    )
+    return steps, (
+        Criterion("vector C q̇", mixed(mechanism, "N·m", "N"), 0.5),
+        Criterion("power q̇ᵀC q̇ = ½ q̇ᵀṀ q̇", "W", 0.2, otherwise=energy, is_property=True),
+        Criterion(
+            "sum C + Cᵀ = Ṁ",
+            mixed(mechanism, "kg·m²/s", "kg/s"),
+            0.3,
+            otherwise=skew,
+            is_property=True,
+        ),
+    )
+
+
+def _matrix(mechanism: Mechanism, call, value) -> np.ndarray:
+    """C as it came. The vector C q̇ and the row sums of C are mistakes with a name: they count as the
+    diagonal of a matrix.
+    """
+    n = mechanism.n
+    if n == 1 and np.size(value) == 1:
+        return np.reshape(value, (1, 1))
+    if np.size(value) == n:
+        q, qd, arm = call.args
+        right = whole(mechanism)(q[None], qd[None], [arm])
+        for vector in (right.C[0] @ qd, np.sum(right.C[0], axis=-1)):
+            if np.allclose(np.ravel(value), vector, rtol=TOLERANCE, atol=TOLERANCE):
+                return np.diag(np.ravel(value))
+    return array(value, n, n)
+
+
+def of_wrong_inertia(
+    mechanism: Mechanism, name: str, follows: Callable[[Right], np.ndarray]
+) -> Composition:
+    """Of an answer that is linear in M's slopes: its own mistakes, and those of M that show in it."""
+    right = whole(mechanism)
+
+    def groups(catalogue) -> Iterator[Group]:
+        own, inertia = catalogue(name), catalogue("M")
+        yield Group(own.mutants, own.numbers)
+        if name == "C":
+            yield wrong_products(mechanism)
+        terms, wrong = propagated(mechanism, inertia)
+        yield Group(
+            [inertia.mutants[k].within("M") for k in terms],
+            lambda q, qd, arms: follows(wrong(q, qd, arms)),
+        )
+
+    return Composition(states, lambda q, qd, arms: follows(right(q, qd, arms)), groups)
+
+
+def propagated(mechanism: Mechanism, inertia) -> tuple[list[int], Callable[..., Right]]:
+    """The mistakes of M's catalogue that are made in a term; and from q, q̇ and the arms the numbers of
+    an arm with such an M, (mutants, cases, …).
+    """
+    terms = [k for k, mutant in enumerate(inertia.mutants) if not mutant.is_step]
+    right = whole(mechanism)
+
+    def numbers(q, qd, arms) -> Right:
+        def wrong(at):
+            some = arms * (len(at) // len(arms))
+            return inertia.numbers(at, np.zeros(at.shape), some)[terms]
+
+        known = right(q, qd, arms)
+        return replace(known, M=wrong(q), slopes=slopes(wrong, q))
+
+    return terms, numbers
+
+
+def wrong_products(mechanism: Mechanism) -> Group:
+    """One product of two velocities, in one row of C q̇, that is missing, or not there once."""
+    n, right = mechanism.n, whole(mechanism)
+    names = [v.name for v in mechanism.qd]
+    mutants, weights = [], []
+    for operator, times in TIMES.items():
+        for i in range(n):
+            for j, k in combinations_with_replacement(range(n), 2):
+                product = f"{names[j]}²" if j == k else f"{names[j]} {names[k]}"
+                mutants.append(Mutant(operator, entry=f"row {i + 1}", put=product))
+                weight = np.ones((n, n, n))
+                weight[i, [j, k], [k, j]] = times
+                weights.append(weight)
+
+    def numbers(q, qd, arms):
+        h = right(q, qd, arms).christoffel()
+        return np.einsum("mijk,cijk,ck->mcij", np.array(weights), h, qd, optimize=True)
+
+    return Group(mutants, numbers)
+
+
+CORIOLIS = Answer(
+    "C",
+    ("q", "qd", "arm"),
+    "kg·m²/s",
+    lambda n: (n, n),
+    _judged,
+    in_motion,
+    (
+        "Differentiate each entry of your M by each coordinate. The sum over k of h_ijk times the k-th "
+        "velocity is C_ij, and h_ijk has three derivatives: two with a plus, one with a minus.",
+    ),
+    of_kinetic=coriolis,
+    composition=lambda mechanism: of_wrong_inertia(mechanism, "C", lambda right: right.C),
+)

@@ -1,0 +1,41 @@
+"""g_vec(q, arm): the gradient of the potential energy."""
+
+import numpy as np
+
+from autograder.judging.criterion import Criterion
+from autograder.judging.quantities import each, vector
+from autograder.mechanisms import Mechanism
+from autograder.mutation.answers.answer import Answer, Judged, at_rest
+from autograder.mutation.derivatives import gradient
+
+
+def _judged(mechanism: Mechanism) -> Judged:
+    n = mechanism.n
+    entries = gradient(mechanism.P, mechanism)
+    judged = [i for i in range(n) if entries[i] != 0] or list(range(n))
+    zero = [i for i in range(n) if i not in judged]
+
+    @each
+    def parts(call, value):
+        g = vector(value, n)
+        return (np.array([g[judged[0]], *g[zero]]), *(g[[i]] for i in judged[1:]))
+
+    units = ["N·m" if c.unit == "rad" else "N" for c in mechanism.coordinates]
+    return parts, tuple(
+        Criterion(f"g{i + 1}" if n > 1 else "g", units[i], 1 / len(judged)) for i in judged
+    )
+
+
+GRAVITY = Answer(
+    "g_vec",
+    ("q", "arm"),
+    "N·m",
+    lambda n: (n,),
+    _judged,
+    at_rest,
+    (
+        "Entry i is the derivative of P by coordinate i. Which terms change when only that coordinate "
+        "moves?",
+    ),
+    of_potential=gradient,
+)

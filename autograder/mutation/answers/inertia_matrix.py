@@ -1,0 +1,54 @@
+"""M(q): the inertia matrix."""
+
+import numpy as np
+
+from autograder.judging.criterion import Criterion
+from autograder.judging.quantities import array, each
+from autograder.mechanisms import Mechanism
+from autograder.mutation.answers.answer import Answer, Judged, at_rest, unit_of_inertia
+from autograder.mutation.derivatives import inertia
+
+
+def _judged(mechanism: Mechanism) -> Judged:
+    return symmetric(mechanism, "M", inertia(mechanism.K, mechanism), "")
+
+
+def symmetric(mechanism: Mechanism, head: str, entries: list, per: str) -> Judged:
+    """Entry by entry, ij together with ji; per: what their units have beside those of M."""
+    n = mechanism.n
+    pairs = [(i, j) for i in range(n) for j in range(i, n)]
+    # An entry that is 0 earns nothing by itself: an empty matrix would have it right.
+    zero = [(i, j) for i, j in pairs if entries[i * n + j] == 0]
+    zero = zero if len(zero) < len(pairs) else pairs[1:]
+    pairs = [pair for pair in pairs if pair not in zero]
+
+    @each
+    def parts(call, value):
+        M = np.reshape(value, (1, 1)) if n == 1 and np.size(value) == 1 else array(value, n, n)
+        found = [M[[i, j], [j, i]] if i != j else M[[i], [i]] for i, j in pairs]
+        beside = [M[a, b] for i, j in zero for a, b in {(i, j), (j, i)}]
+        return (np.array([*found[0], *beside]), *found[1:])
+
+    names = [
+        f"{head}{i + 1}{j + 1}" + (f" and {head}{j + 1}{i + 1}" if i != j else "") for i, j in pairs
+    ]
+    return parts, tuple(
+        Criterion(name if n > 1 else head, unit_of_inertia(mechanism, i, j) + per, 1 / len(pairs))
+        for name, (i, j) in zip(names, pairs, strict=True)
+    )
+
+
+INERTIA_MATRIX = Answer(
+    "M",
+    ("q", "arm"),
+    "kg·m²",
+    lambda n: (n, n),
+    _judged,
+    at_rest,
+    (
+        "The entry M_ij is the second derivative of K by the velocities i and j. Sort K by the "
+        "products of two velocities: where do the mixed ones go?",
+    ),
+    of_kinetic=inertia,
+    symmetric=True,
+)

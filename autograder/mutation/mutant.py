@@ -1,0 +1,34 @@
+"""A mutant: what was done wrong, and where."""
+
+from dataclasses import dataclass, replace
+
+from autograder.mutation.steps import STEPS
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A mistake: what was done to which term, in which entry ("" for all) or on which step.
+
+    in_energy: whether it was done to the energy, from which the answer was then derived. source: the
+    answer in which it was made, where another one follows from that; "" for the one that is asked for.
+    """
+
+    operator: str
+    term: str = ""
+    entry: str = ""
+    put: str = ""
+    instead_of: str = ""
+    in_energy: bool = False
+    source: str = ""
+
+    @property
+    def is_step(self) -> bool:
+        """Whether it was done to the answer as a whole."""
+        return not self.source and self.operator in STEP_NAMES
+
+    def within(self, source: str) -> "Mutant":
+        """The same mistake, seen in an answer that follows from `source`."""
+        return replace(self, source=source)
+
+
+STEP_NAMES = {name for steps in STEPS.values() for name in steps}

@@ -1,0 +1,49 @@
+"""All right numbers of a mechanism at once, for many states: M, its slopes, C, g and P."""
+
+from collections.abc import Callable
+from functools import lru_cache
+
+import numpy as np
+import sympy as sp
+
+from autograder.mechanisms import Mechanism
+from autograder.mutation.derivatives import gradient, inertia
+from autograder.mutation.steps import Right
+
+# No difference is formed, so no digits are lost.
+STEP = 1e-30
+
+
+@lru_cache(maxsize=64)
+def whole(mechanism: Mechanism) -> Callable[..., Right]:
+    """A function of q, q̇ (cases, n) and the arms, one a case."""
+    n = mechanism.n
+    M = inertia(mechanism.K, mechanism)
+    slopes = [entry.diff(x) for entry in M for x in mechanism.q]
+    names = [p.name for p in mechanism.parameters]
+    symbols = [*mechanism.q, *(p.symbol for p in mechanism.parameters)]
+    entries = [*M, *slopes, *gradient(mechanism.P, mechanism), mechanism.P]
+    compute = sp.lambdify(symbols, entries, modules="numpy", cse=True)
+
+    def right(q, qd, arms) -> Right:
+        columns = [*np.transpose(q), *([getattr(arm, x) for arm in arms] for x in names)]
+        values = compute(*(np.array(column) for column in columns))
+        flat = np.array([np.broadcast_to(value, len(q)) for value in values]).T
+        M, slopes, g, P = np.split(flat, np.cumsum([n * n, n**3, n]), axis=-1)
+        square = M.reshape(-1, n, n)
+        return Right(square, slopes.reshape(-1, n, n, n), np.asarray(qd), g, P[:, 0])
+
+    return right
+
+
+def slopes(M: Callable[[np.ndarray], np.ndarray], q: np.ndarray) -> np.ndarray:
+    """∂M_ij/∂q_k at q (cases, n), of all that M gives for it, (…, cases, n, n): (…, cases, n, n, n).
+
+    By the complex step, Im M(q + i ε) / ε, exact for the analytic entries that energies give: J. N.
+    Lyness, C. B. Moler (1967), Numerical Differentiation of Analytic Functions.
+    """
+    cases, n = q.shape
+    steps = (q + 1j * STEP * np.eye(n)[:, np.newaxis]).reshape(n * cases, n)
+    wrong = M(steps)
+    apart = wrong.imag.reshape(*wrong.shape[:-3], n, cases, n, n) / STEP
+    return np.moveaxis(apart, -4, -1)
