@@ -89,19 +89,27 @@ class _Catalogue:
         self._own, self._answer = own, answer
 
     def mistakes(self) -> list[Mistake]:
-        from autograder.mutation.answers import ANSWERS  # loads SymPy
-        from autograder.mutation.checks import mistakes_of
+        from autograder.mutation.checks import mistakes_of  # loads SymPy
 
-        return mistakes_of(self._own.mechanism, self._answer) if self._answer in ANSWERS else []
+        return mistakes_of(self._own.mechanism, self._answer)
 
     def __call__(self, calls: list[Call]) -> list[tuple[Mistake, list]]:
-        from autograder.mutation.answers import ANSWERS
         from autograder.mutation.checks import check_of
 
-        if self._answer not in ANSWERS:
-            return []
         catalogue = check_of(self._own.mechanism, self._answer).catalogue
-        return catalogue(calls) if catalogue else []
+        assert catalogue is not None
+        # A catalogue takes arrays: motions of as many rows go together.
+        alike: dict[tuple, list[int]] = {}
+        for place, call in enumerate(calls):
+            alike.setdefault(np.shape(call.args[0]), []).append(place)
+        found: list[tuple[Mistake, list]] = []
+        for places in alike.values():
+            for k, (mistake, values) in enumerate(catalogue([calls[place] for place in places])):
+                if k == len(found):
+                    found.append((mistake, [None] * len(calls)))
+                for place, value in zip(places, values, strict=True):
+                    found[k][1][place] = value
+        return found
 
 
 def _right(own: Convention, check: Check):

@@ -143,6 +143,23 @@ def test_a_drift_with_the_weights_of_another_arm_is_named():
     )
 
 
+def rate(own, sign):
+    def f(x, u, arm):
+        q, qd = x[:2], x[2:]
+        torque = u - own.C(q, qd, arm) @ qd - sign * own.g_vec(q, arm) - planar_2r.f_vec(qd, arm)
+        return np.concatenate([qd, np.linalg.solve(own.M(q, arm), torque)])
+
+    return f
+
+
+def without_P(own):
+    def drift(x, arm):
+        K = np.array([0.5 * row[2:] @ own.M(row[:2], arm) @ row[2:] for row in x])
+        return K - K[0]
+
+    return drift
+
+
 def without_I2(own):
     return lambda q, arm: own.M(q, planar_2r.changed(arm, I2=0.0))
 
@@ -153,6 +170,9 @@ def without_I2(own):
         ("p1-M", without_I2),
         ("p4-g_vec", lambda own: lambda q, arm: -own.g_vec(q, arm)),
         ("p2-C", lambda own: lambda q, qd, arm: own.C(q, qd, arm).T),
+        ("p2-M_dot", lambda own: own.C),
+        ("p5-f", lambda own: rate(own, sign=-1.0)),
+        ("p5-energy_drift", lambda own: without_P(own)),
     ],
 )
 @pytest.mark.parametrize("own", [FAMILY[5], FAMILY[-1]], ids=lambda own: own.name)
