@@ -71,6 +71,7 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
     with Sitting(partial(Room.loaded, files=beside.laid)) as sitting:
         if drawn is not None:
             sitting.run(drawn.prelude)
+            notes += filter(None, [drawn.apart(submission)])
 
         def ask(calls):
             return [beside.explained(reply) for reply in sitting.ask(calls)]

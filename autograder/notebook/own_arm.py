@@ -5,6 +5,7 @@ the folder in which the submission lies: whatever the submission says of it does
 """
 
 import ast
+import re
 from dataclasses import dataclass
 
 from nbformat import NotebookNode
@@ -12,8 +13,12 @@ from nbformat import NotebookNode
 from autograder.notebook import outputs
 from autograder.notebook.recognise import grade_id
 from autograder.problems import PROBLEMS_WITH_FAMILIES, arm_card
-from autograder.problems.material.conventions import BOOK, Convention, drawn
+from autograder.problems.material.conventions import BOOK, Convention, drawn, folded
 from autograder.problems.material.given import code
+from autograder.protocol import one_line
+
+# What `arm_card` says first, as Python writes the output that holds it.
+SHOWN = re.compile(r"This is (the arm of .*?)(?:\.\\n|: the one that)")
 
 
 @dataclass(frozen=True)
@@ -55,6 +60,20 @@ class Drawn:
     @property
     def _code(self) -> str:
         return code(self.own or BOOK, self.set_up.problem)
+
+    def apart(self, submission: NotebookNode) -> str:
+        """A note where the student's own kernel showed another arm, such as for a mistyped name."""
+        if self.own is None:
+            return ""
+        for cell in submission.cells:
+            outputs = cell.get("outputs") or [] if grade_id(cell) == self.set_up.cell else []
+            said = SHOWN.search(" ".join(str(output) for output in outputs))
+            if said and folded(said[1]) != folded(self.whose):
+                return (
+                    f"{self.set_up.cell} showed the student {one_line(said[1], 60)}; judged was "
+                    f"{one_line(self.whose, 60)}"
+                )
+        return ""
 
 
 def drawn_for(source: NotebookNode, student: str | None) -> Drawn | None:

@@ -175,9 +175,13 @@ def drawn(name: str, year: int = 0) -> Convention:
 
     Capital letters, spaces around the name and how Unicode writes a letter make no difference.
     """
-    folded = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", name).casefold()).strip()
-    digest = hashlib.sha256(f"{year}\0{folded}".encode()).digest()
+    digest = hashlib.sha256(f"{year}\0{folded(name)}".encode()).digest()
     return FAMILY[int.from_bytes(digest[:8], "big") % len(FAMILY)]
+
+
+def folded(name: str) -> str:
+    """The name as it counts."""
+    return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", name).casefold()).strip()
 
 
 def nearest_first(own: Convention) -> list[Convention]:

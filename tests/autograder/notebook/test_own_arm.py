@@ -3,11 +3,12 @@
 import copy
 
 import pytest
-from nbformat.v4 import new_code_cell
+from nbformat.v4 import new_code_cell, new_output
 
 from autograder.judging.verdict import State
 from autograder.notebook.grade import grade
 from autograder.notebook.own_arm import drawn_for, set_up
+from autograder.problems import arm_card
 from autograder.problems.material.conventions import BOOK, FAMILY, drawn
 from tests.autograder.course_problems import problem, states
 from tests.submissions import own_arms
@@ -124,3 +125,21 @@ def test_a_set_up_cell_that_cannot_be_read_is_told_to_the_instructor(call):
     cell.source = cell.source.replace('own_arm("p1", arm=cutter, year=2026)', call)
     with pytest.raises(ValueError, match=r"p1-setup: own_arm needs a problem \(p1, p2, p4, p5\)"):
         drawn_for(source, "ada")
+
+
+@pytest.mark.parametrize(
+    ("name", "noted"),
+    [("j.doe", "the arm of j.doe"), (None, "the arm of the book"), ("  S{} ", "")],
+)
+def test_the_instructor_reads_where_the_student_saw_another_arm(name, noted):
+    mine = FAMILY[8]
+    number = STUDENTS[mine].removeprefix("s")
+    whose = f"the arm of {name.format(number).strip()}" if name else "the arm of the book"
+    shown = arm_card.mimebundle(BOOK if name is None else FAMILY[3], whose, None, "")
+
+    def edit(notebook):
+        cell_of(notebook, "p1-setup").outputs = [new_output("display_data", data=shown)]
+
+    notes = graded("p1-inertia", mine, STUDENTS[mine], edit, all_for(False)).notes
+    expected = f"p1-setup showed the student {noted}; judged was the arm of {STUDENTS[mine]}"
+    assert list(notes) == ([expected] if noted else [])
