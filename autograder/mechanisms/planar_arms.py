@@ -19,25 +19,29 @@ PLACES = {1: "the shoulder", 2: "the elbow", 3: "the wrist"}
 def planar_arm(
     name: str,
     n: int,
-    angles: Literal["relative", "absolute"] = "relative",
+    angles: Literal["relative", "square", "absolute", "crossed"] = "relative",
     zero: Literal["level", "hanging"] = "level",
     beside: bool = False,
     slope: bool = False,
 ) -> Mechanism:
     """n links with turning joints in a plane, gravity along −y, or at an angle of 30° to it on a slope.
 
-    angles: whether q2, q3, … are measured from the link before or from the axis that q1 is measured
-    from. zero: that axis, x or −y. beside: whether the centres of mass lie off the links' axes, by lyᵢ.
+    angles: whether q2, q3, … are measured from the line of the link before, or from the direction at a
+    right angle to it (square), to the left; from the axis that q1 is measured from, or from the other
+    one (crossed). zero: that axis, x or −y. beside: whether the centres of mass lie off the links'
+    axes, by lyᵢ.
     """
-    q = [Coordinate(f"q{i}", "rad", _zero(i, angles, zero)) for i in range(1, n + 1)]
+    q = [Coordinate(f"q{i}", "rad", _zero(i, angles, zero, slope)) for i in range(1, n + 1)]
+    quarter = sp.pi / 2 if angles == "square" or zero == "hanging" else -sp.pi / 2
     lengths = [p for i in range(1, n + 1) for p in _of_link(i, beside)]
     parameters = (*lengths, Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0))
     of = {p.name: p.symbol for p in parameters}
     theta: list[sp.Expr] = []
     rate: list[sp.Expr] = []
     for i, c in enumerate(q):
-        before = angles == "relative" and i > 0
-        theta.append(c.symbol + (theta[-1] if before else 0))
+        before = angles in ("relative", "square") and i > 0
+        shift = quarter if angles in ("square", "crossed") and i > 0 else 0
+        theta.append(c.symbol + shift + (theta[-1] if before else 0))
         rate.append(c.velocity + (rate[-1] if before else 0))
     kinetic, potential = [], []
     for k in range(n):
@@ -63,7 +67,8 @@ def planar_arm(
     def points(q, arm):
         at, angle, drawn = np.zeros(2), 0.0, [(0.0, 0.0)]
         for i in range(n):
-            angle = q[i] + (angle if angles == "relative" else 0.0)
+            shift = float(quarter) if angles in ("square", "crossed") and i > 0 else 0.0
+            angle = q[i] + shift + (angle if angles in ("relative", "square") else 0.0)
             turn = angle - (math.pi / 2 if zero == "hanging" else 0.0)
             at = at + getattr(arm, f"l{i + 1}") * np.array([math.cos(turn), math.sin(turn)])
             drawn.append((float(at[0]), float(at[1])))
@@ -93,10 +98,14 @@ def _of_link(i: int, beside: bool) -> list[Parameter]:
     return [*own, off] if beside else own
 
 
-def _zero(i: int, angles: str, zero: str) -> str:
+def _zero(i: int, angles: str, zero: str, slope: bool) -> str:
     if i > 1 and angles == "relative":
         return f"link {i} in line with link {i - 1}"
-    return f"link {i} along the x axis" if zero == "level" else f"link {i} hanging down"
+    if i > 1 and angles == "square":
+        return f"link {i} at a right angle to link {i - 1}, to its left"
+    if (zero == "level") == (i == 1 or angles != "crossed"):
+        return f"link {i} along the x axis"
+    return f"link {i} along the −y axis" if slope else f"link {i} hanging down"
 
 
 def _height(direction, zero, slope):

@@ -86,7 +86,8 @@ class Judge(FromSource):
         names = resources["nbgrader"]
         secret = secret_of(Path(self.parent.parent.coursedir.root) / self.seed_file)
         seed = seed_of(secret, names["student"], names["assignment"])
-        graded = grade(nb, self.source_of(resources), seed, self.beside(names))
+        source, student = self.source_of(resources), names["student"]
+        graded = grade(nb, source, seed, self.beside(names), student=student)
         _warn(self.log, names["student"], graded.notes)
         return with_verdicts(graded), resources
 

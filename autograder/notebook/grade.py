@@ -13,6 +13,7 @@ from autograder.judging.check import HIDDEN_CASES
 from autograder.judging.verdict import State, Verdict
 from autograder.notebook import outputs
 from autograder.notebook.beside import Beside
+from autograder.notebook.own_arm import drawn_for
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
 from autograder.notebook.sitting import Sitting
@@ -42,10 +43,12 @@ def grade(
     seed: str,
     beside: Beside = NOTHING,
     said: tuple[str, ...] = (),
+    student: str | None = None,
 ) -> Graded:
     """Run the submission's cells in a sandbox and judge its graded functions outside.
 
-    beside: files that its cells find. said: notes that come first.
+    beside: files that its cells find. said: notes that come first. student: whose submission it is,
+    where the problem gives each student an own arm; None for the arm of the book.
     seed: decides the random cases, together with the code of the repaired notebook and the files
     beside it. So the same submission gets the same verdicts again, and a changed one meets other
     cases. Each check has its own random numbers, so that a new problem changes no other's cases. A
@@ -53,18 +56,22 @@ def grade(
     not to blame, it is graded once more. OSError if that happens again, or if no sandbox starts.
     """
     try:
-        return _graded(submission, source, seed, beside, said)
+        return _graded(submission, source, seed, beside, said, student)
     except OSError as error:
         log.warning("%s; grading the notebook once more", shown_note(str(error)))
-        return _graded(submission, source, seed, beside, said)
+        return _graded(submission, source, seed, beside, said, student)
 
 
-def _graded(submission, source, seed, beside, said) -> Graded:
+def _graded(submission, source, seed, beside, said, student) -> Graded:
     notebook, notes = repair(submission, source, said, beside.documents)
     verdicts: dict[str, Verdict] = {}
     seed = of_content(seed, notebook, beside)
     allowance = outputs.Allowance()
+    drawn = drawn_for(source, student)
     with Sitting(partial(Room.loaded, files=beside.laid)) as sitting:
+        if drawn is not None:
+            sitting.run(drawn.prelude)
+            notes += filter(None, [drawn.apart(submission)])
 
         def ask(calls):
             return [beside.explained(reply) for reply in sitting.ask(calls)]
@@ -76,10 +83,13 @@ def _graded(submission, source, seed, beside, said) -> Graded:
             if not is_judged(cell):
                 cell.outputs = allowance.shown(sitting.run(cell.source))
                 cell.outputs += _explanations(cell.outputs, beside)
+                if drawn is not None and grade_id(cell) == drawn.set_up.cell:
+                    cell.outputs.append(drawn.shown)
                 continue
             name = grade_id(cell) or ""
             try:
-                check, problem = check_for(name, beside.mechanisms), ""
+                check = check_for(name, drawn.own if drawn else None, beside.mechanisms)
+                problem = ""
             except ValueError as error:  # a broken file of the course's own mechanism
                 check, problem = None, str(error)
             if check is not None:

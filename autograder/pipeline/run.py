@@ -133,7 +133,7 @@ class _Run:
             if known:
                 self._settle(student, known, new=False)
                 return None
-        return content, recorder.source, seed, beside, tuple(notes)
+        return content, recorder.source, seed, beside, tuple(notes), student
 
     def _unchanged(self, student: str, key: str) -> bool:
         """Whether this very submission was recorded, and its rows and files are still there."""

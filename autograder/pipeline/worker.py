@@ -19,7 +19,12 @@ class NoNotebookError(ValueError):
 
 
 def judge(
-    content: bytes, source: str, seed: str, beside: Beside = NOTHING, said: tuple[str, ...] = ()
+    content: bytes,
+    source: str,
+    seed: str,
+    beside: Beside = NOTHING,
+    said: tuple[str, ...] = (),
+    student: str | None = None,
 ) -> dict:
     """Grade a notebook, and give its cells with outputs that nbgrader can read.
 
@@ -29,7 +34,7 @@ def judge(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # nbformat's are not the instructor's business
-            return _judged(content, source, seed, beside, said) | {"code": code_version()}
+            return _judged(content, source, seed, beside, said, student) | {"code": code_version()}
     except (UnicodeDecodeError, nbformat.reader.NotJSONError):
         refused = "is not valid JSON: ask the student for it again"
     except NoNotebookError:
@@ -48,9 +53,11 @@ def load() -> None:
     code_version()
 
 
-def _judged(content: bytes, source: str, seed: str, beside: Beside, said: tuple) -> dict:
+def _judged(
+    content: bytes, source: str, seed: str, beside: Beside, said: tuple, student: str | None
+) -> dict:
     notebook, notes = _read(content.decode("utf-8-sig"))
-    graded = grade(notebook, _source(source), seed, beside, said)
+    graded = grade(notebook, _source(source), seed, beside, said, student)
     notebook = with_verdicts(graded)
     nbformat.validate(notebook, relax_add_props=True)
     states = [verdict.state for verdict in graded.verdicts.values()]

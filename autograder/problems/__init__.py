@@ -7,7 +7,9 @@ from functools import lru_cache
 from types import MappingProxyType
 
 from autograder.judging.check import Check
+from autograder.problems import families
 from autograder.problems.c6_regressor import checks as c6_regressor
+from autograder.problems.material.conventions import Convention
 from autograder.problems.own_mechanisms import check_of_file, files_here
 from autograder.problems.p1_inertia import checks as p1_inertia
 from autograder.problems.p2_energy_skew import checks as p2_energy_skew
@@ -30,14 +32,20 @@ CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 READ = ("p1-proof", "p2-proof", "p3-derivation", "p4-check", "p5-discussion", "c6-discussion")
 
 
-def check_for(id: str, files: Mapping[str, str] = MappingProxyType({})) -> Check | None:
+# Those that can give each student an arm of the student's own.
+PROBLEMS_WITH_FAMILIES = families.PROBLEMS
+
+
+def check_for(
+    id: str, own: Convention | None = None, files: Mapping[str, str] = MappingProxyType({})
+) -> Check | None:
     """The check of this id: of a problem, or of a mechanism such as `cart-pole-M`; None for neither.
 
-    files: the course's own mechanisms, name of the file → its text. MechanismFileError if the one that
-    the check needs is broken.
+    own: the student's own arm, where the problem asks for a family. files: the course's own mechanisms,
+    name of the file → its text. MechanismFileError if the one that the check needs is broken.
     """
     if id in CHECKS:
-        return CHECKS[id]
+        return CHECKS[id] if own is None else families.on(own, CHECKS[id])
     if check := check_of_file(id, files):
         return check
     if re.fullmatch(
@@ -63,7 +71,7 @@ class UnknownCheckError(ValueError):
         return [str(self)]
 
 
-def known_check(id: object) -> Check:
+def known_check(id: object, own: Convention | None = None) -> Check:
     """The check of this id; where there is none, UnknownCheckError, with those that are nearest.
 
     A mechanism's own file is found in the folder of the notebook. The error says so if a person reads
@@ -77,7 +85,7 @@ def known_check(id: object) -> Check:
         )
     if id in READ or id.endswith("-proof"):
         raise UnknownCheckError(f"no check judges {id!r}: a person reads it and gives its points")
-    check = check_for(id, files_here(id))
+    check = check_for(id, own, files_here(id))
     if check is None:
         meant = _meant(nearest(id)) or f"; the checks are {', '.join(CHECKS)}"
         mechanism, _, answer = id.rpartition("-")

@@ -26,6 +26,7 @@ from .calls import (
     time_limit,
 )
 from .looks import Look
+from .own_arm import OwnArm
 from .readings import MOST_NUMBERS, FaultKind, NotNumbersError
 from .words import one_line, shortened
 
@@ -40,6 +41,7 @@ __all__ = [
     "Function",
     "Look",
     "NotNumbersError",
+    "OwnArm",
     "Reply",
     "Symbol",
     "TimeLimitError",

@@ -1,1 +1,1 @@
-"""What a student's notebook calls: `check`, `hint` and `look_at`."""
+"""What a student's notebook calls: `check`, `hint`, `look_at` and `own_arm`."""

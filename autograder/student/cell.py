@@ -13,6 +13,7 @@ from autograder.judging.verdict import State, Verdict
 from autograder.problems import CHECKS, known_check
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
 from autograder.student.definitions import watched
+from autograder.student.own_arm import drawn_for
 
 # A visible check tries the same cases each time, so that a student sees how an error changes.
 VISIBLE_SEED = 20260101
@@ -52,7 +53,7 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
     """The verdict on the function in a namespace that a known check asks for."""
     rng = np.random.default_rng(None if fresh else VISIBLE_SEED)
     count = HIDDEN_CASES if fresh else VISIBLE_CASES
-    judged = known_check(id)
+    judged = known_check(id, drawn_for(id))
     name = judged.name
 
     def ask(calls: list[Call]) -> list[Reply]:

@@ -210,3 +210,23 @@ def test_a_mistake_is_named_drawn_and_mended(inertia):
     expect(card.get_by_role("img")).to_have_count(0)
     expect(inertia.panel.get_by_text("I2 is missing")).to_have_count(0)
     inertia.picture("mended")
+
+
+def test_a_typed_name_draws_an_arm_of_ones_own(inertia):
+    inertia.run("from autograder import check")
+    expect(inertia.panel.get_by_text("No name is known here.")).to_be_visible()
+    expect(inertia.panel.get_by_role("group", name="This is the arm of the book")).to_have_count(1)
+
+    typed = 'own_arm("p1", "s1234")'
+    inertia.insert_below("from autograder import check", typed)
+    inertia.run(typed)
+    inertia.run("from autograder import check")
+    own = inertia.panel.get_by_role("group", name="This is the arm of s1234.")
+    picture = own.get_by_role("img")
+    expect(picture).to_be_visible()
+    picture.scroll_into_view_if_needed()
+    inertia.picture("own arm")
+    assert picture.bounding_box()["width"] > 200
+    assert own.evaluate("card => card.scrollWidth <= card.clientWidth")
+    expect(own.get_by_role("table")).to_contain_text("q1 = 0")
+    expect(inertia.panel.get_by_text("No name is known here.")).to_have_count(0)

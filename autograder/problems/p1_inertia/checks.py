@@ -119,7 +119,11 @@ PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2")
 
 @each
 def _singular_and_allowed(call, value):
-    arm, q = _arm_and_q(value)
+    return singular(*arm_and_q(value))
+
+
+def singular(arm, q):
+    """Whether M(q) of an arm is singular, and whether its parameters are allowed as well."""
     is_singular = _why_singular(arm, q)
     named = vars(arm)
     allowed = (
@@ -130,7 +134,7 @@ def _singular_and_allowed(call, value):
     return (is_singular, np.array([*is_singular, *allowed], dtype=float))
 
 
-def _arm_and_q(value):
+def arm_and_q(value):
     """The arm as a namespace of its eight numbers, and q; UnfitError for what is neither."""
     if not isinstance(value, list) or len(value) != 2 or not isinstance(value[0], dict):
         raise UnfitError("something other than a pair; it must return (arm, q), with arm a dict")

@@ -5,6 +5,8 @@ shows whether Ṁ − 2C is skew-symmetric. For two joints the first and the las
 Christoffel form.
 """
 
+from functools import partial
+
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
@@ -55,25 +57,29 @@ def _matrix(value, n, right):
     return array(value, n, n)
 
 
-def _of_arm(call, value):
-    return _matrix(value, 2, lambda: (planar_2r.C(*call.args), call.args[1]))
+def _of_arm(right, call, value):
+    return _matrix(value, 2, lambda: (right(*call.args), call.args[1]))
 
 
-@each
-def _steps(call, value):
-    """C q̇; q̇ᵀC q̇; C + Cᵀ."""
-    C, qd = _of_arm(call, value), call.args[1]
-    return C @ qd, qd @ C @ qd, C + C.T
+def steps(right):
+    """C q̇; q̇ᵀC q̇; C + Cᵀ. right(q, qd, arm): the Christoffel C of the arm."""
+
+    @each
+    def parts(call, value):
+        C, qd = _of_arm(right, call, value), call.args[1]
+        return C @ qd, qd @ C @ qd, C + C.T
+
+    return parts
 
 
-def _other(calls, values):
+def other(christoffel, calls, values):
     """C q̇, and how far Ṁ − 2C is from skew-symmetric, up to where that is clear.
 
     One clear case is enough: what fails somewhere is no property. Where C q̇ is not right, no distance
-    counts, and it is put below zero.
+    counts, and it is put below zero. christoffel(q, qd, arm): the Christoffel C of the arm.
     """
-    given = [_of_arm(call, value) for call, value in zip(calls, values, strict=True)]
-    right = [planar_2r.C(*call.args) for call in calls]
+    given = [_of_arm(christoffel, call, value) for call, value in zip(calls, values, strict=True)]
+    right = [christoffel(*call.args) for call in calls]
     velocities = [call.args[1] for call in calls]
     torques = [C @ qd for C, qd in zip(given, velocities, strict=True)]
     enough = np.array([CLEARLY * np.max(np.abs(C)) for C in right])
@@ -166,7 +172,7 @@ CHECKS = (
         signature="C(q, qd, arm)",
         reference=planar_2r.C,
         calls=_calls("C"),
-        quantities=_steps,
+        quantities=steps(planar_2r.C),
         criteria=(
             Criterion("vector C q̇", "N·m", 0.5),
             Criterion(
@@ -209,7 +215,7 @@ CHECKS = (
             planar_2r.C(q, qd, arm) + np.array([[-qd[1], qd[0]], [0.0, 0.0]])
         ),
         calls=_calls("C_other"),
-        quantities=_other,
+        quantities=partial(other, planar_2r.C),
         criteria=(
             Criterion(
                 "vector C_other q̇",

@@ -84,11 +84,11 @@ def _equilibria_calls(rng, count):
 
 
 @each
-def _torques_and_distances(call, value):
+def torques_and_distances(call, value):
     """At the configurations given, in any order: the torques that are left, each as a share of its
     joint's largest, sorted; and the turn in rad, of both links together, from each of the four to the
     nearest one given."""
-    given = _configurations(value)
+    given = configurations(value)
     (arm,) = call.args
     largest = planar_2r.g_vec(np.zeros(2), arm)
     left = np.abs(planar_2r.g_vec(given.T, arm).T) / largest
@@ -101,7 +101,7 @@ def _torques_and_distances(call, value):
     return (np.round(torques, 12), np.round(np.min(np.sum(turns, axis=-1), axis=1), 12))
 
 
-def _configurations(value):
+def configurations(value):
     """The configurations given, (k, 2), rad; one may come as (2,), and each as a row or a column."""
     shape = tuple(length for length in np.shape(value)[1:] if length != 1)
     if np.size(value) and (np.shape(value) == (2,) or shape == (2,)):
@@ -200,7 +200,7 @@ CHECKS = (
         signature="equilibria(arm)",
         reference=lambda arm: FOUR,
         calls=_equilibria_calls,
-        quantities=_torques_and_distances,
+        quantities=torques_and_distances,
         criteria=(
             Criterion(
                 "gravity torque at each configuration you give, as a share of the largest",

@@ -105,13 +105,13 @@ def test_a_broken_file_names_the_line(text, said):
 
 def test_a_file_is_read_once_and_judges_its_own_problem_only():
     files = {"sled.py": SLED, "p1.py": template("p1")}
-    one, again = check_for("sled-M", files), check_for("sled-M", files)
+    one, again = check_for("sled-M", None, files), check_for("sled-M", None, files)
     assert one is not None
     assert again is not None
     assert one.reference is again.reference
     assert check_for("sled-M") is None
-    assert check_for("sled-points", files) is None
-    assert check_for("p1-M", files) is check_for("p1-M")
+    assert check_for("sled-points", None, files) is None
+    assert check_for("p1-M", None, files) is check_for("p1-M")
     assert (
         Beside(mechanisms=files).digest() != Beside(mechanisms=files | {"sled.py": OTHER}).digest()
     )

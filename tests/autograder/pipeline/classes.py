@@ -26,6 +26,9 @@ def new_course(root: Path, assignment: str, source: Path | NotebookNode) -> Path
     else:
         folder.mkdir(parents=True)
         nbformat.write(source, folder / f"{assignment}.ipynb")
+    for path in folder.glob("*.ipynb"):  # what is right for one is right for all
+        text = path.read_text(encoding="utf-8")
+        path.write_text(text.replace("year=2026)", "same_for_all=True)"), encoding="utf-8")
     shutil.copy(ROOT / "nbgrader_config.py", root)
     run(root, "nbgrader", "generate_assignment", assignment)
     (root / "course" / "seed").write_text(SEED)

@@ -16,6 +16,23 @@ def hint(id=None):
     """Do nothing: nobody reads hints here."""
 
 
+_drawn = {}
+
+
+def lay_own_arm(problem, described):
+    """Called by the grader before the notebook's cells run: the arm that it drew for this student."""
+    _drawn[problem] = described
+
+
+def own_arm(problem, name=None, *, arm=None, year=0, same_for_all=False):
+    """The arm that the grader drew for this student, whatever is given here; the grader shows it."""
+    from protocol import OwnArm
+
+    if problem not in _drawn:
+        raise ValueError(f"own_arm has no arm for {problem!r}")
+    return None if name is not None and arm is None else OwnArm(**_drawn[problem])
+
+
 def look_at(*ids):
     """A block that uses the student's functions; an error in it becomes one line."""
     import sys

@@ -1,0 +1,295 @@
+"""The checks of a problem on a student's own arm: a member of the family of `material.conventions`.
+
+What depends on how the arm is described is put in its place: the right answer, the cases, the mistakes
+and the hints. Ids, criteria and shares stay. Mistakes that are written for the arm of the book are
+said of it alone; those of another member follow from its energies. First of all, the right answers of
+the other members are tried: whoever copies one reads which arm it belongs to.
+"""
+
+from dataclasses import replace
+from functools import lru_cache, partial
+
+import numpy as np
+
+from autograder.judging.check import Check
+from autograder.judging.diagnosis import Mistake
+from autograder.judging.quantities import each
+from autograder.judging.terms import Term
+from autograder.problems.material import planar_2r
+from autograder.problems.material.conventions import BOOK, SLOPE, Convention, nearest_first
+from autograder.problems.material.family_hints import HINTS
+from autograder.problems.p1_inertia.checks import arm_and_q, singular
+from autograder.problems.p2_energy_skew.checks import other, steps
+from autograder.problems.p4_gravity.checks import configurations, torques_and_distances
+from autograder.protocol import Call
+
+PROBLEMS = ("p1", "p2", "p4", "p5")
+# The answers that a mechanism gives, by the check that asks for them.
+ASKED = {
+    "p1-M": "M",
+    "p2-M_dot": "M_dot",
+    "p2-C": "C",
+    "p4-potential_energy": "potential_energy",
+    "p4-g_vec": "g_vec",
+    "p5-f": "f",
+    "p5-energy_drift": "energy_drift",
+}
+SHOULDER = "change of P as link 1 turns from the x axis and link 2 keeps its direction"
+OTHERWISE = (
+    "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the Christoffel form. A right "
+    "C q̇ is not enough: how does that form share the products of velocities between the entries of a "
+    "row?"
+)
+
+
+@lru_cache(maxsize=256)
+def on(own: Convention, check: Check) -> Check:
+    """The check on this arm; the same check where the arm does not matter to it."""
+    if check.id not in (*ASKED, "p1-singular_arm", "p2-C_other", "p4-equilibria"):
+        return check
+    if own == BOOK:
+        return replace(check, mistakes=(*_copied(own, check), *check.mistakes))
+    changed = replace(
+        check,
+        reference=_right(own, check),
+        calls=partial(_calls, own, check),
+        mistakes=_copied(own, check),
+        catalogue=_Catalogue(own, ASKED[check.id]) if check.id in ASKED else None,
+        terms=_terms(own, check),
+        hints=HINTS.get(check.id, check.hints),
+        # The card draws where angles start as in the book.
+        pose=partial(_pose, own) if check.pose and own == Convention(slope=own.slope) else None,
+    )
+    match check.id:
+        case "p1-singular_arm":
+            mistakes = tuple(
+                replace(m, wrong=partial(_described, own, m.wrong)) for m in check.mistakes
+            )
+            return replace(changed, quantities=_singular(own), mistakes=mistakes)
+        case "p2-C":
+            first, power, skew = check.criteria
+            said = replace(skew, otherwise=OTHERWISE)
+            return replace(changed, quantities=steps(own.C), criteria=(first, power, said))
+        case "p2-C_other":
+            return replace(changed, quantities=partial(other, own.C))
+        case "p4-potential_energy":
+            elbow, shoulder = check.criteria
+            elbow = replace(elbow, text="change of P as link 2 turns from the line of link 1")
+            shoulder = replace(shoulder, text=SHOULDER)
+            return replace(changed, criteria=(elbow, shoulder))
+        case "p4-equilibria":
+            return replace(changed, quantities=_equilibria(own))
+    return changed
+
+
+class _Catalogue:
+    """The mistakes that follow from the energies of a member; made when an answer is wrong."""
+
+    def __init__(self, own: Convention, answer: str):
+        self._own, self._answer = own, answer
+
+    def mistakes(self) -> list[Mistake]:
+        from autograder.mutation.checks import mistakes_of  # loads SymPy
+
+        return mistakes_of(self._own.mechanism, self._answer)
+
+    def __call__(self, calls: list[Call]) -> list[tuple[Mistake, list]]:
+        from autograder.mutation.checks import check_of
+
+        catalogue = check_of(self._own.mechanism, self._answer).catalogue
+        assert catalogue is not None
+        # A catalogue takes arrays: motions of as many rows go together.
+        alike: dict[tuple, list[int]] = {}
+        for place, call in enumerate(calls):
+            alike.setdefault(np.shape(call.args[0]), []).append(place)
+        found: list[tuple[Mistake, list]] = []
+        for places in alike.values():
+            for k, (mistake, values) in enumerate(catalogue([calls[place] for place in places])):
+                if k == len(found):
+                    found.append((mistake, [None] * len(calls)))
+                for place, value in zip(places, values, strict=True):
+                    found[k][1][place] = value
+        return found
+
+
+def _right(own: Convention, check: Check):
+    """The right answer of a check on this arm."""
+    match check.id:
+        case "p1-singular_arm":
+            return partial(_described, own, check.reference)
+        case "p2-C_other":
+            return partial(_other_C, own)
+        case "p4-equilibria":
+            return lambda arm: own.equilibria()
+        case "p5-f":
+            return partial(_rate, own)
+        case "p5-energy_drift":
+            return partial(_drift, own, own)
+    return getattr(own, ASKED[check.id])
+
+
+def _other_C(own: Convention, q, qd, arm):
+    return own.C(q, qd, arm) + np.array([[-qd[1], qd[0]], [0.0, 0.0]])
+
+
+def _rate(own: Convention, x, u, arm):
+    return _accelerated(own, x, arm, u - _resisting(own, x, arm))
+
+
+def _resisting(own: Convention, x, arm):
+    q, qd = x[:2], x[2:]
+    return own.C(q, qd, arm) @ qd + own.g_vec(q, arm) + planar_2r.f_vec(qd, arm)
+
+
+def _accelerated(own: Convention, x, arm, torque, rate=1.0):
+    """ẋ under this torque; rate: 0 leaves the velocities out."""
+    return np.concatenate([rate * x[2:], np.linalg.solve(own.M(x[:2], arm), torque)])
+
+
+def _drift(moving: Convention, weighing: Convention, x, arm):
+    """E(t) − E(0), (len(x),), J, with K of the one member and P of the other."""
+    energies = [
+        0.5 * row[2:] @ moving.M(row[:2], arm) @ row[2:] + weighing.potential_energy(row[:2], arm)
+        for row in x
+    ]
+    return np.array(energies) - energies[0]
+
+
+def _copied(own: Convention, check: Check) -> tuple[Mistake, ...]:
+    """What is right for the other members: a copied answer."""
+    if check.id in ("p1-singular_arm", "p5-f"):  # M, C and g are given in p5, whoever writes f
+        return ()
+    if check.id == "p5-energy_drift":  # M is given there, and P is not
+        return tuple(
+            Mistake(f"P of {member.name}", partial(_drift, own, member), _said(own, member, "P is"))
+            for member in nearest_first(own)
+        )
+    whole = check.id != "p2-C_other"  # of which there are many
+    return tuple(
+        Mistake(
+            f"right for {member.name}",
+            _right(member, check),
+            _said(own, member, "answer is"),
+            whole,
+        )
+        for member in nearest_first(own)
+    )
+
+
+def _said(own: Convention, member: Convention, what: str) -> str:
+    *angles, gravity = [
+        "" if theirs == ours else theirs
+        for theirs, ours in zip(member.facts, own.facts, strict=True)
+    ]
+    whose = " and ".join(filter(None, angles))
+    parts = [f"whose {whose}" if whose else "", f"where {gravity}" if gravity else ""]
+    return (
+        f"Your {what} right for an arm {', '.join(filter(None, parts))}. Yours is another: look at "
+        "the table and the picture below the set-up cell."
+    )
+
+
+def _calls(own: Convention, check: Check, rng: np.random.Generator, count: int) -> list[Call]:
+    """The same positions of the links as in the check, as this arm's angles."""
+    return [_moved(own, call) for call in check.calls(rng, count)]
+
+
+def _moved(own: Convention, call: Call) -> Call:
+    if not call.args or not isinstance(call.args[0], np.ndarray):
+        return call
+    first = call.args[0].copy()  # q, x = [q; q̇], or rows of x
+    first[..., :2] = own.angles_at(BOOK.directions(first[..., :2]))
+    return replace(call, args=(first, *call.args[1:]))
+
+
+def _pose(own: Convention, call: Call) -> list:
+    return own.joints(call.args[0][:2], call.args[-1])
+
+
+def _described(own: Convention, answer):
+    """(arm, q) of the arm of the book in this arm's angles."""
+    arm, q = answer()
+    return arm, tuple(own.angles_at(BOOK.directions(q)))
+
+
+def _singular(own: Convention) -> each:
+    """In the angles of the book, in which the check looks at the answer."""
+
+    @each
+    def parts(call, value):
+        arm, q = arm_and_q(value)
+        of_book = BOOK.angles_at(own.directions(np.ravel(q)))
+        return singular(arm, of_book)
+
+    return parts
+
+
+def _equilibria(own: Convention) -> each:
+    """In the angles of the book, with gravity turned to where it pulls there."""
+
+    @each
+    def parts(call, value):
+        turned = own.directions(configurations(value)) - SLOPE * own.slope
+        return torques_and_distances.parts(call, BOOK.angles_at(turned))
+
+    return parts
+
+
+# What is left of an arm where one part of its energy alone counts, by its name.
+ALONE = {
+    "the rotation of link 1": {"m1": 0.0, "m2": 0.0, "I2": 0.0},
+    "the centre of mass of link 1": {"I1": 0.0, "m2": 0.0, "I2": 0.0},
+    "the mass of link 2, carried at the elbow": {"m1": 0.0, "I1": 0.0, "I2": 0.0, "lc2": 0.0},
+    "the rotation of link 2": {"m1": 0.0, "I1": 0.0, "m2": 0.0},
+    "the centre of mass of link 2 about the elbow": {"m1": 0.0, "I1": 0.0, "I2": 0.0, "l1": 0.0},
+}
+OF_MASSES = ("m1", "I1", "m2", "I2")
+
+
+def _terms(own: Convention, check: Check) -> tuple[Term, ...]:
+    if check.id == "p5-f":
+        return tuple(Term(name, partial(_share, own, part)) for name, part in TORQUES.items())
+    if check.id not in ASKED:
+        return ()
+    if check.id not in ("p4-potential_energy", "p4-g_vec"):
+        model = _right(own, check)
+        coupling = Term("the coupling of the two links", partial(_coupling, model))
+        if check.id in ("p2-M_dot", "p2-C"):
+            return (coupling,)
+        if check.id == "p1-M":
+            return (*(Term(name, partial(_alone, model, name)) for name in ALONE), coupling)
+    if check.id == "p5-energy_drift":
+        return ()
+    weights = {
+        "the weight of link 1": "the centre of mass of link 1",
+        "the weight of link 2 at the elbow": "the mass of link 2, carried at the elbow",
+        "the weight of link 2 beyond the elbow": "the centre of mass of link 2 about the elbow",
+    }
+    model = _right(own, check)
+    return tuple(Term(name, partial(_alone, model, of)) for name, of in weights.items())
+
+
+def _alone(model, name: str, *args):
+    *state, arm = args
+    return model(*state, planar_2r.changed(arm, **ALONE[name]))
+
+
+def _coupling(model, *args):
+    """What link 2 contributes beyond its mass at the elbow and its turning about it."""
+    *state, arm = args
+    link_2 = model(*state, planar_2r.changed(arm, m1=0.0, I1=0.0, I2=0.0))
+    at_elbow, about = list(ALONE)[2], list(ALONE)[4]
+    return link_2 - _alone(model, at_elbow, *args) - _alone(model, about, *args)
+
+
+def _share(own: Convention, part, x, u, arm):
+    return _accelerated(own, x, arm, part(own, x[:2], x[2:], u, arm), rate=0.0)
+
+
+TORQUES = {
+    "M⁻¹ u": lambda own, q, qd, u, arm: u,
+    "M⁻¹ C q̇": lambda own, q, qd, u, arm: -own.C(q, qd, arm) @ qd,
+    "M⁻¹ g": lambda own, q, qd, u, arm: -own.g_vec(q, arm),
+    "viscous friction": lambda own, q, qd, u, arm: -arm.viscous * qd,
+    "Coulomb friction": lambda own, q, qd, u, arm: -arm.coulomb * np.sign(qd),
+}

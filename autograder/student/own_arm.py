@@ -1,0 +1,90 @@
+"""`own_arm`: the set-up cell of a problem draws the student's own arm, from the student's name."""
+
+import getpass
+import os
+from pathlib import Path
+
+from autograder.problems import PROBLEMS_WITH_FAMILIES, arm_card
+from autograder.problems.material.conventions import BOOK, Convention, drawn
+from autograder.problems.material.given import code
+from autograder.protocol import OwnArm
+
+TYPE_IT = (
+    'No name is known here. Type own_arm("{problem}", "your name"), with the name under which you hand '
+    "in, in a cell of your own above this one (after: from autograder import own_arm), and run both. "
+    "Until then you have the arm of the book."
+)
+_typed: list[str] = []
+_drawn: dict[str, Convention] = {}
+
+
+def own_arm(
+    problem: str, name: str | None = None, *, arm: object = None, year: int = 0,
+    same_for_all: bool = False,
+) -> OwnArm | None:  # fmt: skip
+    """Draw this student's arm for a problem such as "p1", show it, and let the checks judge it.
+
+    name: typed by a student: it is kept until the kernel ends, and the set-up cell then draws from
+    it. Without, the name is JupyterHub's, or the one under which nbgrader fetched this folder. arm: the
+    parameters, to be shown. year: changes who gets which arm. same_for_all: everybody has the arm of
+    the book. The grader takes the name from the submission, and the rest from the released notebook.
+    ValueError where a problem has no family, or the name is empty.
+    """
+    if problem not in PROBLEMS_WITH_FAMILIES:
+        known = ", ".join(PROBLEMS_WITH_FAMILIES)
+        raise ValueError(f"own_arm knows {known}; you gave {problem!r}")
+    if name is not None:
+        if not isinstance(name, str) or not name.strip():
+            raise ValueError("type your name in quotes, as it stands on what you hand in")
+        _typed[:] = [name]
+        if arm is None:
+            print(f"Your name is {name.strip()}. Now run the set-up cell, and all cells below it.")
+            return None
+    # The instructor's notebooks hold the answers for the arm of the book.
+    same_for_all = same_for_all or Path.cwd().parent.name == "solutions"
+    given = None if same_for_all else _name()
+    own = BOOK if given is None else drawn(given, year)
+    _drawn.pop(problem, None)
+    if given is not None:
+        _drawn[problem] = own
+    if given is None and not same_for_all:
+        print(TYPE_IT.format(problem=problem))
+    whose = "the arm of the book" if given is None else f"the arm of {given.strip()}"
+    _show(arm_card.mimebundle(own, whose, arm, code(own, problem)))
+    return own.own_arm(code(own, problem))
+
+
+def drawn_for(check_id: object) -> Convention | None:
+    """The arm that the set-up cell drew for the problem of this check; None where it drew none."""
+    return _drawn.get(str(check_id).partition("-")[0])
+
+
+def _name() -> str | None:
+    if _typed:
+        return _typed[0]
+    return os.environ.get("JUPYTERHUB_USER", "").strip() or _of_fetched(Path.cwd())
+
+
+def _of_fetched(folder: Path) -> str | None:
+    """The name under which nbgrader hands in from here, where it released this assignment."""
+    course = folder.parent.parent
+    exchange = course / "course" / "exchange"
+    if folder.parent.name != "problems" or not any(exchange.glob(f"*/outbound/{folder.name}")):
+        return None
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):  # a container's user may have no name
+        return None
+
+
+def _show(shown: dict[str, str]) -> None:
+    try:
+        from IPython import get_ipython
+        from IPython.display import display
+    except ImportError:
+        print(shown["text/plain"])
+        return
+    if get_ipython() is None:
+        print(shown["text/plain"])
+    else:
+        display(shown, raw=True)
