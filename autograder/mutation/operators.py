@@ -99,7 +99,7 @@ def sine_for_cosine(term, mechanism):
 def velocity_left_out(term, mechanism):
     """One velocity alone where the body turns with a sum of them."""
     for total in sorted({e for e in sp.preorder_traversal(term) if e.is_Add}, key=str):
-        if total.free_symbols <= set(mechanism.qd):
+        if total.free_symbols <= set(mechanism.qd) and sp.total_degree(total) == 1:
             for one in total.args:
                 wrong = term.xreplace({total: one})
                 yield Rewriting("velocity left out", wrong, str(one), str(total - one))
