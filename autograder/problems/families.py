@@ -14,7 +14,7 @@ import numpy as np
 from autograder.judging.check import Check
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.quantities import each
-from autograder.judging.terms import Term
+from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r
 from autograder.problems.material.conventions import BOOK, SLOPE, Convention, nearest_first
 from autograder.problems.material.family_hints import HINTS
@@ -49,13 +49,14 @@ def on(own: Convention, check: Check) -> Check:
         return check
     if own == BOOK:
         return replace(check, mistakes=(*_copied(own, check), *check.mistakes))
+    made = Generated(own.mechanism, ASKED[check.id]) if check.id in ASKED else None
     changed = replace(
         check,
         reference=_right(own, check),
         calls=partial(_calls, own, check),
         mistakes=_copied(own, check),
-        catalogue=_Catalogue(own, ASKED[check.id]) if check.id in ASKED else None,
-        terms=_terms(own, check),
+        catalogue=made,
+        terms=made.terms if made else (),
         hints=HINTS.get(check.id, check.hints),
         # The card draws where angles start as in the book.
         pose=partial(_pose, own) if check.pose and own == Convention(slope=own.slope) else None,
@@ -82,36 +83,6 @@ def on(own: Convention, check: Check) -> Check:
     return changed
 
 
-class _Catalogue:
-    """The mistakes that follow from the energies of a member; made when an answer is wrong."""
-
-    def __init__(self, own: Convention, answer: str):
-        self._own, self._answer = own, answer
-
-    def mistakes(self) -> list[Mistake]:
-        from autograder.mutation.checks import mistakes_of  # loads SymPy
-
-        return mistakes_of(self._own.mechanism, self._answer)
-
-    def __call__(self, calls: list[Call]) -> list[tuple[Mistake, list]]:
-        from autograder.mutation.checks import check_of
-
-        catalogue = check_of(self._own.mechanism, self._answer).catalogue
-        assert catalogue is not None
-        # A catalogue takes arrays: motions of as many rows go together.
-        alike: dict[tuple, list[int]] = {}
-        for place, call in enumerate(calls):
-            alike.setdefault(np.shape(call.args[0]), []).append(place)
-        found: list[tuple[Mistake, list]] = []
-        for places in alike.values():
-            for k, (mistake, values) in enumerate(catalogue([calls[place] for place in places])):
-                if k == len(found):
-                    found.append((mistake, [None] * len(calls)))
-                for place, value in zip(places, values, strict=True):
-                    found[k][1][place] = value
-        return found
-
-
 def _right(own: Convention, check: Check):
     """The right answer of a check on this arm."""
     match check.id:
@@ -133,17 +104,9 @@ def _other_C(own: Convention, q, qd, arm):
 
 
 def _rate(own: Convention, x, u, arm):
-    return _accelerated(own, x, arm, u - _resisting(own, x, arm))
-
-
-def _resisting(own: Convention, x, arm):
     q, qd = x[:2], x[2:]
-    return own.C(q, qd, arm) @ qd + own.g_vec(q, arm) + planar_2r.f_vec(qd, arm)
-
-
-def _accelerated(own: Convention, x, arm, torque, rate=1.0):
-    """ẋ under this torque; rate: 0 leaves the velocities out."""
-    return np.concatenate([rate * x[2:], np.linalg.solve(own.M(x[:2], arm), torque)])
+    resisting = own.C(q, qd, arm) @ qd + own.g_vec(q, arm) + planar_2r.f_vec(qd, arm)
+    return np.concatenate([qd, np.linalg.solve(own.M(q, arm), u - resisting)])
 
 
 def _drift(moving: Convention, weighing: Convention, x, arm):
@@ -233,63 +196,3 @@ def _equilibria(own: Convention) -> each:
         return torques_and_distances.parts(call, BOOK.angles_at(turned))
 
     return parts
-
-
-# What is left of an arm where one part of its energy alone counts, by its name.
-ALONE = {
-    "the rotation of link 1": {"m1": 0.0, "m2": 0.0, "I2": 0.0},
-    "the centre of mass of link 1": {"I1": 0.0, "m2": 0.0, "I2": 0.0},
-    "the mass of link 2, carried at the elbow": {"m1": 0.0, "I1": 0.0, "I2": 0.0, "lc2": 0.0},
-    "the rotation of link 2": {"m1": 0.0, "I1": 0.0, "m2": 0.0},
-    "the centre of mass of link 2 about the elbow": {"m1": 0.0, "I1": 0.0, "I2": 0.0, "l1": 0.0},
-}
-OF_MASSES = ("m1", "I1", "m2", "I2")
-
-
-def _terms(own: Convention, check: Check) -> tuple[Term, ...]:
-    if check.id == "p5-f":
-        return tuple(Term(name, partial(_share, own, part)) for name, part in TORQUES.items())
-    if check.id not in ASKED:
-        return ()
-    if check.id not in ("p4-potential_energy", "p4-g_vec"):
-        model = _right(own, check)
-        coupling = Term("the coupling of the two links", partial(_coupling, model))
-        if check.id in ("p2-M_dot", "p2-C"):
-            return (coupling,)
-        if check.id == "p1-M":
-            return (*(Term(name, partial(_alone, model, name)) for name in ALONE), coupling)
-    if check.id == "p5-energy_drift":
-        return ()
-    weights = {
-        "the weight of link 1": "the centre of mass of link 1",
-        "the weight of link 2 at the elbow": "the mass of link 2, carried at the elbow",
-        "the weight of link 2 beyond the elbow": "the centre of mass of link 2 about the elbow",
-    }
-    model = _right(own, check)
-    return tuple(Term(name, partial(_alone, model, of)) for name, of in weights.items())
-
-
-def _alone(model, name: str, *args):
-    *state, arm = args
-    return model(*state, planar_2r.changed(arm, **ALONE[name]))
-
-
-def _coupling(model, *args):
-    """What link 2 contributes beyond its mass at the elbow and its turning about it."""
-    *state, arm = args
-    link_2 = model(*state, planar_2r.changed(arm, m1=0.0, I1=0.0, I2=0.0))
-    at_elbow, about = list(ALONE)[2], list(ALONE)[4]
-    return link_2 - _alone(model, at_elbow, *args) - _alone(model, about, *args)
-
-
-def _share(own: Convention, part, x, u, arm):
-    return _accelerated(own, x, arm, part(own, x[:2], x[2:], u, arm), rate=0.0)
-
-
-TORQUES = {
-    "M⁻¹ u": lambda own, q, qd, u, arm: u,
-    "M⁻¹ C q̇": lambda own, q, qd, u, arm: -own.C(q, qd, arm) @ qd,
-    "M⁻¹ g": lambda own, q, qd, u, arm: -own.g_vec(q, arm),
-    "viscous friction": lambda own, q, qd, u, arm: -arm.viscous * qd,
-    "Coulomb friction": lambda own, q, qd, u, arm: -arm.coulomb * np.sign(qd),
-}
