@@ -116,7 +116,7 @@ MAY_IMPORT = {
     "sandbox": ("protocol",),
     "judging": ("protocol",),
     "mechanisms": (),
-    "mutation": ("protocol", "judging", "mechanisms"),
+    "mutation": ("digest", "files", "protocol", "judging", "mechanisms"),
     "authoring": ("files", "judging", "mechanisms", "mutation", "notebook"),
     "problems": ("protocol", "judging", "mechanisms", "mutation"),
     "student": ("protocol", "judging", "problems"),

@@ -94,8 +94,9 @@ def taken(check: Check, namespace: dict) -> float:
 
 
 MADE = """
-A check that is made of a mechanism: how many mistakes it knows, deriving them in a new process and
-reading them from the cache (CPU, SymPy's import apart), and one visible check, the judging alone.
+A check that is made of a mechanism: how many mistakes it knows, deriving them (less where SymPy
+remembers) and reading them from the cache (CPU, SymPy's import apart), and one visible check,
+the judging alone.
 
 | check | mistakes | derived | read | right | a mistake | two mistakes | unexplained |
 |---|---|---|---|---|---|---|---|
