@@ -166,7 +166,7 @@ RATE_SAID = {
         "The input u has the wrong sign in your q̈: the motor turns the wrong way. On which "
         "side of the equation of motion does u stand?"
     ),
-    "M not inverted": ("You multiply by M. In M q̈ = ..., how do you get q̈ alone?"),
+    "M not inverted": ("You multiply by M. In M q̈ = …, how do you get q̈ alone?"),
     "torque for acceleration": ("The second half of your ẋ is a torque, in N·m. What resists it?"),
     "divided by the diagonal of M": (
         "You divide by the diagonal of M, as if the joints did not feel each other. What do the "
