@@ -53,6 +53,9 @@ def main(arguments: list[str] | None = None) -> int:
     )
     trying.add_argument("mechanism", help="its name, such as cart-pole, or a file with MECHANISM")
     trying.add_argument("--asks", help="try these answers alone, as M,C (default: all)")
+    trying.add_argument(
+        "--names", action="store_true", help="show each mistake's name, for sentences of your own"
+    )
     new = commands.add_parser(
         "new-problem", help="write the problem of a mechanism to solutions/, ready to be released"
     )
@@ -71,7 +74,7 @@ def main(arguments: list[str] | None = None) -> int:
         return lab(arguments[1:])
     given = parser.parse_args(arguments)
     if given.command == "try":
-        return try_mechanism(Path.cwd(), given.mechanism, given.asks)
+        return try_mechanism(Path.cwd(), given.mechanism, given.asks, given.names)
     root = Path.cwd()
     if not (root / "nbgrader_config.py").exists():
         return _complain(
@@ -133,7 +136,7 @@ def open_recorder(root: Path, assignment: str) -> "AbstractContextManager[Record
     return recorder.Recorder(root, assignment)
 
 
-def try_mechanism(root: Path, name: str, asks: str | None) -> int:
+def try_mechanism(root: Path, name: str, asks: str | None, names: bool = False) -> int:
     """Try a mechanism's checks; the exit status is 1 if a mistake is not named by its sentence."""
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.authoring.course import NoMechanismError, files_of, found
@@ -151,7 +154,7 @@ def try_mechanism(root: Path, name: str, asks: str | None) -> int:
     if unknown := [answer for answer in asked if answer not in ANSWERS]:
         return _complain(f"there is no answer {unknown[0]!r}; known are {', '.join(ANSWERS)}")
     failed = 0
-    lines = chain(tried(mechanism, asked), rehearsed(mechanism, files, asked))
+    lines = chain(tried(mechanism, asked, names), rehearsed(mechanism, files, asked))
     for line, is_as_it_should_be in lines:
         say(line if is_as_it_should_be else f"! {line}")
         failed += not is_as_it_should_be

@@ -2,7 +2,7 @@
 
 import keyword
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
 
@@ -75,7 +75,9 @@ class Mechanism:
     coordinates, velocities and parameters of the mechanism. points(q, arm): what is drawn, (x, y) in m
     one after the other; q: (n,), arm: a namespace of the parameters' numbers. friction: named terms
     too; only an answer that asks for them has their coefficients in its arms. draws(q, arm): the shapes
-    of the problem's picture (`shapes.py`); without it, links through the points.
+    of the problem's picture (`shapes.py`); without it, links through the points. sentences: a teacher's
+    own, each by its mistake, as "M: dropped / the rotation of link 2*": the answer, then the name that
+    `autograder try --names` shows, with `*` for anything.
 
     ValueError, naming what is wrong: for names that are given twice; a coordinate that is no angle (rad)
     or length (m); a range that is empty or not positive; a symbol in an energy that is none of the
@@ -91,9 +93,11 @@ class Mechanism:
     points: Callable[[np.ndarray, SimpleNamespace], Sequence[tuple[float, float]]]
     friction: tuple[FrictionTerm, ...] = ()
     draws: Callable[[np.ndarray, SimpleNamespace], Sequence[Shape]] | None = None
+    sentences: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self):
         where = f"mechanism {self.name!r}"
+        object.__setattr__(self, "sentences", _pairs(where, self.sentences))
         if not re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", str(self.name)):
             raise ValueError(
                 f"{where}: needs a name of small letters, digits and hyphens, as cart-pole"
@@ -263,6 +267,26 @@ _KINDS = {
     "potential": EnergyTerm,
     "friction": FrictionTerm,
 }
+
+
+def _pairs(where: str, sentences: object) -> tuple[tuple[str, str], ...]:
+    """A teacher's sentences as pairs, so that a mechanism stays hashable."""
+    given = list(sentences.items()) if isinstance(sentences, Mapping) else sentences
+    if not isinstance(given, list | tuple) or not all(
+        isinstance(pair, tuple) and len(pair) == 2 and all(isinstance(text, str) for text in pair)
+        for pair in given
+    ):
+        raise ValueError(
+            f"{where}: sentences needs a dict of texts, as "
+            f'{{"M: dropped / the spring": "What else …?"}}; it is {sentences!r}'
+        )
+    for mistake, _ in given:
+        if ": " not in mistake:
+            raise ValueError(
+                f'{where}: the sentence for {mistake!r} does not say of which answer; write "M: '
+                f"{mistake}\" or another answer's name"
+            )
+    return tuple(given)
 
 
 def _once(where: str, kind: str, names: list[str]) -> None:

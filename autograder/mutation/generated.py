@@ -101,10 +101,26 @@ class Generated:
         return self.reference(*args[:-1], self.example)
 
     def _said(self, mistake: Mistake) -> Mistake:
-        fitting = [row for row in self.rows if fnmatch.fnmatchcase(mistake.name, row)]
+        fitting = [row for row in self._rows if fnmatch.fnmatchcase(mistake.name, row)]
         if not fitting:
             return mistake
-        return replace(mistake, sentence=self.rows[max(fitting, key=_specific)])
+        return replace(mistake, sentence=self._rows[max(fitting, key=_specific)])
+
+    @cached_property
+    def _rows(self) -> dict[str, str]:
+        """The problem's, and those that the mechanism brings for this answer."""
+        asked = f"{self.answer}: "
+        brought = {
+            mistake.removeprefix(asked): sentence
+            for mistake, sentence in dict(self.mechanism.sentences).items()
+            if mistake.startswith(asked)
+        }
+        return self.rows | brought
+
+    def unused(self) -> list[str]:
+        """The rows that fit no mistake: mistyped, or no mistake of this answer any more."""
+        names = [mistake.name for mistake in self.mistakes()]
+        return [row for row in self._rows if not fnmatch.filter(names, row)]
 
 
 def _specific(pattern: str) -> int:

@@ -9,7 +9,8 @@ from autograder.judging.check import VISIBLE_CASES, Check
 from autograder.judging.verdict import State, Verdict
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
-from autograder.mutation.checks import check_of, mistakes_of
+from autograder.mutation.checks import check_of
+from autograder.mutation.generated import Generated
 from autograder.mutation.styles import STYLES
 from autograder.protocol import Call, Reply, read, real
 
@@ -29,8 +30,17 @@ def nothing_to_ask(mechanism: Mechanism, answer: str) -> str:
     return f"{of} of {mechanism.name} is 0 for every motion: ask for something else"
 
 
-def tried(mechanism: Mechanism, asks: Sequence[str] = tuple(ANSWERS)) -> Iterator[tuple[str, bool]]:
-    """Line by line what students will read, each with whether it is as it should be."""
+def tried(
+    mechanism: Mechanism, asks: Sequence[str] = tuple(ANSWERS), names: bool = False
+) -> Iterator[tuple[str, bool]]:
+    """Line by line what students will read, each with whether it is as it should be.
+
+    names: with the name of each mistake, by which a teacher's own sentence finds it.
+    """
+    answers = tuple(f"{answer}: " for answer in ANSWERS)
+    for row in dict(mechanism.sentences):
+        if not row.startswith(answers):
+            yield f"the sentence for {row!r} is for none of {', '.join(ANSWERS)}", False
     for answer in asks:
         check = check_of(mechanism, answer)
         if why := nothing_to_ask(mechanism, answer):
@@ -43,7 +53,10 @@ def tried(mechanism: Mechanism, asks: Sequence[str] = tuple(ANSWERS)) -> Iterato
         ]
         refused = f", but not {', '.join(wrong_styles)}" if wrong_styles else ""
         yield f"{check.id}: the right answer is correct{refused}", not wrong_styles
-        known = mistakes_of(mechanism, answer)
+        made = Generated(mechanism, answer)
+        for row in made.unused():
+            yield f"  the sentence for {f'{answer}: {row}'!r} fits no mistake", False
+        known = made.mistakes()
         for k, mistake in enumerate(known):
             verdict = _asked(check, partial(_given, check, k))
             named = verdict.diagnosis == (mistake.sentence,)
@@ -51,6 +64,8 @@ def tried(mechanism: Mechanism, asks: Sequence[str] = tuple(ANSWERS)) -> Iterato
                 f"  {' '.join(verdict.diagnosis) or f'(nothing is said of {mistake.name})'}",
                 named,
             )
+            if names:
+                yield f"      {answer}: {mistake.name}", True
         yield f"  {len(known)} mistakes", True
 
 

@@ -131,6 +131,8 @@ Q = PENDULUM.q[0]
             {"potential": (EnergyTerm("the rotation of the body", Q),)},
             "two of its energy terms are 'the rotation of the body'",
         ),
+        ({"sentences": ["What falls?"]}, "sentences needs a dict of texts"),
+        ({"sentences": {"dropped": "What falls?"}}, "'dropped' does not say of which answer"),
     ],
 )
 def test_what_is_no_mechanism_is_refused(changes, said):

@@ -70,7 +70,9 @@ def test_another_mechanism_or_other_code_has_another_entry(folder, derived, monk
     other = {
         "energy": replace(PENDULUM, kinetic=(replace(term, energy=2 * term.energy),)),
         "name of a term": replace(PENDULUM, kinetic=(replace(term, name="the turning"),)),
-        "unit of a parameter": replace(PENDULUM, parameters=(replace(first, unit="N·s²/m"), *others)),
+        "unit of a parameter": replace(
+            PENDULUM, parameters=(replace(first, unit="N·s²/m"), *others)
+        ),
         "code": PENDULUM,
     }[change]
     if change == "code":

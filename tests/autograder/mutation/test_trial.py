@@ -56,6 +56,20 @@ def test_a_file_without_a_mechanism_says_so(tmp_path, capsys, text, said):
     assert said in shown
 
 
+def test_a_teachers_own_sentence_is_said(tmp_path, capsys):
+    path = tmp_path / "block.py"
+    own = """
+        sentences={"M: dropped / *": "What moves when the spring moves?", "g_vec: nothing": "?"},
+    )
+"""
+    text = textwrap.dedent(OWN)
+    path.write_text(f"{text.rstrip()[:-1]}    {own.strip()}\n", encoding="utf-8")
+    assert main(["try", str(path), "--asks", "M,g_vec", "--names"]) == 1
+    shown = capsys.readouterr().out
+    assert "  What moves when the spring moves?\n      M: dropped / the motion of the block\n" in shown
+    assert "!   the sentence for 'g_vec: nothing' fits no mistake" in shown
+
+
 def test_some_answers_alone(tmp_path, capsys):
     path = tmp_path / "block.py"
     path.write_text(textwrap.dedent(OWN), encoding="utf-8")
