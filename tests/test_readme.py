@@ -62,10 +62,14 @@ def test_feedback_reaches_students_by_the_commands_of_the_readme():
 
 def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
     guide = (ROOT / "docs" / "own-problem.md").read_text(encoding="utf-8")
-    (example,) = re.findall(r"```python\n(.*?)```", guide, re.S)
+    example, sentences = re.findall(r"```python\n(.*?)```", guide, re.S)
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "block.py").write_text(example, encoding="utf-8")
+    with_them = example.rstrip().removesuffix(")") + "    sentences=SENTENCES,\n)\n"
+    (tmp_path / "block.py").write_text(sentences + with_them, encoding="utf-8")
     assert main(["try", "block.py"]) == 0
-    assert "block-M: the right answer is correct" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert "block-M: the right answer is correct" in shown
+    for sentence in re.findall(r': "(.+)",', sentences):
+        assert f"  {sentence}\n" in shown
     for name in MECHANISMS:
         assert name in guide

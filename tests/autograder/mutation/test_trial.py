@@ -66,7 +66,9 @@ def test_a_teachers_own_sentence_is_said(tmp_path, capsys):
     path.write_text(f"{text.rstrip()[:-1]}    {own.strip()}\n", encoding="utf-8")
     assert main(["try", str(path), "--asks", "M,g_vec", "--names"]) == 1
     shown = capsys.readouterr().out
-    assert "  What moves when the spring moves?\n      M: dropped / the motion of the block\n" in shown
+    assert (
+        "  What moves when the spring moves?\n      M: dropped / the motion of the block\n" in shown
+    )
     assert "!   the sentence for 'g_vec: nothing' fits no mistake" in shown
 
 
