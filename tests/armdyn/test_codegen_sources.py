@@ -173,10 +173,13 @@ def test_source_computes_the_derivation(model, data):
     )
 
 
-def test_the_header_is_cpp_11(needs, tmp_path):
+@pytest.mark.parametrize(
+    "names", [("CartPole", "Functions"), pytest.param(tuple(MODELS), marks=pytest.mark.long)]
+)
+def test_the_header_is_cpp_11(needs, tmp_path, names):
     for package in PACKAGES["cpp"]:
         needs(package)
-    files = {f"{name}.hpp": cpp(derivation, name) for name, derivation in MODELS.items()}
+    files = {f"{name}.hpp": cpp(MODELS[name], name) for name in names}
     driver = "".join(f'#include "{name}"\n' for name in files)
     command = ["-std=c++11" if p == "-std=c++17" else p for p in TOOLCHAINS["cpp"]().compile]
     assert "-std=c++11" in command
