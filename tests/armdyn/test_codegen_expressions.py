@@ -170,7 +170,12 @@ def test_edges_in_python(make, request):
         np.testing.assert_allclose(found, [float(right)] * 5, atol=1e-15)
 
 
-# An example is a program of its own, which is built and started.
+# An example is a program of its own, which is built and started; Mathics takes seconds for that.
+@pytest.mark.parametrize(
+    "language",
+    [pytest.param(name, marks=pytest.mark.long if name == "wolfram" else ()) for name in PACKAGES],
+    indirect=True,
+)
 @settings(
     deadline=None,
     max_examples=1,

@@ -1,6 +1,7 @@
 """Generated C++, Java, MATLAB and Wolfram source: it runs, and it says what the derivation says."""
 
 import re
+from functools import cache
 
 import mpmath
 import numpy as np
@@ -96,14 +97,18 @@ def sizes(expression):
     return sum(sp.Abs(t.replace(lambda e: e.is_Function, lambda e: sp.S.One)) for t in terms)
 
 
-EXACT = {
-    name: [sp.lambdify(symbols_of(d), part, "mpmath") for part in parts(d)]
-    for name, d in MODELS.items()
-}
-SIZES = {
-    name: [sp.lambdify(symbols_of(d), part.applyfunc(sizes).tolist(), "numpy") for part in parts(d)]
-    for name, d in MODELS.items()
-}
+@cache
+def exact_and_sizes(name):
+    """The parts of a model in many digits, and the sizes of their entries, as functions."""
+    d = MODELS[name]
+    symbols = symbols_of(d)
+    return [
+        (
+            sp.lambdify(symbols, part, "mpmath"),
+            sp.lambdify(symbols, part.applyfunc(sizes).tolist(), "numpy"),
+        )
+        for part in parts(d)
+    ]
 
 
 @st.composite
@@ -119,7 +124,13 @@ def language(request, needs):
     return request.param
 
 
-@pytest.fixture(scope="module", params=MODELS)
+# Compiling takes seconds; tests/ports builds the 2R arm as well.
+BUILT = [
+    pytest.param(name, marks=pytest.mark.long if name == "Planar2R" else ()) for name in MODELS
+]
+
+
+@pytest.fixture(scope="module", params=BUILT)
 def model(request, language):
     """(name, its program): what is generated, built without a warning."""
     derivation = MODELS[request.param]
@@ -133,7 +144,7 @@ def model(request, language):
 @given(data=st.data())
 def test_source_computes_the_derivation(model, data):
     name, program = model
-    n = MODELS[name].n
+    n, functions = MODELS[name].n, exact_and_sizes(name)
     values, q, qd, u = data.draw(arms_states_inputs(MODELS[name]))
     answer = program.terms(values, [*q, *qd], u)
     found = [
@@ -145,8 +156,8 @@ def test_source_computes_the_derivation(model, data):
         answer.qdd,
     ]
     with mpmath.workdps(340):
-        exact = [part(*map(mpmath.mpf, (*values, *q, *qd))) for part in EXACT[name]]
-        size = [np.array(part(*values, *q, *qd), float).ravel() for part in SIZES[name]]
+        exact = [part(*map(mpmath.mpf, (*values, *q, *qd))) for part, _ in functions]
+        size = [np.array(part(*values, *q, *qd), float).ravel() for _, part in functions]
         for got, right, largest in zip(found, exact, size, strict=False):
             error = np.abs(np.array([float(a - b) for a, b in zip(got, right, strict=True)]))
             assert np.all(error <= 1e-12 * largest + UNDERFLOW)
@@ -162,10 +173,13 @@ def test_source_computes_the_derivation(model, data):
     )
 
 
-def test_the_header_is_cpp_11(needs, tmp_path):
+@pytest.mark.parametrize(
+    "names", [("CartPole", "Functions"), pytest.param(tuple(MODELS), marks=pytest.mark.long)]
+)
+def test_the_header_is_cpp_11(needs, tmp_path, names):
     for package in PACKAGES["cpp"]:
         needs(package)
-    files = {f"{name}.hpp": cpp(derivation, name) for name, derivation in MODELS.items()}
+    files = {f"{name}.hpp": cpp(MODELS[name], name) for name in names}
     driver = "".join(f'#include "{name}"\n' for name in files)
     command = ["-std=c++11" if p == "-std=c++17" else p for p in TOOLCHAINS["cpp"]().compile]
     assert "-std=c++11" in command

@@ -12,6 +12,7 @@ from pathlib import Path
 import nbformat
 import sqlalchemy
 
+from tests.autograder.course_problems import problem, without_plots
 from tests.autograder.nbgrader_forks import nbgrader
 
 ROOT = Path(__file__).parents[2]
@@ -46,13 +47,14 @@ def _released() -> tempfile.TemporaryDirectory:
     root = Path(folder.name)
     shutil.copy(ROOT / "nbgrader_config.py", root)
     shutil.copytree(ROOT / "solutions" / P3, root / "solutions" / P3)
+    nbformat.write(without_plots(problem(P3).source), root / "solutions" / P3 / NOTEBOOK)
     run(root, "nbgrader", "generate_assignment", P3)
     (root / "course" / "seed").write_text(SEED)
     return folder
 
 
 def new_course(root: Path) -> Path:
-    """A course whose p3 is released, in the folder `root`, which is made."""
+    """A course whose p3, without its figures, is released, in the folder `root`, which is made."""
     shutil.copytree(_released().name, root)
     return root
 

@@ -48,7 +48,11 @@ def session():
         yield started
 
 
-@pytest.fixture(scope="module", params=[RUBBING_2R, PLANAR_3R], ids=["2R", "3R"])
+@pytest.fixture(
+    scope="module",
+    params=[RUBBING_2R, pytest.param(PLANAR_3R, marks=pytest.mark.long)],
+    ids=["2R", "3R"],
+)
 def generated(request):
     if line := ports.missing("wolfram"):
         pytest.skip(line)

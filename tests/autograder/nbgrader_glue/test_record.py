@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import nbformat
 import pytest
-from nbformat.v4 import new_markdown_cell, new_notebook
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from nbgrader.api import Gradebook
 
 from autograder.cli import main
@@ -138,7 +138,9 @@ def pair(tmp_path_factory):
         submit(theirs, name, p3_pendulum.CLASS[name](release), ON_TIME)
     submit(theirs, "late", p3_pendulum.partly_right(release), LATE)
     submit(theirs, "excused", p3_pendulum.partly_right(release), LATE)
-    folder = submit(theirs, "with_files", p3_pendulum.right(release)).parent
+    with_figure = p3_pendulum.right(release)
+    with_figure.cells.append(new_code_cell("plt.plot([1.0, 0.5]);"))
+    folder = submit(theirs, "with_files", with_figure).parent
     (folder / "pendulum.svg").write_text("the student's own")
     (folder / "data").mkdir()
     (folder / "data" / "run.csv").write_text("t,q\n")
@@ -198,7 +200,7 @@ def test_what_was_tested_is_not_trivial(pair):
         f"again; {COPY}",
         "p3-derivation has no answer; it may be in the student's own cell below",
         "p3-derivation has no answer; it may be in the student's own file IMG 1234.jpg",
-        "16 cells had lost their nbgrader settings",
+        "14 cells had lost their nbgrader settings",
         "edited_locked_cells 10 of 15 6 correct, 1 to be read the text of p3-setup had been",
         "files_beside 8 of 15 4 correct, 2 error in your code",
         f"empty could not be graded there is no {NOTEBOOK}",

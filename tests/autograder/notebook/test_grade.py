@@ -31,7 +31,7 @@ from autograder.student.cell import VISIBLE_SEED
 from tests.autograder.course_problems import problem, states, without_plots
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import cell_of
-from tests.submissions.p3_pendulum import POINTS, function
+from tests.submissions.p3_pendulum import BAD_ANSWERS, POINTS, function
 
 P3 = "p3-pendulum"
 
@@ -53,6 +53,16 @@ def test_each_grade_cell_has_a_verdict_and_no_other(wrong):
     assert wrong.verdicts.keys() == POINTS.keys()
     assert set(states(wrong).values()) == {State.INCORRECT}
     assert wrong.notes == ()
+
+
+@pytest.mark.parametrize(("answer", "sentence"), BAD_ANSWERS.values(), ids=BAD_ANSWERS)
+def test_a_faulty_answer_costs_its_own_cell_and_is_told_why(release, answer, sentence):
+    graded = grade(p3_pendulum.right_but(release, g_vec=answer), SOURCE, "seed")
+    faulty = graded.verdicts["p3-g_vec"]
+    assert faulty.credit == 0
+    assert sentence in "\n".join(faulty.lines())
+    others = {name: state for name, state in states(graded).items() if name != "p3-g_vec"}
+    assert set(others.values()) == {State.CORRECT}
 
 
 def test_same_seed_same_verdicts(release, wrong):

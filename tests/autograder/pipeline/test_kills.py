@@ -130,7 +130,7 @@ def assert_part_of(course: Course, expected: dict[str, list[tuple]], texts: dict
 
 
 @pytest.mark.parametrize(
-    ("students", "kills"), [(60, 6), pytest.param(200, 20, marks=pytest.mark.long)]
+    ("students", "kills"), [(40, 4), pytest.param(200, 20, marks=pytest.mark.long)]
 )
 def test_killed_runs_go_on_to_the_same_gradebook(tmp_path, students, kills):
     rng = random.Random(4)

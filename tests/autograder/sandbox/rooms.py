@@ -11,6 +11,18 @@ from autograder.sandbox.ways import Way
 from tests.autograder.eventually import eventually
 
 EVERY_WAY = pytest.mark.parametrize("way", list(Way), indirect=True, ids=lambda way: way.name)
+# A cold room takes a second to start, and has the walls of a warm one.
+COLD_AT_NIGHT = pytest.mark.parametrize(
+    "way",
+    [
+        Way.WARM,
+        Way.UNWALLED,
+        pytest.param(Way.COLD, marks=pytest.mark.long),
+        pytest.param(Way.UNWALLED_COLD, marks=pytest.mark.long),
+    ],
+    indirect=True,
+    ids=lambda way: way.name,
+)
 WALLED_WAYS = pytest.mark.parametrize(
     "way", [Way.WARM, Way.COLD], indirect=True, ids=lambda way: way.name
 )
