@@ -40,7 +40,7 @@ class Convention:
 
     @property
     def name(self) -> str:
-        slope = {0: [], 1: ["slope"]}.get(self.slope, [f"slope {self.slope:g}"])
+        slope = [] if not self.slope else ["slope" if self.slope == 1 else f"slope {self.slope:g}"]
         return "-".join(["planar-2r", self.angles, self.zero, *slope])
 
     @property
