@@ -236,6 +236,9 @@ def test_what_is_true_of_the_book_alone_is_found():
 
 def test_the_arm_is_drawn_from_the_name_alone():
     assert drawn("ada", 2026) == drawn("  ADA ", 2026) == drawn("ada", 2026)
+    assert all(
+        drawn("maria lopez", year) == drawn("Maria  Lopez\t", year) for year in range(2020, 2030)
+    )
     names = [f"s{number}" for number in range(400)]
     counts = {own: sum(drawn(name, 2026) == own for name in names) for own in FAMILY}
     assert min(counts.values()) >= 8  # 25 on average
