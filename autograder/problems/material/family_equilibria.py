@@ -14,7 +14,7 @@ from autograder.judging.quantities import each
 from autograder.problems.material import sampling
 from autograder.problems.material.conventions import BOOK, SLOPE, Convention
 from autograder.problems.p4_gravity.checks import configurations, torques_and_distances
-from autograder.problems.p4_gravity.mistakes import STRETCHED
+from autograder.problems.p4_gravity.mistakes import DEGREES, STRETCHED
 from autograder.protocol import Call
 
 WHERE = (
@@ -37,7 +37,6 @@ UPRIGHT = (
     "Your answer holds only the arm standing against the pull of gravity. Where else do both torques "
     "vanish?"
 )
-DEGREES = "Your angles are correct, but in degrees. In which unit must you give them?"
 
 
 def of_equilibria(own: Convention) -> each:
