@@ -21,7 +21,8 @@ class Criterion:
     an answer shows a known mistake, where that must be less, as wrong answers lie close together;
     by default the same. is_property: true of the answer as a whole, as skew-symmetry is; what breaks
     it is looked for among the mistakes that are shown already, and not in its own numbers, which many
-    answers share. is_truth: the numbers are 1 for True and 0 for False, and have no unit.
+    answers share. is_truth: the numbers are 1 for True and 0 for False, and have no unit. entries: what
+    each of its numbers is called, "M12", where that says more than a place in an array.
 
     ValueError where the share is not in (0, 1], or a truth value has a unit.
     """
@@ -34,6 +35,7 @@ class Criterion:
     is_property: bool = False
     matching: float | None = None
     is_truth: bool = False
+    entries: tuple[str, ...] = ()
 
     def __post_init__(self):
         if not 0 < self.share <= 1:

@@ -17,6 +17,8 @@ from autograder.protocol import Call
 
 # With more numbers than these, as of a motion's samples, one alone says nothing.
 MOST = 30
+# Of more arguments than so many, three are named.
+MOST_LISTED = 5
 # Of a state: its size and its sign, as Coulomb friction knows the sign alone.
 EITHER_SIGN: tuple[Callable, ...] = (lambda x: 1.25 * x + 0.1, lambda x: -x)
 # Of a length or a mass.
@@ -106,5 +108,7 @@ def _changed(name: str, value, changes: tuple[Callable, ...]) -> Iterator[tuple[
 
 
 def _listed(names: list[str]) -> str:
+    if len(names) > MOST_LISTED:
+        return f"{', '.join(names[:3])} and {len(names) - 3} other numbers"
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last

@@ -109,12 +109,21 @@ def sentences(
         shown = _shown(
             layout[k], row(right), row(theirs), known, wrong.rows[k][kept], criterion.allows(False)
         )
+        # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.
+        if len(shown) > 1 and _is_one_number(theirs) and not _is_one_number(right):
+            shown = ()
         said += [mistake.sentence for mistake in shown]
         if not shown:
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
             found = findings.of_numbers(criterion, right, theirs, parts) or criterion.otherwise
             said.append(found or ("" if any(said) else elsewhere(k)))
     return tuple(dict.fromkeys(filter(None, said)))
+
+
+def _is_one_number(values: list[np.ndarray]) -> bool:
+    """Whether each case has the same, which is not 0."""
+    first = values[0]
+    return bool(np.any(first)) and all(np.array_equal(first, other) for other in values[1:])
 
 
 def _likeliest_first(

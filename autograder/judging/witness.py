@@ -30,6 +30,8 @@ def witness(
     share = f" ({_percent(off / size)} of the right value)" if size > 0 else ""
     unit = f" {criterion.unit}".rstrip()
     entry = "" if np.size(right) == 1 else f" in entry {', '.join(map(str, at))}"
+    if len(criterion.entries) == np.size(right):
+        entry, what = "", what.replace(criterion.text, criterion.entries[int(*at)])
     of = f" ({what})" if what else ""
     return Witness(
         shown_call(call),

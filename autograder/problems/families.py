@@ -16,11 +16,18 @@ from autograder.judging.diagnosis import Mistake
 from autograder.judging.quantities import each
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r
-from autograder.problems.material.conventions import BOOK, SLOPE, Convention, nearest_first
+from autograder.problems.material.conventions import BOOK, Convention, nearest_first
+from autograder.problems.material.family_equilibria import (
+    askew,
+    mistaken,
+    of_equilibria,
+    told_apart,
+)
+from autograder.problems.material.family_gravity import mistaken as mistaken_pull
+from autograder.problems.material.family_gravity import other_pulls
 from autograder.problems.material.family_hints import HINTS
 from autograder.problems.p1_inertia.checks import arm_and_q, singular
 from autograder.problems.p2_energy_skew.checks import other, steps
-from autograder.problems.p4_gravity.checks import configurations, torques_and_distances
 from autograder.protocol import Call
 
 PROBLEMS = ("p1", "p2", "p4", "p5")
@@ -34,6 +41,8 @@ ASKED = {
     "p5-f": "f",
     "p5-energy_drift": "energy_drift",
 }
+# Those in which gravity's pull is typed by the student.
+WITH_GRAVITY = ("p4-potential_energy", "p4-g_vec", "p5-energy_drift")
 SHOULDER = "change of P as link 1 turns from the x axis and link 2 keeps its direction"
 OTHERWISE = (
     "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the Christoffel form. A right "
@@ -48,7 +57,8 @@ def on(own: Convention, check: Check) -> Check:
     if check.id not in (*ASKED, "p1-singular_arm", "p2-C_other", "p4-equilibria"):
         return check
     if own == BOOK:
-        return replace(check, mistakes=(*_copied(own, check), *check.mistakes))
+        more = askew(own) if check.id == "p4-equilibria" else ()
+        return replace(check, mistakes=(*_copied(own, check), *check.mistakes, *more))
     made = Generated(own.mechanism, ASKED[check.id]) if check.id in ASKED else None
     changed = replace(
         check,
@@ -79,7 +89,11 @@ def on(own: Convention, check: Check) -> Check:
             shoulder = replace(shoulder, text=SHOULDER)
             return replace(changed, criteria=(elbow, shoulder))
         case "p4-equilibria":
-            return replace(changed, quantities=_equilibria(own))
+            return replace(
+                changed,
+                quantities=of_equilibria(own),
+                mistakes=(*changed.mistakes, *mistaken(own), *askew(own)),
+            )
     return changed
 
 
@@ -111,10 +125,11 @@ def _rate(own: Convention, x, u, arm):
 
 def _drift(moving: Convention, weighing: Convention, x, arm):
     """E(t) − E(0), (len(x),), J, with K of the one member and P of the other."""
-    energies = [
-        0.5 * row[2:] @ moving.M(row[:2], arm) @ row[2:] + weighing.potential_energy(row[:2], arm)
-        for row in x
-    ]
+    return _drift_of(moving, weighing.potential_energy, x, arm)
+
+
+def _drift_of(moving: Convention, P, x, arm):
+    energies = [0.5 * row[2:] @ moving.M(row[:2], arm) @ row[2:] + P(row[:2], arm) for row in x]
     return np.array(energies) - energies[0]
 
 
@@ -122,10 +137,18 @@ def _copied(own: Convention, check: Check) -> tuple[Mistake, ...]:
     """What is right for the other members: a copied answer."""
     if check.id in ("p1-singular_arm", "p5-f"):  # M, C and g are given in p5, whoever writes f
         return ()
+    others = nearest_first(own)
+    if check.id == "p4-equilibria":
+        others = [member for member in others if told_apart(own, member.equilibria())]
+    elif check.id in WITH_GRAVITY:
+        others += other_pulls(own)
     if check.id == "p5-energy_drift":  # M is given there, and P is not
         return tuple(
             Mistake(f"P of {member.name}", partial(_drift, own, member), _said(own, member, "P is"))
-            for member in nearest_first(own)
+            for member in others
+        ) + tuple(
+            Mistake(name, partial(_drift_of, own, P), sentence)
+            for name, P, sentence in mistaken_pull(own, "potential_energy")
         )
     whole = check.id != "p2-C_other"  # of which there are many
     return tuple(
@@ -135,7 +158,10 @@ def _copied(own: Convention, check: Check) -> tuple[Mistake, ...]:
             _said(own, member, "answer is"),
             whole,
         )
-        for member in nearest_first(own)
+        for member in others
+    ) + tuple(
+        Mistake(*mistake)
+        for mistake in (mistaken_pull(own, ASKED[check.id]) if check.id in WITH_GRAVITY else ())
     )
 
 
@@ -183,16 +209,5 @@ def _singular(own: Convention) -> each:
         arm, q = arm_and_q(value)
         of_book = BOOK.angles_at(own.directions(np.ravel(q)))
         return singular(arm, of_book)
-
-    return parts
-
-
-def _equilibria(own: Convention) -> each:
-    """In the angles of the book, with gravity turned to where it pulls there."""
-
-    @each
-    def parts(call, value):
-        turned = own.directions(configurations(value)) - SLOPE * own.slope
-        return torques_and_distances.parts(call, BOOK.angles_at(turned))
 
     return parts

@@ -10,9 +10,9 @@ from autograder.problems.material.given import code
 from autograder.protocol import OwnArm
 
 TYPE_IT = (
-    'No name is known here. Type own_arm("{problem}", "your name"), with the name under which you hand '
-    "in, in a cell of your own above this one (after: from autograder import own_arm), and run both. "
-    "Until then you have the arm of the book."
+    "No name is known here. Until you give yours, you have the arm of the book. Put these two lines, "
+    "with the name under which you hand in, into a new cell above this one, and run both cells:\n\n"
+    '    from autograder import own_arm\n    own_arm("{problem}", "your name")\n'
 )
 _typed: list[str] = []
 _drawn: dict[str, Convention] = {}

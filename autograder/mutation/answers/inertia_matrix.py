@@ -22,19 +22,27 @@ def symmetric(mechanism: Mechanism, head: str, entries: list, per: str) -> Judge
     zero = zero if len(zero) < len(pairs) else pairs[1:]
     pairs = [pair for pair in pairs if pair not in zero]
 
+    zero = [place for i, j in zero for place in dict.fromkeys(((i, j), (j, i)))]
+
     @each
     def parts(call, value):
         M = np.reshape(value, (1, 1)) if n == 1 and np.size(value) == 1 else array(value, n, n)
         found = [M[[i, j], [j, i]] if i != j else M[[i], [i]] for i, j in pairs]
-        beside = [M[a, b] for i, j in zero for a, b in {(i, j), (j, i)}]
+        beside = [M[i, j] for i, j in zero]
         return (np.array([*found[0], *beside]), *found[1:])
 
     names = [
-        f"{head}{i + 1}{j + 1}" + (f" and {head}{j + 1}{i + 1}" if i != j else "") for i, j in pairs
+        tuple(dict.fromkeys((f"{head}{i + 1}{j + 1}", f"{head}{j + 1}{i + 1}"))) for i, j in pairs
     ]
+    beside = tuple(f"{head}{i + 1}{j + 1}" for i, j in zero)
     return parts, tuple(
-        Criterion(name if n > 1 else head, unit_of_inertia(mechanism, i, j) + per, 1 / len(pairs))
-        for name, (i, j) in zip(names, pairs, strict=True)
+        Criterion(
+            " and ".join(own) if n > 1 else head,
+            unit_of_inertia(mechanism, i, j) + per,
+            1 / len(pairs),
+            entries=own if k else own + beside,
+        )
+        for k, (own, (i, j)) in enumerate(zip(names, pairs, strict=True))
     )
 
 

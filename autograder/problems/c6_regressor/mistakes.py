@@ -289,6 +289,7 @@ REGRESSOR = (
         _plus(lambda s, arm: {(0, M1): arm.lc1 * arm.g * s.c1, (0, MC1): -arm.g * s.c1}),
         "You put the weight of link 1 into the column of m1, with ℓc1 in Y. ℓc1 is one of the "
         "unknowns: which entry of π holds it already?",
+        whole=True,
     ),
     Mistake(
         "parameters in Y",
@@ -301,6 +302,7 @@ REGRESSOR = (
         lambda q, qd, qdd, arm: -regressor(q, qd, qdd, arm),
         "Every entry of your Y has the wrong sign. On which side of the equation of motion do the "
         "torques u stand?",
+        whole=True,
     ),
     Mistake("by kind", _columns(M1, M2, MC1, MC2, J1, J2), ORDER),
     Mistake("each link reversed", _columns(J1, MC1, M1, J2, MC2, M2), ORDER),
@@ -312,6 +314,7 @@ REGRESSOR = (
         "rows swapped",
         lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm)[..., ::-1, :],
         "You swapped the rows of the two joints. Which joint feels the weight of link 1?",
+        whole=True,
     ),
     Mistake(
         "reshaped for transposed",

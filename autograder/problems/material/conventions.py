@@ -28,15 +28,20 @@ SLOPE = np.pi / 6
 
 @dataclass(frozen=True)
 class Convention:
-    """One member of the family. Its fields are arguments of `mechanisms.planar_arms.planar_arm`."""
+    """One member of the family. Its fields are arguments of `mechanisms.planar_arms.planar_arm`.
+
+    slope: by how many times SLOPE gravity's pull is turned from the −y axis. A member has False or
+    True; other numbers are what students take it for.
+    """
 
     angles: Angles = "relative"
     zero: Literal["level", "hanging"] = "level"
-    slope: bool = False
+    slope: float = False
 
     @property
     def name(self) -> str:
-        return "-".join(["planar-2r", self.angles, self.zero, *["slope"] * self.slope])
+        slope = [] if not self.slope else ["slope" if self.slope == 1 else f"slope {self.slope:g}"]
+        return "-".join(["planar-2r", self.angles, self.zero, *slope])
 
     @property
     def turns(self) -> np.ndarray:
@@ -71,7 +76,13 @@ class Convention:
             "absolute": axes[self.zero],
             "crossed": axes[other],
         }
-        pulls = "at 30° to the −y axis, towards the x axis" if self.slope else "along the −y axis"
+        towards = "towards" if self.slope > 0 else "away from"
+        degrees = f"{abs(np.degrees(SLOPE * self.slope)):.0f}°"
+        pulls = (
+            f"at {degrees} to the −y axis, {towards} the x axis"
+            if self.slope
+            else "along the −y axis"
+        )
         return (
             f"q1 is measured from {axes[self.zero]}",
             f"q2 is measured from {second[self.angles]}",
@@ -158,7 +169,7 @@ class Convention:
 def _mechanism(of: Convention) -> "Mechanism":
     from autograder.mechanisms.planar_arms import planar_arm  # loads SymPy
 
-    return planar_arm(of.name, 2, of.angles, of.zero, slope=of.slope)
+    return planar_arm(of.name, 2, of.angles, of.zero, slope=bool(of.slope))
 
 
 BOOK = Convention()
@@ -173,7 +184,8 @@ FAMILY = tuple(
 def drawn(name: str, year: int = 0) -> Convention:
     """The member of the student with this name: the same on every machine, and each year another.
 
-    Capital letters, spaces around the name and how Unicode writes a letter make no difference.
+    Capital letters, spaces around the name or doubled in it, and how Unicode writes a letter make no
+    difference.
     """
     digest = hashlib.sha256(f"{year}\0{folded(name)}".encode()).digest()
     return FAMILY[int.from_bytes(digest[:8], "big") % len(FAMILY)]
@@ -181,7 +193,8 @@ def drawn(name: str, year: int = 0) -> Convention:
 
 def folded(name: str) -> str:
     """The name as it counts."""
-    return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", name).casefold()).strip()
+    plain = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", name).casefold())
+    return " ".join(plain.split())
 
 
 def nearest_first(own: Convention) -> list[Convention]:

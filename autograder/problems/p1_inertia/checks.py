@@ -204,7 +204,7 @@ CHECKS = (
         quantities=_entries,
         criteria=(
             Criterion("M11", "kg·m²", 0.5),
-            Criterion("M12 and M21", "kg·m²", 0.25),
+            Criterion("M12 and M21", "kg·m²", 0.25, entries=("M12", "M21")),
             Criterion("M22", "kg·m²", 0.25),
         ),
         catalogue=INERTIA,

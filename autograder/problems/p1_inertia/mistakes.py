@@ -384,9 +384,9 @@ SINGULAR_ARM = (
     Mistake(
         "point masses in a bent arm",
         _answer(q2=np.pi / 2),
-        "Your M is positive definite: these parameters would do, but not at this q2. At which q2 "
-        "can both joints move while the mass of link 2 stays at rest? Remember that q is in "
-        "radians.",
+        "Your M is positive definite: these parameters would do, but not with the elbow bent like "
+        "this. How must link 2 lie for both joints to move while its mass stays at rest? Remember "
+        "that q is in radians.",
     ),
     Mistake(
         "link 1 resists",

@@ -151,7 +151,7 @@ CHECKS = (
         quantities=_entries,
         criteria=(
             Criterion("entry Ṁ11", "kg·m²/s", 0.45),
-            Criterion("entries Ṁ12 and Ṁ21", "kg·m²/s", 0.45),
+            Criterion("entries Ṁ12 and Ṁ21", "kg·m²/s", 0.45, entries=("Ṁ12", "Ṁ21")),
             Criterion("entry Ṁ22", "kg·m²/s", 0.1),
         ),
         catalogue=Generated("planar-2r", "M_dot", mistakes.M_DOT_SAID),

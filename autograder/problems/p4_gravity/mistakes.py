@@ -299,6 +299,7 @@ QUARTER = (
     "You fold the elbow by a quarter turn. Link 2 then lies level and pulls on both joints. How "
     "far must the elbow turn from stretched to folded?"
 )
+DEGREES = "Your angles are correct, but in degrees. In which unit must you give them?"
 
 EQUILIBRIA = (
     Mistake("stretched only", _only((pi / 2, 0), (-pi / 2, 0)), STRETCHED),
@@ -337,6 +338,6 @@ EQUILIBRIA = (
     Mistake(
         "in degrees",
         _all((-90, 90), (0, 180)),
-        "Your angles are correct, but in degrees. In which unit must you give them?",
+        DEGREES,
     ),
 )

@@ -133,3 +133,20 @@ def test_the_argument_itself_is_left_as_it_is():
 
 def test_quantities_of_one_call_each_say_so():
     assert isinstance(each(lambda call, value: (value,)), each)
+
+
+def test_of_many_numbers_a_few_are_named():
+    def state_calls(rng, count):
+        return [Call("rate", (rng.uniform(1, 2, 8),)) for _ in range(count)]
+
+    judging = check(
+        (),
+        signature="rate(x)",
+        reference=lambda x: np.array(x[0]),
+        calls=state_calls,
+        criteria=(Criterion("rate", "m/s"),),
+    )
+    (sentence,) = said(judging, lambda x: np.exp(np.sin(x).sum()))
+    assert sentence == (
+        "In your rate, the values depend on x[1], x[2], x[3] and 4 other numbers; the right ones do not."
+    )

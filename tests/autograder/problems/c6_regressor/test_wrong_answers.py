@@ -8,6 +8,7 @@ from autograder.judging.criterion import TOLERANCE
 from autograder.judging.diagnosis import Known, mistakes_shown
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
+from autograder.protocol import Reply, real
 from tests.autograder.problems.c6_regressor.table import (
     ALL_V,
     LIST,
@@ -136,3 +137,23 @@ def test_what_is_no_answer_is_an_error(check_id, body, said):
 def test_no_wrong_model_looks_like_another(check_id):
     for seed in range(2):
         assert_told_apart(CHECKS[check_id], seed)
+
+
+@pytest.mark.parametrize(
+    ("spoilt", "said"),
+    [
+        (lambda Y: np.multiply(Y, [1, 1, 1, 1, -1, 1]), "Every entry"),
+        (lambda Y: np.where(np.arange(6) == 4, Y[0], Y), "swapped the rows"),
+        (lambda Y: Y * [[1, 0, 1, 1, 1, 1], [1] * 6], "the column of m1"),
+    ],
+)
+def test_what_is_said_of_all_of_Y_is_true_of_all_of_it(spoilt, said):
+    check = CHECKS["c6-regressor"]
+
+    def ask(calls):
+        right = [np.array(check.reference(*map(real, call.args)), float) for call in calls]
+        return [Reply(value=spoilt(Y)) for Y in right]
+
+    verdict = check.run(ask, np.random.default_rng(5))
+    assert verdict.state is State.PARTLY_CORRECT
+    assert said not in " ".join(verdict.diagnosis)
