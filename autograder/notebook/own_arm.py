@@ -18,7 +18,9 @@ from autograder.problems.material.given import code
 from autograder.protocol import one_line
 
 # The first line of what `arm_card` shows as plain text.
-SHOWN = re.compile(r"^This is (the arm of .*?)(?:\.|: the one that the table above describes\.)$", re.M)
+SHOWN = re.compile(
+    r"^This is (the arm of .*?)(?:\.|: the one that the table above describes\.)$", re.M
+)
 
 
 @dataclass(frozen=True)
