@@ -100,6 +100,24 @@ def test_nothing_is_written_over(tmp_path):
     assert path.read_bytes() == before
 
 
+@EVERY
+def test_the_proof_has_the_friction_of_the_equation_above_it(mechanism):
+    for asks in (["C"], ["C", "f"]):
+        cells = {cell.id.removeprefix(f"{mechanism.name}-"): cell.source
+                 for cell in notebook(mechanism, asks).cells}  # fmt: skip
+        resists = "f(\\dot q)" in cells["title"]
+        assert resists == (bool(mechanism.friction) and "f" in asks)
+        assert ("u - f(\\dot q)" in cells["proof"]) == resists
+        assert ("u - f(\\dot q)" in cells["proof-task"]) == resists
+
+
+@EVERY
+def test_the_table_has_the_names_that_sentences_use(mechanism):
+    table = notebook(mechanism, ["M"]).cells[1].source
+    for symbol in mechanism.qd:
+        assert re.search(rf"\b{symbol.name} \|", table)
+
+
 @pytest.mark.parametrize("asks", [[], ["M", "M"], ["m"], ["M", ""]])
 def test_answers_that_cannot_be_asked(tmp_path, asks):
     with pytest.raises(ProblemError, match=f"needs some of {', '.join(ANSWERS)}, each once"):
