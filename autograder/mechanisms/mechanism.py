@@ -130,6 +130,10 @@ class Mechanism:
                 raise ValueError(
                     f"{where}: {coordinate.name} has the unit {coordinate.unit!r}, needs rad or m"
                 )
+            if coordinate.name == "q" and len(self.coordinates) > 1:
+                raise ValueError(
+                    f"{where}: 'q' is the vector of all its coordinates; give this one another name"
+                )
         for p in self.parameters:
             if not p.unit or not isinstance(p.unit, str):
                 raise ValueError(f"{where}: {p.name} needs a unit, as kg")

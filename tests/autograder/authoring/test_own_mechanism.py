@@ -24,6 +24,9 @@ def line(text):
     return 1 + next(i for i, written in enumerate(SLED.splitlines()) if text in written)
 
 
+STIFFNESS, SPRING, PLACES = line("N/m"), line('EnergyTerm("the spring'), line("(q[0], 0.0)")
+
+
 @pytest.fixture
 def root(tmp_path, monkeypatch):
     (tmp_path / "nbgrader_config.py").touch()
@@ -88,7 +91,25 @@ def test_a_course_may_change_a_mechanism_of_the_kit(root):
             SLED.replace("(x,)", "(y,)"),
             f"sled.py, line {line('(x,)')}: NameError: name 'y' is not defined; put",
         ),
-        (SLED.replace("x.velocity**2", "x.velocity"), "is not quadratic in the velocities"),
+        (
+            SLED.replace("x.velocity**2", "x.velocity"),
+            f"sled.py, line {line('the motion of')}: ValueError: mechanism 'sled': "
+            "'the motion of the sled' of K is not quadratic in the velocities",
+        ),
+        (SLED.replace('"N/m"', '"N"'), f"line {SPRING}: ValueError: mechanism 'sled'"),
+        (SLED.replace('"N/m"', '"N/cm"'), f"line {STIFFNESS}: ValueError: mechanism 'sled': k: "),
+        (
+            SLED.replace("5.0, 40.0", "40.0, 5.0"),
+            f"line {STIFFNESS}: ValueError: mechanism 'sled': k is",
+        ),
+        (SLED.replace("(q[0], 0.0)", "(q[1], 0.0)"), f"line {PLACES}: ValueError: "),
+        (SLED.replace("k.symbol *", "k * m *"), "an energy is made of m.symbol for a parameter m"),
+        (SLED.replace("k.symbol * x.symbol", "k.symbol * sp.sin(x)"), "x.symbol and x.velocity"),
+        (SLED.replace("m.symbol *", "-m.symbol *"), "K is negative for a motion with xd"),
+        (
+            SLED.replace("m.symbol * x", "0 * m.symbol * x"),
+            "K is 0 for a motion with xd, so M has no inverse",
+        ),
         (
             SLED.replace('"sled"', '"sledge"'),
             "its mechanism is called 'sledge'; write name=\"sled\"",
