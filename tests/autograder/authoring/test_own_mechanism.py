@@ -58,6 +58,16 @@ def test_a_file_of_anywhere_is_taken_into_the_course(root, capsys):
     assert "solutions/sled/sled.py is there already" in capsys.readouterr().err
 
 
+def test_a_name_with_a_letter_wrong_finds_the_courses_own(root, capsys):
+    (root / "my.py").write_text(SLED, encoding="utf-8")
+    assert main(["new-problem", "my.py", "--asks", "M, g_vec"]) == 0
+    assert "it asks for M, g_vec." in capsys.readouterr().out
+    assert main(["try", "sled"]) == 2
+    assert (
+        "(did you mean sled?); the course has sled; the kit has pendulum" in capsys.readouterr().err
+    )
+
+
 def test_a_name_that_no_mechanism_can_have(root, capsys):
     assert main(["new-problem", "Two Sleds"]) == 2
     assert "small letters, digits and hyphens" in capsys.readouterr().err
