@@ -62,7 +62,7 @@ def test_a_name_with_a_letter_wrong_finds_the_courses_own(root, capsys):
     (root / "my.py").write_text(SLED, encoding="utf-8")
     assert main(["new-problem", "my.py", "--asks", "M, g_vec"]) == 0
     assert "it asks for M, g_vec." in capsys.readouterr().out
-    assert main(["try", "sled"]) == 2
+    assert main(["try", "sledd"]) == 2
     assert (
         "(did you mean sled?); the course has sled; the kit has pendulum" in capsys.readouterr().err
     )
