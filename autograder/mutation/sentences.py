@@ -96,6 +96,10 @@ GENERAL = {
     "velocity left out": "In your {where}, {term} depends on {put} alone. Which joints move it?",
     "square lost": "In your {where}, the units of {term} do not come out {right}. Look at the power of "
     "{put}.",
+    "length left out": "In your {where}, {instead_of} is missing from a sum in {term}. Which lengths "
+    "add up there?",
+    "squared part by part": "In your {where}, you squared {put} one by one in {term}. What does the "
+    "square of a sum hold besides the squares of its parts?",
     "wave lost": "In your {where}, {term} does not change with the angle. Should it?",
     "parameter added": "In your {where}, {term} has {put} beside {instead_of}. Does {put} "
     "({put_doc}) have a part in it?",
@@ -313,6 +317,10 @@ THROUGHOUT = {
     "velocity left out": "In your {where}, everything moves with {put} alone. Which joints move which "
     "body?",
     "square lost": "The units of your {where} do not come out {right}. Look at the power of {put}.",
+    "length left out": "In your {where}, {instead_of} is missing from a sum. Which lengths add up "
+    "there?",
+    "squared part by part": "In your {where}, you squared {put} one by one. What does the square of a "
+    "sum hold besides the squares of its parts?",
     "wave lost": "Your {where} does not change with the angle {instead_of}. Should it?",
     "wrong velocity": "Your {where} has the velocity {put} where {instead_of} belongs. Which joint's "
     "motion makes it?",
