@@ -399,7 +399,7 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
     if not put:  # a combination of parameters has a name alone
         template = template.replace(" ({put_doc})", "")
     # On a slope a direction is an angle and a constant, of which only the angle is a student's.
-    words["instead_of"] = mutant.instead_of.partition(" + pi")[0].partition(" - pi")[0]
+    words["instead_of"] = words["instead_of"].partition(" + pi")[0].partition(" - pi")[0]
     if mutant.in_energy and answer.name in DERIVED:
         words["where"], source = ENERGIES[answer.name], DERIVED[answer.name]
         said = template.format(**words)
