@@ -150,7 +150,7 @@ def try_mechanism(root: Path, name: str, asks: str | None, names: bool = False) 
         files = files_of(root, name, mechanism)
     except (NoMechanismError, MechanismFileError) as error:
         return _complain(str(error))
-    asked = list(ANSWERS) if asks is None else asks.split(",")
+    asked = list(ANSWERS) if asks is None else _listed(asks)
     if unknown := [answer for answer in asked if answer not in ANSWERS]:
         return _complain(f"there is no answer {unknown[0]!r}; known are {', '.join(ANSWERS)}")
     failed = 0
@@ -172,7 +172,7 @@ def new_problem(root: Path, name: str, asks: str | None) -> int:
 
     try:
         mechanism = own(root, name)
-        asked = usual_asks(mechanism) if asks is None else asks.split(",")
+        asked = usual_asks(mechanism) if asks is None else _listed(asks)
         path = write_problem(root, mechanism, asked)
     except FillInError as error:
         say(str(error))
@@ -184,6 +184,11 @@ def new_problem(root: Path, name: str, asks: str | None) -> int:
     say(f"  autograder try {mechanism.name}")
     say(f"  nbgrader generate_assignment {mechanism.name}")
     return 0
+
+
+def _listed(asks: str) -> list[str]:
+    """The names of "M, C", with or without the space."""
+    return [name.strip() for name in asks.split(",")]
 
 
 def report(root: Path, assignment: str) -> int:

@@ -1,6 +1,7 @@
 """Where a course has its own mechanisms: solutions/NAME/NAME.py, beside the notebook of the problem."""
 
 import difflib
+from collections.abc import Sequence
 from pathlib import Path
 
 from autograder.authoring.template import template
@@ -39,9 +40,11 @@ def found(root: Path, name: str) -> Mechanism:
         return mechanism_in(path, shown, name)
     if name in MECHANISMS:
         return MECHANISMS[name]
+    owned = sorted(p.stem for p in (root / "solutions").glob("*/*.py") if p.stem == p.parent.name)
+    has = f"; the course has {', '.join(owned)}" if owned else ""
     raise NoMechanismError(
-        f"there is no mechanism {name!r}{_meant(name)}; the kit has {', '.join(MECHANISMS)}; "
-        f"`autograder new-problem {name}` writes the file of a new one"
+        f"there is no mechanism {name!r}{_meant(name, owned)}{has}; the kit has "
+        f"{', '.join(MECHANISMS)}; `autograder new-problem {name}` writes the file of a new one"
     )
 
 
@@ -87,7 +90,7 @@ def files_of(root: Path, name: str, mechanism: Mechanism) -> dict[str, str]:
     return {f"{mechanism.name}.py": path.read_text(encoding="utf-8")} if path.is_file() else {}
 
 
-def _meant(name: str) -> str:
-    near = [known for known in MECHANISMS if name in known]
-    near = near or difflib.get_close_matches(name, MECHANISMS, 1)
+def _meant(name: str, owned: Sequence[str] = ()) -> str:
+    known = [*owned, *MECHANISMS]
+    near = [one for one in known if name in one] or difflib.get_close_matches(name, known, 1)
     return f" (did you mean {' or '.join(near)}?)" if near else ""

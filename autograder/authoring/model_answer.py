@@ -1,10 +1,12 @@
 """Writes the right answers of a mechanism as the Python that a model answer in a notebook is made of."""
 
 import re
+from collections.abc import Iterator
 
 import numpy as np
 import sympy as sp
 from sympy.printing.numpy import NumPyPrinter
+from sympy.simplify.fu import TR8
 
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
@@ -82,10 +84,19 @@ def _regressor(mechanism: Mechanism) -> list[str]:
 MADE_OF_OTHERS = {"f": _first_order, "energy_drift": _energy_drift, "regressor": _regressor}
 
 
+def _forms(expression: sp.Expr) -> Iterator[sp.Expr]:
+    """As it was derived, with its common factors out, and with products of sines and cosines as those
+    of sums: velocities squared give sin² + cos², which is 1.
+    """
+    yield expression
+    expanded = sp.expand(expression)
+    yield sp.factor_terms(expanded)
+    yield sp.factor_terms(sp.expand(TR8(expanded)))
+
+
 def _python(mechanism: Mechanism, expression: sp.Expr) -> str:
-    """The expression in q, qd and arm, as derived or with its common factors out, as is shorter."""
-    expression = sp.sympify(expression)
-    shorter = min(expression, sp.factor_terms(sp.expand(expression)), key=sp.count_ops)
+    """The expression in q, qd and arm, in the shortest of its forms."""
+    shorter = min(_forms(sp.sympify(expression)), key=sp.count_ops)
     written = {s: sp.Symbol(f"q[{i}]") for i, s in enumerate(mechanism.q)}
     written |= {s: sp.Symbol(f"qd[{i}]") for i, s in enumerate(mechanism.qd)}
     written |= {p.symbol: sp.Symbol(f"arm.{p.name}") for p in mechanism.parameters}

@@ -11,7 +11,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from autograder.authoring.model_answer import model_answer
 from autograder.authoring.picture import picture
 from autograder.files import put_in_place
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms import Coordinate, Mechanism
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.inertial_parameters import inertial_parameters
 from autograder.mutation.trial import nothing_to_ask
@@ -92,7 +92,14 @@ cancels, and $\\sum_k\\left(\\frac{\\partial M_{jk}}{\\partial q_i} - \
 \\frac{\\partial M_{ik}}{\\partial q_j}\\right)\\dot q_k$ is left. If $i$ and $j$ change places it \
 changes its sign, since $M$ is symmetric. So $\\dot M - 2C$ is skew-symmetric. For the energy \
 $E = K + P$ follows $\\dot E = \\dot q^{\\mathsf T}(M\\ddot q + \\tfrac12\\dot M\\dot q + g) = \
-\\dot q^{\\mathsf T}u + \\tfrac12\\dot q^{\\mathsf T}(\\dot M - 2C)\\dot q = \\dot q^{\\mathsf T}u$."""
+\\dot q^{\\mathsf T}FORCES + \\tfrac12\\dot q^{\\mathsf T}(\\dot M - 2C)\\dot q = \
+\\dot q^{\\mathsf T}FORCES$."""
+# What does work: the input alone, or less the friction.
+FORCES = {False: "u", True: "(u - f(\\dot q))"}
+GREEK = (
+    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "mu", "nu", "xi",
+    "rho", "sigma", "tau", "phi", "chi", "psi", "omega",
+)  # fmt: skip
 
 
 class ProblemError(ValueError):
@@ -134,7 +141,7 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
     """The problem in nbgrader's source form, with model answers."""
     name = mechanism.name
     proof = "C" in asks  # what it asks about
-    friction = any(ANSWERS[answer].friction for answer in asks)
+    friction = bool(mechanism.friction) and any(ANSWERS[answer].friction for answer in asks)
     total = sum(POINTS[answer] for answer in asks) + (PROOF_POINTS if proof else 0)
     cells = [
         new_markdown_cell(_title(mechanism, total, friction), id=f"{name}-title"),
@@ -167,9 +174,11 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
         ]
     if proof:
         cells += [
-            new_markdown_cell(_proof_task(ascii_uppercase[len(asks)]), id=f"{name}-proof-task"),
             new_markdown_cell(
-                f"### BEGIN SOLUTION\n{PROOF}\n### END SOLUTION",
+                _proof_task(ascii_uppercase[len(asks)], friction), id=f"{name}-proof-task"
+            ),
+            new_markdown_cell(
+                f"### BEGIN SOLUTION\n{proof_of(friction)}\n### END SOLUTION",
                 id=f"{name}-proof",
                 metadata=_cell(f"{name}-proof", solution=True, grade=True, points=PROOF_POINTS),
             ),
@@ -189,7 +198,7 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
 
 def _title(mechanism: Mechanism, total: int, friction: bool) -> str:
     words = mechanism.name.replace("-", " ")
-    resisting = " + f(\\dot q)" if friction and mechanism.friction else ""
+    resisting = " + f(\\dot q)" if friction else ""
     return (
         f"# Problem: {words}\n\nThe equation of motion of this mechanism has the canonical form\n\n"
         f"$$M(q)\\,\\ddot q + C(q,\\dot q)\\,\\dot q + g(q){resisting} = u .$$\n\n"
@@ -202,7 +211,7 @@ def _symbols(mechanism: Mechanism, friction: bool) -> str:
     for i, c in enumerate(mechanism.coordinates):
         rows.append(f"| `q[{i}]` | ${_latex(c.name)}$: 0 is {c.zero} | {c.unit} |")
     for i, c in enumerate(mechanism.coordinates):
-        rows.append(f"| `qd[{i}]` | $\\dot{{{_latex(c.name)}}}$ | {c.unit}/s |")
+        rows.append(f"| `qd[{i}]` | {_rate(c)} | {c.unit}/s |")
     rows += [
         f"| `arm.{p.name}` | {p.doc.replace('|', '&#124;')} | {p.unit} |"
         for p in mechanism.parameters
@@ -216,9 +225,14 @@ def _symbols(mechanism: Mechanism, friction: bool) -> str:
     return f"![{alt}]({mechanism.name}.svg)\n\n" + "\n".join(rows)
 
 
+def _rate(coordinate: Coordinate) -> str:
+    """A velocity, with the name that a check's sentence gives it."""
+    return f"$\\dot{{{_latex(coordinate.name)}}}$; the checks call it {coordinate.velocity.name}"
+
+
 def _latex(name: str) -> str:
     head = name.rstrip("0123456789")
-    head = f"\\{head}" if head in ("theta", "phi") else head
+    head = f"\\{head}" if head in GREEK else head
     index = name[len(name.rstrip("0123456789")) :]
     return f"{head}_{index}" if index else head
 
@@ -261,7 +275,12 @@ def _answer(mechanism: Mechanism, answer: str, doc: str) -> str:
     return f"def {ANSWERS[answer].signature}:\n" + "\n".join(f"    {line}" for line in lines)
 
 
-def _proof_task(letter: str) -> str:
+def proof_of(friction: bool) -> str:
+    """The model answer of the proof, for the equation of motion with friction or without."""
+    return PROOF.replace("FORCES", FORCES[friction])
+
+
+def _proof_task(letter: str, friction: bool) -> str:
     return f"""\
 ## {letter}. By hand ({PROOF_POINTS} points, read by a person)
 
@@ -273,7 +292,7 @@ energy of this mechanism. Write it up in the cell below, line by line, with a re
 | 1 | the definition of the Christoffel symbols, with its three derivatives |
 | 1 | $\\dot M$ by the chain rule |
 | 1 | the two derivatives that are left, and why they change their sign |
-| 1 | $\\dot E = \\dot q^{{\\mathsf T}} u$, and where the skew-symmetry enters |"""
+| 1 | $\\dot E = \\dot q^{{\\mathsf T}} {FORCES[friction]}$, and where the skew-symmetry enters |"""
 
 
 def _locked(grade_id: str) -> dict:

@@ -43,10 +43,15 @@ def coefficient(name: str, coordinate: str) -> sp.Symbol:
 def joint_friction(*joints: tuple[Coordinate, str]) -> tuple[FrictionTerm, ...]:
     """Viscous and Coulomb friction of joints, each with its name in words: (q1, "joint 1").
 
-    As `armdyn.friction`: f = d q̇ + k sign(q̇), and sign(0) = 0.
+    As `armdyn.friction`: f = d q̇ + k sign(q̇), and sign(0) = 0. ValueError for anything but such pairs.
     """
     found = []
-    for c, words in joints:
+    for joint in joints:
+        if not (isinstance(joint, tuple) and len(joint) == 2 and hasattr(joint[0], "velocity")):
+            raise ValueError(
+                f'joint_friction needs a coordinate and its words, as (x, "the cart"); got {joint!r}'
+            )
+        c, words = joint
         viscous, dry = ("N·m·s/rad", "N·m") if c.unit == "rad" else ("N·s/m", "N")
         slip, v = sp.sign(c.velocity), c.velocity
         for name, kind, unit, of in (

@@ -3,6 +3,7 @@
 import keyword
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from types import SimpleNamespace
 
@@ -11,7 +12,7 @@ import sympy as sp
 
 from autograder.mechanisms.friction import FrictionTerm, refuse_other_than_friction
 from autograder.mechanisms.shapes import SHAPES, Shape, arm
-from autograder.mechanisms.units import refuse_other_than_joules
+from autograder.mechanisms.units import UnitError, refuse_other_than_joules, spelled
 
 UNITS_OF_COORDINATES = ("rad", "m")
 
@@ -40,7 +41,8 @@ class Parameter:
     """A parameter: what it is, and the range from which random mechanisms draw it.
 
     to_find: whether a regressor finds it from measured torques, as a mass, or it is known without them,
-    as the length of a link; by default lengths and gravity are known.
+    as the length of a link; by default lengths and gravity are known. unit: in any usual spelling; it
+    is kept as students read it, m/s² for "m/s^2".
     """
 
     name: str
@@ -49,6 +51,10 @@ class Parameter:
     low: float
     high: float
     to_find: bool | None = None
+
+    def __post_init__(self):
+        with suppress(UnitError, AttributeError):  # the mechanism says which one cannot be read
+            object.__setattr__(self, "unit", spelled(self.unit))
 
     @property
     def known(self) -> bool:
@@ -127,6 +133,10 @@ class Mechanism:
             if coordinate.unit not in UNITS_OF_COORDINATES:
                 raise ValueError(
                     f"{where}: {coordinate.name} has the unit {coordinate.unit!r}, needs rad or m"
+                )
+            if coordinate.name == "q" and len(self.coordinates) > 1:
+                raise ValueError(
+                    f"{where}: 'q' is the vector of all its coordinates; give this one another name"
                 )
         for p in self.parameters:
             if not p.unit or not isinstance(p.unit, str):

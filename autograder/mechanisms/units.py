@@ -38,21 +38,45 @@ def dimension_of(unit: str) -> Dimension:
 
     UnitError for one that cannot be read.
     """
+    found = NUMBER
+    for name, power in _factors(unit):
+        found = _times(found, tuple(map(Fraction, KNOWN[name])), power)  # type: ignore[arg-type]
+    return found
+
+
+def spelled(*units: str, per: str = "1") -> str:
+    """A unit in the one spelling that students read, as kg·m² for "kg m^2"; of several, their product.
+
+    per: a unit to divide by. UnitError for one that cannot be read.
+    """
+    powers: dict[str, int] = {}
+    for unit, sign in (*((unit, 1) for unit in units), (per, -1)):
+        for name, power in _factors(unit):
+            powers[name] = powers.get(name, 0) + sign * power
+    # Where products of units meet, kg·m and N·m are usual, and m·kg is not.
+    names = sorted(powers, key=lambda name: name == "m") if len(units) > 1 else list(powers)
+    above = "·".join(f"{name}{_power(powers[name])}" for name in names if powers[name] > 0)
+    below = "·".join(f"{name}{_power(-powers[name])}" for name in names if powers[name] < 0)
+    return _quotient(above, below)
+
+
+def _factors(unit: str) -> list[tuple[str, int]]:
+    """(kg, 1), (m, 2) of "kg·m²": what it is made of, and to which power."""
     plain = re.sub(r"\s*([·⋅*/()])\s*", r"\1", unit.translate(SUPERSCRIPTS).strip())
     above, *below = re.sub(r"\s+", "·", plain).split("/")
-    found = _product(unit, above)
+    factors = _product(unit, above)
     for part in below:
         inner = part[1:-1] if part.startswith("(") and part.endswith(")") else part
         if inner == part and re.search(r"[·*.](?!\*)", part.replace("**", "^")):
             raise UnitError(
                 f"the unit {unit!r} may be read in two ways; write …/(…) for what is below"
             )
-        found = _times(found, _product(unit, inner), -1)
-    return found
+        factors += [(name, -power) for name, power in _product(unit, inner)]
+    return [(name, power) for name, power in factors if name != "1"]
 
 
-def _product(unit: str, text: str) -> Dimension:
-    found = NUMBER
+def _product(unit: str, text: str) -> list[tuple[str, int]]:
+    factors = []
     for factor in re.split(r"[·⋅.]|(?<!\*)\*(?!\*)", text):
         match = FACTOR.fullmatch(factor)
         if match is None or match[1] not in KNOWN:
@@ -60,9 +84,8 @@ def _product(unit: str, text: str) -> Dimension:
                 f"the unit {unit!r} holds {factor!r}; known are {', '.join(KNOWN)}, with · / and powers "
                 "such as m² or s⁻¹"
             )
-        exponents = tuple(map(Fraction, KNOWN[match[1]]))
-        found = _times(found, exponents, int(match[2] or 1))  # type: ignore[arg-type]
-    return found
+        factors.append((match[1], int(match[2] or 1)))
+    return factors
 
 
 def shown(dimension: Dimension) -> str:
@@ -75,12 +98,16 @@ def shown(dimension: Dimension) -> str:
         parts = [("N", kg), ("m", m - 1)]
     above = "·".join(f"{name}{_power(p)}" for name, p in parts if p > 0)
     below = "·".join(f"{name}{_power(-p)}" for name, p in parts if p < 0)
+    return _quotient(above, below)
+
+
+def _quotient(above: str, below: str) -> str:
     if not below:
         return above or "1"
     return f"{above or '1'}/({below})" if "·" in below else f"{above or '1'}/{below}"
 
 
-def _power(exponent: Fraction) -> str:
+def _power(exponent: Fraction | int) -> str:
     if exponent == 1:
         return ""
     if exponent.denominator == 1:

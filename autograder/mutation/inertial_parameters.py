@@ -10,6 +10,7 @@ from functools import lru_cache
 import sympy as sp
 
 from autograder.mechanisms import EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.units import spelled
 
 
 @dataclass(frozen=True)
@@ -99,10 +100,8 @@ def _unit(mechanism: Mechanism, value: sp.Expr) -> str:
     """Of its first product: kg·m of m1·lc1."""
     units = {p.symbol: p.unit for p in mechanism.parameters}
     product = sp.Add.make_args(value)[0]
-    names = [(units[s], int(k)) for s, k in product.as_powers_dict().items()]
-    metres = sum(k for unit, k in names if unit == "m")
-    rest = "·".join(unit for unit, _ in names if unit != "m")
-    return rest + ("", "·m", "·m²")[metres] if metres < 3 else f"{rest}·m^{metres}"
+    factors = product.as_powers_dict().items()
+    return spelled(*(units[s] for s, k in factors for _ in range(int(k))))
 
 
 def _words(mechanism: Mechanism, value: sp.Expr) -> str:

@@ -166,6 +166,23 @@ def square_lost(term, mechanism):
         yield Rewriting("square lost", wrong, square.base.name, f"{square.base.name}²")
 
 
+def sum_of_lengths(term, mechanism):
+    """A length forgotten in a sum such as r0 + s, or the sum squared part by part."""
+    lengths = {p.symbol for p in mechanism.parameters if p.unit == "m"}
+    lengths |= {c.symbol for c in mechanism.coordinates if c.unit == "m"}
+    sums = {e for e in sp.preorder_traversal(term) if e.is_Add and e.free_symbols <= lengths}
+    for total in sorted(sums, key=sp.default_sort_key):
+        if not all(part.is_Symbol or (-part).is_Symbol for part in total.args):
+            continue
+        names = [part.free_symbols.pop().name for part in total.args]
+        for part, name in zip(total.args, names, strict=True):
+            yield Rewriting("length left out", term.xreplace({total: total - part}), "", name)
+        squares = sp.Add(*(part**2 for part in total.args))
+        yield Rewriting(
+            "squared part by part", term.xreplace({total**2: squares}), " and ".join(sorted(names))
+        )
+
+
 def wave_lost(term, mechanism):
     for argument in _angles(term):
         changes = {w: sp.S.One for w in _waves(term) if w.args[0] == argument}
@@ -224,6 +241,7 @@ OPERATORS: tuple[Operator, ...] = (
     another_convention,
     about_another_point,
     square_lost,
+    sum_of_lengths,
     wave_lost,
     parameter_left_out,
     kind_left_out,

@@ -96,6 +96,10 @@ GENERAL = {
     "velocity left out": "In your {where}, {term} depends on {put} alone. Which joints move it?",
     "square lost": "In your {where}, the units of {term} do not come out {right}. Look at the power of "
     "{put}.",
+    "length left out": "In your {where}, {instead_of} is missing from a sum in {term}. Which lengths "
+    "add up there?",
+    "squared part by part": "In your {where}, you squared {put} one by one in {term}. What does the "
+    "square of a sum hold besides the squares of its parts?",
     "wave lost": "In your {where}, {term} does not change with the angle. Should it?",
     "parameter added": "In your {where}, {term} has {put} beside {instead_of}. Does {put} "
     "({put_doc}) have a part in it?",
@@ -313,6 +317,10 @@ THROUGHOUT = {
     "velocity left out": "In your {where}, everything moves with {put} alone. Which joints move which "
     "body?",
     "square lost": "The units of your {where} do not come out {right}. Look at the power of {put}.",
+    "length left out": "In your {where}, {instead_of} is missing from a sum. Which lengths add up "
+    "there?",
+    "squared part by part": "In your {where}, you squared {put} one by one. What does the square of a "
+    "sum hold besides the squares of its parts?",
     "wave lost": "Your {where} does not change with the angle {instead_of}. Should it?",
     "wrong velocity": "Your {where} has the velocity {put} where {instead_of} belongs. Which joint's "
     "motion makes it?",
@@ -391,7 +399,7 @@ def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
     if not put:  # a combination of parameters has a name alone
         template = template.replace(" ({put_doc})", "")
     # On a slope a direction is an angle and a constant, of which only the angle is a student's.
-    words["instead_of"] = mutant.instead_of.partition(" + pi")[0].partition(" - pi")[0]
+    words["instead_of"] = words["instead_of"].partition(" + pi")[0].partition(" - pi")[0]
     if mutant.in_energy and answer.name in DERIVED:
         words["where"], source = ENERGIES[answer.name], DERIVED[answer.name]
         said = template.format(**words)

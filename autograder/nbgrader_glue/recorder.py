@@ -158,7 +158,8 @@ class Recorder:
 
     def _agree_with_source(self) -> None:
         """Check once what nbgrader would check in each repaired submission."""
-        where, again = f"solutions/{self.assignment}", "run `nbgrader generate_assignment` again"
+        where = f"solutions/{self.assignment}"
+        again = f"run `nbgrader generate_assignment {self.assignment} --force`"
         source = nbformat.reads(self.source, as_version=4)
         try:
             MetadataValidator().validate_nb(source)

@@ -17,8 +17,10 @@ from autograder.problems.material.conventions import BOOK, Convention, drawn, fo
 from autograder.problems.material.given import code
 from autograder.protocol import one_line
 
-# What `arm_card` says first, as Python writes the output that holds it.
-SHOWN = re.compile(r"This is (the arm of .*?)(?:\.\\n|: the one that)")
+# The first line of what `arm_card` shows as plain text.
+SHOWN = re.compile(
+    r"^This is (the arm of .*?)(?:\.|: the one that the table above describes\.)$", re.M
+)
 
 
 @dataclass(frozen=True)
@@ -66,14 +68,23 @@ class Drawn:
         if self.own is None:
             return ""
         for cell in submission.cells:
-            outputs = cell.get("outputs") or [] if grade_id(cell) == self.set_up.cell else []
-            said = SHOWN.search(" ".join(str(output) for output in outputs))
+            shown = cell.get("outputs") or [] if grade_id(cell) == self.set_up.cell else []
+            said = SHOWN.search("\n".join(map(_plain, shown)))
             if said and folded(said[1]) != folded(self.whose):
                 return (
                     f"{self.set_up.cell} showed the student {one_line(said[1], 60)}; judged was "
                     f"{one_line(self.whose, 60)}"
                 )
         return ""
+
+
+def _plain(output: object) -> str:
+    """The plain text of an output, which the student's editor may have kept as lines; "" for none."""
+    data = output.get("data") if isinstance(output, dict) else None
+    text = data.get("text/plain") if isinstance(data, dict) else None
+    if isinstance(text, list):
+        text = "".join(map(str, text))
+    return text if isinstance(text, str) else ""
 
 
 def drawn_for(source: NotebookNode, student: str | None) -> Drawn | None:

@@ -43,7 +43,7 @@ class Student:
 class Made:
     """A sentence of the diagnosis, its check, and the students who got it.
 
-    name: the mistake's name, if the sentence names a mistake.
+    name: the mistake's name, if a person wrote the mistake.
     """
 
     check: str
@@ -82,8 +82,9 @@ def mistakes_made(students: Iterable[Student]) -> list[Made]:
 
 
 def _name_of(check: str, sentence: str) -> str:
+    """Of a mistake that a person wrote; of one that follows from a mechanism the sentence says more."""
     known = check_for(check)
-    mistakes = known.known_mistakes if known else ()
+    mistakes = known.mistakes if known else ()
     return next((mistake.name for mistake in mistakes if mistake.sentence == sentence), "")
 
 

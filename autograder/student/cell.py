@@ -13,7 +13,7 @@ from autograder.judging.verdict import State, Verdict
 from autograder.problems import CHECKS, known_check
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
 from autograder.student.definitions import watched
-from autograder.student.own_arm import drawn_for
+from autograder.student.own_arm import drawn_for, reminder
 
 # A visible check tries the same cases each time, so that a student sees how an error changes.
 VISIBLE_SEED = 20260101
@@ -45,6 +45,8 @@ def check(id: str | None = None, fresh: bool = False) -> None:
         verdict_on(known_check(id).id, sys._getframe(1).f_globals, fresh)
     )
     _show(verdict)
+    if said := reminder(id):
+        print(said)
     if verdict.state is not State.CORRECT:
         raise NotCorrectError(verdict)
 

@@ -14,7 +14,12 @@ TYPE_IT = (
     "with the name under which you hand in, into a new cell above this one, and run both cells:\n\n"
     '    from autograder import own_arm\n    own_arm("{problem}", "your name")\n'
 )
+OF_THE_BOOK = (
+    "This check took the arm of the book, as no name is known. The grader takes your own arm: type your "
+    "name as it says below the set-up cell."
+)
 _typed: list[str] = []
+_nameless: set[str] = set()
 _drawn: dict[str, Convention] = {}
 
 
@@ -45,9 +50,11 @@ def own_arm(
     given = None if same_for_all else _name()
     own = BOOK if given is None else drawn(given, year)
     _drawn.pop(problem, None)
+    _nameless.discard(problem)
     if given is not None:
         _drawn[problem] = own
     if given is None and not same_for_all:
+        _nameless.add(problem)
         print(TYPE_IT.format(problem=problem))
     whose = "the arm of the book" if given is None else f"the arm of {given.strip()}"
     _show(arm_card.mimebundle(own, whose, arm, code(own, problem)))
@@ -57,6 +64,11 @@ def own_arm(
 def drawn_for(check_id: object) -> Convention | None:
     """The arm that the set-up cell drew for the problem of this check; None where it drew none."""
     return _drawn.get(str(check_id).partition("-")[0])
+
+
+def reminder(check_id: object) -> str:
+    """What a student reads below each card until the name is known; "" where it is, or is not needed."""
+    return OF_THE_BOOK if str(check_id).partition("-")[0] in _nameless else ""
 
 
 def _name() -> str | None:

@@ -14,6 +14,7 @@ import numpy as np
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import UnfitError, each
 from autograder.mechanisms import Mechanism
+from autograder.mechanisms.units import spelled
 from autograder.mutation.answers.answer import Answer, Judged, in_other_units
 from autograder.mutation.answers.composition import Composition, Group, throughout
 from autograder.mutation.answers.coriolis import propagated, wrong_products
@@ -55,7 +56,10 @@ def _unit(mechanism: Mechanism, unit: str) -> str:
     """Of a torque or force over this."""
     turning = {"kg": "m²/s²", "kg·m": "m/s²", "kg·m²": "rad/s²"}
     sliding = {"kg": "m/s²", "kg·m": "rad/s²", "kg·m²": "rad/(m·s²)"}
-    kinds = {"rad": turning.get(unit, f"N·m/({unit})"), "m": sliding.get(unit, f"N/({unit})")}
+    kinds = {
+        "rad": turning.get(unit) or spelled("N·m", per=unit),
+        "m": sliding.get(unit) or spelled("N", per=unit),
+    }
     return " or ".join(dict.fromkeys(kinds[c.unit] for c in mechanism.coordinates))
 
 

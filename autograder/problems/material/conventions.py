@@ -184,8 +184,7 @@ FAMILY = tuple(
 def drawn(name: str, year: int = 0) -> Convention:
     """The member of the student with this name: the same on every machine, and each year another.
 
-    Capital letters, spaces around the name or doubled in it, and how Unicode writes a letter make no
-    difference.
+    Capital letters, how many spaces stand where, and how Unicode writes a letter make no difference.
     """
     digest = hashlib.sha256(f"{year}\0{folded(name)}".encode()).digest()
     return FAMILY[int.from_bytes(digest[:8], "big") % len(FAMILY)]
@@ -193,8 +192,8 @@ def drawn(name: str, year: int = 0) -> Convention:
 
 def folded(name: str) -> str:
     """The name as it counts."""
-    plain = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", name).casefold())
-    return " ".join(plain.split())
+    letters = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", name).casefold())
+    return " ".join(letters.split())
 
 
 def nearest_first(own: Convention) -> list[Convention]:

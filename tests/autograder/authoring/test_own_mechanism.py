@@ -24,6 +24,9 @@ def line(text):
     return 1 + next(i for i, written in enumerate(SLED.splitlines()) if text in written)
 
 
+STIFFNESS, SPRING, PLACES = line("N/m"), line('EnergyTerm("the spring'), line("(q[0], 0.0)")
+
+
 @pytest.fixture
 def root(tmp_path, monkeypatch):
     (tmp_path / "nbgrader_config.py").touch()
@@ -53,6 +56,16 @@ def test_a_file_of_anywhere_is_taken_into_the_course(root, capsys):
     (root / "my.py").write_text(OTHER, encoding="utf-8")
     assert main(["new-problem", "my.py"]) == 2
     assert "solutions/sled/sled.py is there already" in capsys.readouterr().err
+
+
+def test_a_name_with_a_letter_wrong_finds_the_courses_own(root, capsys):
+    (root / "my.py").write_text(SLED, encoding="utf-8")
+    assert main(["new-problem", "my.py", "--asks", "M, g_vec"]) == 0
+    assert "it asks for M, g_vec." in capsys.readouterr().out
+    assert main(["try", "sledd"]) == 2
+    assert (
+        "(did you mean sled?); the course has sled; the kit has pendulum" in capsys.readouterr().err
+    )
 
 
 def test_a_name_that_no_mechanism_can_have(root, capsys):
@@ -88,7 +101,25 @@ def test_a_course_may_change_a_mechanism_of_the_kit(root):
             SLED.replace("(x,)", "(y,)"),
             f"sled.py, line {line('(x,)')}: NameError: name 'y' is not defined; put",
         ),
-        (SLED.replace("x.velocity**2", "x.velocity"), "is not quadratic in the velocities"),
+        (
+            SLED.replace("x.velocity**2", "x.velocity"),
+            f"sled.py, line {line('the motion of')}: ValueError: mechanism 'sled': "
+            "'the motion of the sled' of K is not quadratic in the velocities",
+        ),
+        (SLED.replace('"N/m"', '"N"'), f"line {SPRING}: ValueError: mechanism 'sled'"),
+        (SLED.replace('"N/m"', '"N/cm"'), f"line {STIFFNESS}: ValueError: mechanism 'sled': k: "),
+        (
+            SLED.replace("5.0, 40.0", "40.0, 5.0"),
+            f"line {STIFFNESS}: ValueError: mechanism 'sled': k is",
+        ),
+        (SLED.replace("(q[0], 0.0)", "(q[1], 0.0)"), f"line {PLACES}: ValueError: "),
+        (SLED.replace("k.symbol *", "k * m *"), "an energy is made of m.symbol for a parameter m"),
+        (SLED.replace("k.symbol * x.symbol", "k.symbol * sp.sin(x)"), "x.symbol and x.velocity"),
+        (SLED.replace("m.symbol *", "-m.symbol *"), "K is negative for a motion with xd"),
+        (
+            SLED.replace("m.symbol * x", "0 * m.symbol * x"),
+            "K is 0 for a motion with xd, so M has no inverse",
+        ),
         (
             SLED.replace('"sled"', '"sledge"'),
             "its mechanism is called 'sledge'; write name=\"sled\"",

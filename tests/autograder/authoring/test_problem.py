@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import nbformat
 import numpy as np
 import pytest
+import sympy as sp
 
 from autograder.authoring.model_answer import model_answer
 from autograder.authoring.picture import WIDTH, picture
@@ -20,7 +21,7 @@ from autograder.authoring.problem import (
     usual_asks,
     write_problem,
 )
-from autograder.mechanisms import MECHANISMS
+from autograder.mechanisms import MECHANISMS, Coordinate, EnergyTerm, Mechanism, Parameter
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.references import reference
 from autograder.mutation.trial import nothing_to_ask
@@ -42,6 +43,20 @@ def test_a_model_answer_is_right(mechanism, answer):
     for call in asked.calls(mechanism, np.random.default_rng(1), 1)[:6]:
         right = reference(mechanism, answer)(*call.args)
         np.testing.assert_allclose(namespace[answer](*call.args), right, rtol=1e-9, atol=1e-10)
+
+
+def test_a_model_answer_of_squared_velocities_is_as_short_as_by_hand():
+    """K of a double pendulum with absolute angles, as it comes out of the velocities."""
+    a, b = Coordinate("a", "rad", "link 1 upright"), Coordinate("b", "rad", "link 2 upright")
+    m, length = Parameter("m", "kg", "mass", 1.0, 2.0), Parameter("r", "m", "length", 0.5, 1.0)
+    x = length.symbol * (sp.cos(a.symbol) * a.velocity + sp.cos(b.symbol) * b.velocity)
+    y = length.symbol * (sp.sin(a.symbol) * a.velocity + sp.sin(b.symbol) * b.velocity)
+    bob = EnergyTerm("the bob", m.symbol * (x**2 + y**2) / 2)
+    two = Mechanism("two", (a, b), (m, length), (bob,), (), lambda q, arm: [(0, 0)])
+    assert model_answer(two, "M")[:2] == [
+        "M11 = arm.m*arm.r**2",
+        "M12 = arm.m*arm.r**2*np.cos(q[0] - q[1])",
+    ]
 
 
 @EVERY
@@ -98,6 +113,24 @@ def test_nothing_is_written_over(tmp_path):
     with pytest.raises(ProblemError, match=r"cart-pole\.ipynb is there already; move it away"):
         write_problem(tmp_path, CART, ["M", "C"])
     assert path.read_bytes() == before
+
+
+@EVERY
+def test_the_proof_has_the_friction_of_the_equation_above_it(mechanism):
+    for asks in (["C"], ["C", "f"]):
+        cells = {cell.id.removeprefix(f"{mechanism.name}-"): cell.source
+                 for cell in notebook(mechanism, asks).cells}  # fmt: skip
+        resists = "f(\\dot q)" in cells["title"]
+        assert resists == (bool(mechanism.friction) and "f" in asks)
+        assert ("u - f(\\dot q)" in cells["proof"]) == resists
+        assert ("u - f(\\dot q)" in cells["proof-task"]) == resists
+
+
+@EVERY
+def test_the_table_has_the_names_that_sentences_use(mechanism):
+    table = notebook(mechanism, ["M"]).cells[1].source
+    for symbol in mechanism.qd:
+        assert re.search(rf"\b{symbol.name} \|", table)
 
 
 @pytest.mark.parametrize("asks", [[], ["M", "M"], ["m"], ["M", ""]])

@@ -15,8 +15,10 @@ from autograder.mechanisms import (
     FrictionTerm,
     Mechanism,
     Parameter,
+    joint_friction,
 )
 from autograder.mechanisms.friction import coefficient
+from autograder.mechanisms.kinetic import refuse_other_than_positive
 from autograder.mutation.references import reference
 
 EVERY = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=list(MECHANISMS))
@@ -298,3 +300,31 @@ def test_a_unit_that_is_not_known(unit, said):
     with pytest.raises(ValueError, match=r"^mechanism 'block': k: ") as refused:
         _with(k * x**2, unit)
     assert said in str(refused.value)
+
+
+@EVERY
+def test_its_kinetic_energy_is_positive(mechanism):
+    refuse_other_than_positive(mechanism)
+
+
+def test_a_kinetic_energy_that_is_not_names_the_motion():
+    cart = MECHANISMS["cart-pole"]
+    for factor, said in [
+        (-1, "K is negative for a motion with "),
+        (0, "K is 0 for a motion with "),
+    ]:
+        scaled = tuple(replace(term, energy=factor * term.energy) for term in cart.kinetic)
+        with pytest.raises(ValueError, match=said):
+            refuse_other_than_positive(replace(cart, kinetic=scaled))
+
+
+def test_one_of_several_coordinates_is_not_called_q():
+    cart = MECHANISMS["cart-pole"]
+    with pytest.raises(ValueError, match="'q' is the vector of all its coordinates"):
+        replace(cart, coordinates=(Coordinate("q", "m", "the left end"), cart.coordinates[1]))
+
+
+@pytest.mark.parametrize("joint", ["x", ("x", "the cart"), (Coordinate("x", "m", "the left end"),)])
+def test_friction_of_what_is_no_coordinate(joint):
+    with pytest.raises(ValueError, match="joint_friction needs a coordinate and its words"):
+        joint_friction(joint)

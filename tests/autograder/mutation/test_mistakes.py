@@ -4,9 +4,10 @@ import re
 
 import numpy as np
 import pytest
+import sympy as sp
 
 from autograder.judging.check import VISIBLE_CASES
-from autograder.mechanisms import MECHANISMS
+from autograder.mechanisms import MECHANISMS, Coordinate, EnergyTerm, Mechanism, Parameter
 from autograder.mutation import operators
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.answers.answer import states
@@ -16,6 +17,25 @@ from autograder.mutation.sentences import GENERAL, ROWS, THROUGHOUT
 from autograder.mutation.steps import STEPS
 from autograder.protocol import Reply, read, real
 
+PHI, S = Coordinate("phi", "rad", "the arm level"), Coordinate("s", "m", "the spring loose")
+R, MASS = (
+    Parameter("r", "m", "to the slider", 0.3, 0.8),
+    Parameter("m", "kg", "the slider", 1.0, 2.0),
+)
+AT = R.symbol + S.symbol
+# A slider on an arm, which is at a sum of two lengths.
+SLIDER = Mechanism(
+    "slider-on-arm",
+    (PHI, S),
+    (R, MASS, Parameter("g", "m/s²", "gravity", 9.0, 10.0)),
+    (EnergyTerm("the slider", MASS.symbol * (S.velocity**2 + AT**2 * PHI.velocity**2) / 2),),
+    (
+        EnergyTerm(
+            "the weight", MASS.symbol * sp.Symbol("g", positive=True) * AT * sp.sin(PHI.symbol)
+        ),
+    ),
+    lambda q, arm: [(0.0, 0.0), (arm.r + q[1], 0.0)],
+)
 # All answers of some; of each other mechanism a few answers, so that each answer comes with several.
 ALL = ("pendulum", "planar-2r", "cart-pole", "turn-and-slide")
 OTHERS = 5
@@ -25,6 +45,7 @@ ASKED = [
     for k, answer in enumerate(ANSWERS)
     if m.name in ALL or (i + k) % OTHERS == 0
 ]
+ASKED += [(SLIDER, answer) for answer in ("M", "g_vec", "C")]
 EVERY = pytest.mark.parametrize(
     ("mechanism", "answer"), ASKED, ids=[f"{m.name}-{a}" for m, a in ASKED]
 )
@@ -70,6 +91,20 @@ def test_two_mistakes_at_once_are_both_named():
         return known[first].wrong(q, arm) + known[second].wrong(q, arm) - right
 
     assert set(judged(check, wrong).diagnosis) == {known[first].sentence, known[second].sentence}
+
+
+def test_a_length_forgotten_in_a_sum_and_a_sum_squared_part_by_part_are_named():
+    check = check_of(SLIDER, "M")
+
+    def of(inertia):
+        return lambda q, arm: np.diag([arm.m * inertia(arm.r, q[1]), arm.m])
+
+    assert judged(check, of(lambda r, s: (r + s) ** 2)).credit == 1
+    assert judged(check, of(lambda r, s: s**2)).diagnosis == (
+        "In your M, r is missing from a sum in the slider. Which lengths add up there?",
+    )
+    (said,) = judged(check, of(lambda r, s: r**2 + s**2)).diagnosis
+    assert said.startswith("In your M, you squared r and s one by one in the slider.")
 
 
 def test_every_operator_and_step_has_a_sentence():

@@ -2,14 +2,15 @@
 
 import copy
 
+import nbformat
 import pytest
-from nbformat.v4 import new_code_cell, new_output
+from nbformat.v4 import new_code_cell, new_notebook, new_output
 
 from autograder.judging.verdict import State
 from autograder.notebook.grade import grade
 from autograder.notebook.own_arm import drawn_for, set_up
 from autograder.problems import arm_card
-from autograder.problems.material.conventions import BOOK, FAMILY, drawn
+from autograder.problems.material.conventions import BOOK, FAMILY, drawn, folded
 from tests.autograder.course_problems import problem, states
 from tests.submissions import own_arms
 from tests.submissions.answers import cell_of
@@ -23,6 +24,12 @@ def graded(name, own, student, edit=lambda notebook: None, source=None):
     notebook = own_arms.right(problem(name).release, name, own)
     edit(notebook)
     return grade(notebook, source or problem(name).source, "seed", student=student)
+
+
+def as_jupyter_saves(output):
+    """With its keys in the order of the alphabet, so that text/html comes before text/plain."""
+    notebook = new_notebook(cells=[new_code_cell("own", outputs=[output])])
+    return nbformat.reads(nbformat.writes(notebook), 4).cells[0].outputs[0]
 
 
 def all_for(everybody: bool, name="p1-inertia"):
@@ -131,15 +138,26 @@ def test_a_set_up_cell_that_cannot_be_read_is_told_to_the_instructor(call):
     ("name", "noted"),
     [("j.doe", "the arm of j.doe"), (None, "the arm of the book"), ("  S{} ", "")],
 )
-def test_the_instructor_reads_where_the_student_saw_another_arm(name, noted):
+@pytest.mark.parametrize("kept", [copy.deepcopy, as_jupyter_saves], ids=["in memory", "saved"])
+def test_the_instructor_reads_where_the_student_saw_another_arm(name, noted, kept):
     mine = FAMILY[8]
     number = STUDENTS[mine].removeprefix("s")
     whose = f"the arm of {name.format(number).strip()}" if name else "the arm of the book"
     shown = arm_card.mimebundle(BOOK if name is None else FAMILY[3], whose, None, "")
 
     def edit(notebook):
-        cell_of(notebook, "p1-setup").outputs = [new_output("display_data", data=shown)]
+        cell_of(notebook, "p1-setup").outputs = [kept(new_output("display_data", data=shown))]
 
     notes = graded("p1-inertia", mine, STUDENTS[mine], edit, all_for(False)).notes
     expected = f"p1-setup showed the student {noted}; judged was the arm of {STUDENTS[mine]}"
     assert list(notes) == ([expected] if noted else [])
+
+
+def test_the_grader_takes_spaces_capitals_and_accents_as_the_student_sees_them():
+    for typed, folder in [
+        ("Ada  Lovelace", "ada lovelace"),
+        (" ada\u00a0lovelace", "Ada Lovelace"),
+        ("U\u0308nal", "\u00fcnal"),
+    ]:
+        assert drawn(typed, YEAR) == drawn(folder, YEAR)
+        assert folded(typed) == folded(folder)

@@ -14,14 +14,13 @@ from tests.autograder import courses
 from tests.autograder.courses import P3
 from tests.submissions import p3_pendulum
 
-M = CHECKS["p3-M"].known_mistakes
+CHECK = "p3-small_angle_frequency"
+M = CHECKS[CHECK].mistakes
 UNKNOWN = "The error is about 0.5 times <b>."
 
 
 def verdict(state: State, *sentences: str) -> dict:
-    return {
-        "p3-M": {"check": "p3-M", "state": state.value, "credit": 0.0, "diagnosis": [*sentences]}
-    }
+    return {CHECK: {"check": CHECK, "state": state.value, "credit": 0.0, "diagnosis": [*sentences]}}
 
 
 CLASS = [
@@ -66,10 +65,10 @@ def test_the_page_says_it_all():
     text = str(Text(report.page("p3-pendulum", 15.0, CLASS)))
     assert "4 of 5 submissions graded; mean 4, median 2.5 of 15 points" in text
     assert "A person still has to read 1 answer, which has no points yet." in text
-    assert f"2 p3-M {M[1].name}. {M[1].sentence} who cem, dee" in text
+    assert f"2 {CHECK} {M[1].name}. {M[1].sentence} who cem, dee" in text
     assert "bob 4" in text
     assert "<i>eve</i> the notebook is not valid JSON" in text
-    assert "p3-M 1 3" in text
+    assert f"{CHECK} 1 3" in text
 
 
 def test_nothing_of_a_student_becomes_markup():
@@ -82,9 +81,16 @@ def test_the_terminal_gets_the_same_counts():
     assert lines[0] == "4 of 5 graded, mean 4, median 2.5 of 15 points"
     once = {M[0].sentence: M[0].name, UNKNOWN: UNKNOWN}
     assert lines[1:] == [
-        f"   2 × p3-M: {M[1].name}",
-        *(f"   1 × p3-M: {once[sentence]}" for sentence in sorted(once)),
+        f"   2 × {CHECK}: {M[1].name}",
+        *(f"   1 × {CHECK}: {once[sentence]}" for sentence in sorted(once)),
     ]
+
+
+def test_a_mistake_that_follows_from_a_mechanism_is_told_as_the_student_read_it():
+    (made,) = CHECKS["p3-M"].known_mistakes[:1]
+    told = {"check": "p3-M", "state": "incorrect", "credit": 0.0, "diagnosis": [made.sentence]}
+    one = [Student("bob", 0.0, 0, {"p3-M": told})]
+    assert report.summary(15.0, one).splitlines()[1] == f"   1 × p3-M: {made.sentence}"
 
 
 def test_an_empty_class_has_a_page_too():

@@ -9,7 +9,7 @@ import pytest
 
 from autograder.problems.material.conventions import BOOK, FAMILY, drawn
 from autograder.student import hints, own_arm
-from autograder.student.cell import verdict_on
+from autograder.student.cell import check, verdict_on
 from autograder.student.own_arm import drawn_for
 
 ARM = SimpleNamespace(l1=0.45, l2=0.4, g=9.81)
@@ -20,6 +20,7 @@ def kernel(monkeypatch, tmp_path):
     """A kernel of its own, in a folder that nobody fetched."""
     monkeypatch.setattr(own_arm, "_typed", [])
     monkeypatch.setattr(own_arm, "_drawn", {})
+    monkeypatch.setattr(own_arm, "_nameless", set())
     monkeypatch.setattr(hints, "_given", {})
     monkeypatch.delenv("JUPYTERHUB_USER", raising=False)
     folder = tmp_path / "problems" / "p1-inertia"
@@ -39,6 +40,19 @@ def test_without_a_name_it_says_to_type_it_and_takes_the_arm_of_the_book(capsys)
     assert '\n    from autograder import own_arm\n    own_arm("p1", "your name")\n' in printed
     assert (own.turns == BOOK.turns).all()
     assert drawn_for("p1-M") is None
+
+
+def test_each_check_says_that_a_name_is_missing_until_it_is_typed(capsys):
+    set_up()
+    namespace = {"__name__": "__main__", "M": BOOK.M, "check": check}
+    exec('check("p1-M")', namespace)
+    assert "no name is known. The grader takes your own arm" in capsys.readouterr().out
+    own_arm.own_arm("p1", "ada")
+    set_up()
+    namespace["M"] = drawn("ada", 2026).M
+    capsys.readouterr()
+    exec('check("p1-M")', namespace)
+    assert "no name is known" not in capsys.readouterr().out
 
 
 def test_a_typed_name_is_kept_for_the_set_up_cell(capsys):
