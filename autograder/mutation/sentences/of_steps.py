@@ -131,7 +131,8 @@ OF_STEPS = {
     "order are the entries of x?",
     "states interleaved": "You read x, and write ẋ, as if each velocity stood beside its "
     "coordinate. In which order are the entries of x?",
-    "M not inverted": "You multiply by M. In M q̈ = ..., how do you get q̈ alone?",
+    "M not inverted": "You multiply by M. In the equation of motion M multiplies q̈: how do you get q̈ "
+    "alone?",
     "torque for acceleration": "The second half of your ẋ is a torque or force. What resists it?",
     "divided by the diagonal of M": "You divide by the diagonal of M, as if the joints did not "
     "feel each other. What do the other entries do?",
