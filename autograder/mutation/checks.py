@@ -18,6 +18,7 @@ from autograder.mutation.generated import Generated
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.references import contribution, reference
 from autograder.mutation.sentences import sentence
+from autograder.mutation.sentences.notation import written
 from autograder.protocol import Call
 
 
@@ -139,15 +140,27 @@ def _hints(mechanism: Mechanism, asked: Answer) -> tuple[str, ...]:
     if others:
         return asked.hints
     parts = "; ".join(term.name for term, _ in asked.terms(mechanism))
-    moving = " and ".join(c.name for c in mechanism.coordinates)
-    of = (
-        "kinetic energy K" if asked.of_kinetic else "",
-        "potential energy P" if asked.of_potential else "",
-    )
+    *others, last_one = [c.name for c in mechanism.coordinates]
+    several = bool(others)
+    moving = f"{', '.join(others)} and {last_one} change" if several else f"{last_one} changes"
     zeros = "; ".join(f"{c.name} = 0 is {c.zero}" for c in mechanism.coordinates)
-    return (
-        f"Start from the {' and the '.join(filter(None, of))}. Which bodies and springs of this "
-        f"mechanism have a part in it, as {moving} change?",
-        f"The parts are: {parts}. And mind where the coordinates are zero: {zeros}.",
+    first = {
+        (True, False): f"kinetic energy K. Which bodies of this mechanism move as {moving}?",
+        (
+            False,
+            True,
+        ): f"potential energy P. Which bodies of this mechanism rise or fall as {moving}, and "
+        "is there a spring that stretches?",
+        (
+            True,
+            True,
+        ): "kinetic energy K and the potential energy P. Which bodies of this mechanism move "
+        f"as {moving}, which of them rise or fall, and is there a spring that stretches?",
+    }[bool(asked.of_kinetic), bool(asked.of_potential)]
+    said = (
+        f"Start from the {first}",
+        f"The parts are: {parts}. Mind where {'each coordinate' if several else 'the coordinate'} is "
+        f"zero: {zeros}.",
         last,
     )
+    return tuple(written(hint, mechanism) for hint in said)

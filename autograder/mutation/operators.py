@@ -71,12 +71,17 @@ def parameters_exchanged(term, mechanism):
 
 
 def wrong_angle(term, mechanism):
-    """One angle alone for a sum, a sum for one angle, a difference for a sum, another angle."""
+    """One angle alone for a sum, a sum for one angle, a difference for a sum, another angle.
+
+    Sums run over angles that follow each other, as links do; differences are of two neighbours.
+    """
     angles = [c.symbol for c in mechanism.coordinates if c.unit == "rad"]
     candidates = {a: a.name for a in angles}
-    for i, a in enumerate(angles):
-        for b in angles[i + 1 :]:
-            candidates |= {a + b: f"{a} + {b}", a - b: f"{a} − {b}", b - a: f"{b} − {a}"}
+    for a, b in itertools.pairwise(angles):
+        candidates |= {a + b: f"{a} + {b}", a - b: f"{a} − {b}", b - a: f"{b} − {a}"}
+    for first, last in itertools.combinations(range(len(angles)), 2):
+        chain = angles[first : last + 1]
+        candidates.setdefault(sp.Add(*chain), " + ".join(map(str, chain)))
     for argument in _angles(term):
         for angle, name in candidates.items():
             if angle != argument:

@@ -88,7 +88,7 @@ class Answer:
         ]
 
 
-HEADS = {"g_vec": "g", "potential_energy": "P", "M_dot": "Ṁ", "lagrangian": "L", "f": "ẋ",
+HEADS = {"g_vec": "g", "potential_energy": "P", "M_dot": "Ṁ", "lagrangian": "L", "f": "q̈",
          "energy_drift": "drift", "regressor": "Y"}  # fmt: skip
 
 

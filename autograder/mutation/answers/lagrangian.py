@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from autograder.judging.criterion import Criterion
+from autograder.judging.criterion import TOLERANCE, Criterion
 from autograder.judging.quantities import Numbers, one_number
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers.answer import Answer, Judged
@@ -10,6 +10,8 @@ from autograder.mutation.derivatives import energy
 from autograder.protocol import Call
 
 NOTHING = np.zeros(0)
+# A change has the rounding of two values.
+OF_A_CHANGE = 2 * TOLERANCE
 
 
 def _judged(mechanism: Mechanism) -> Judged:
@@ -26,16 +28,16 @@ def _judged(mechanism: Mechanism) -> Judged:
 
     parts = 2 if mechanism.potential else 1
     criteria = (
-        Criterion("kinetic part of L", "J", 1 / parts),
-        Criterion("potential part of L", "J", 0.5),
+        Criterion("kinetic part of L", "J", 1 / parts, tolerance=OF_A_CHANGE),
+        Criterion("potential part of L", "J", 0.5, tolerance=OF_A_CHANGE),
     )[:parts]
     return changes, criteria
 
 
 def _case(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]:
-    """One arm at rest here, at rest there, and moving there."""
+    """One arm at rest here, at rest there, and moving there, fast: P's rounding must not hide K."""
     arm, here, there = mechanism.drawn(rng), mechanism.placed(rng), mechanism.placed(rng)
-    qd = mechanism.moving(rng)
+    qd = 2 * mechanism.moving(rng)
     return [(here, 0 * qd, arm), (there, 0 * qd, arm), (there, qd, arm)]
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 from autograder.mechanisms import MECHANISMS, Mechanism
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.checks import check_of, mistakes_of
+from autograder.mutation.sentences.notation import written
 
 PAGE = Path(__file__).with_name("said.txt")
 HEAD = (
@@ -74,7 +75,7 @@ def _grouped(said: Iterable[tuple[Mechanism, str, str]]) -> Iterable[str]:
         yield ""
 
 
-ANSWER = r"(?:[MCgPKLYẋṀ]\d*|drift)(?![\w(\u0307])"
+ANSWER = r"(?:[MCgPKLYẋṀ]\d*|q̈|drift)(?![\w(\u0307])"
 
 
 def form(text: str, mechanism: Mechanism) -> str:
@@ -84,22 +85,26 @@ def form(text: str, mechanism: Mechanism) -> str:
         text = text.replace(name, "⟨term⟩")
     text = re.sub(r"the (viscous|Coulomb) friction of (the )?\w+( \d)?", "⟨term⟩", text)
     text = re.sub(r"(⟨term⟩; )+⟨term⟩", "⟨terms⟩", text)
-    text = re.sub(r"come out as [^\s?.]+", "come out as ⟨unit⟩", text)
+    text = re.sub(r"come out as (?!if )[^\s?.]+", "come out as ⟨unit⟩", text)
     for parameter in sorted(mechanism.parameters, key=lambda p: -len(p.doc)):
         text = text.replace(f"({parameter.doc})", "(⟨meaning⟩)")
-    zeros = [f"{c.name} = 0 is {c.zero}" for c in mechanism.coordinates]
-    text = text.replace("; ".join(zeros), "⟨zeros⟩")
+    coordinates = [written(c.name, mechanism) for c in mechanism.coordinates]
+    velocities = [written(v.name, mechanism) for v in mechanism.qd]
+    parameters = [p.name for p in mechanism.parameters]
+    zeros = "; ".join(f"{c.name} = 0 is {c.zero}" for c in mechanism.coordinates)
+    text = text.replace(written(zeros, mechanism), "⟨zeros⟩")
     text = re.sub(rf"\b([Yy]our|[Tt]his|wrong) {ANSWER}", r"\1 ⟨answer⟩", text)
     text = re.sub(rf"\bin {ANSWER}(?! =)", "in ⟨answer⟩", text)
+    text = re.sub(rf"\b(as|and) {ANSWER} (does|lacks)", r"\1 ⟨answer⟩ \2", text)
     text = re.sub(r"\brow \d", "row ⟨number⟩", text)
     text = text.replace("In this ⟨answer⟩", "In your ⟨answer⟩").replace("This ⟨", "Your ⟨")
     for word, symbols in (
-        ("⟨coordinate⟩", [c.name for c in mechanism.coordinates if c.name != "q"]),
-        ("⟨velocity⟩", [v.name for v in mechanism.qd]),
-        ("⟨parameter⟩", [p.name for p in mechanism.parameters if p.name not in ("g", "k")]),
+        ("⟨coordinate⟩", [c for c in coordinates if c not in ("q", "x")]),
+        ("⟨velocity⟩", [v for v in velocities if v != "q̇"]),
+        ("⟨parameter⟩", [written(p, mechanism) for p in parameters if p not in ("g", "k")]),
     ):
         one = "|".join(sorted(symbols, key=len, reverse=True)) or "(?!)"
-        text = re.sub(rf"(?<!\w)−?({one})²?([ ·*+−-]+({one})²?)*(?![\w’])", word, text)
+        text = re.sub(rf"(?<!\w)−?({one})²?([ ·*+−-]+({one})²?)*(?![\w’\u0307])", word, text)
     text = re.sub(r"⟨coordinate⟩( and ⟨coordinate⟩)+", "⟨coordinates⟩", text)
     text = re.sub(r"\b[gk] (beside|and|does not appear|\(⟨meaning⟩\))", r"⟨parameter⟩ \1", text)
     return re.sub(r"(lacks|beside|power of|and) [gk]([. ])(?!share)", r"\1 ⟨parameter⟩\2", text)

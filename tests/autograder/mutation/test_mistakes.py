@@ -13,7 +13,7 @@ from autograder.mutation.answers import ANSWERS
 from autograder.mutation.answers.answer import states
 from autograder.mutation.checks import check_of, mistakes_of
 from autograder.mutation.composed import catalogue_of
-from autograder.mutation.sentences import GENERAL, ROWS, THROUGHOUT
+from autograder.mutation.sentences import GENERAL, OF_A_TERM, OF_COLUMNS, ROWS, THROUGHOUT
 from autograder.mutation.steps import STEPS
 from autograder.protocol import Reply, read, real
 
@@ -112,12 +112,15 @@ def test_every_operator_and_step_has_a_sentence():
     steps = {name for of in STEPS.values() for name in of}
     assert made <= GENERAL.keys()
     assert GENERAL.keys() <= made | steps
-    assert THROUGHOUT.keys() | {row.operator for row in ROWS} <= GENERAL.keys()
+    others = THROUGHOUT.keys() | OF_A_TERM.keys() | OF_COLUMNS.keys()
+    assert others | {row.operator for row in ROWS} <= GENERAL.keys()
     assert len(operators.OPERATORS) <= len(made)
 
 
 @pytest.mark.parametrize(
-    "template", [*GENERAL.values(), *THROUGHOUT.values(), *(row.sentence for row in ROWS)]
+    "template",
+    [s for of in (GENERAL, THROUGHOUT, OF_A_TERM, OF_COLUMNS) for s in of.values()]
+    + [row.sentence for row in ROWS],
 )
 def test_a_sentence_holds_no_formula(template):
     """No product or function of parameters: the names of the parameters come alone."""
@@ -148,7 +151,7 @@ def test_a_sentence_holds_no_formula(template):
             "cart-pole",
             "g_vec",
             lambda q, arm: [0.0, -(arm.m + arm.mc) * arm.g * arm.lc * np.sin(q[1])],
-            "has mc beside m",
+            "adds mc to m",
         ),
         (
             "planar-2r",
