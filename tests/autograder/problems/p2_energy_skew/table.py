@@ -155,7 +155,11 @@ BODIES = {
         ),
         ("rate of M", "return M_dot", 0),
         ("half the rate of M", "return M_dot / 2", 0.5),
-        ("M_dot less 2C", "return M_dot - 2 * np.array([[h * b, h * (a + b)], [-h * a, 0]])", 0),
+        (
+            "rate of M less 2C",
+            "return M_dot - 2 * np.array([[h * b, h * (a + b)], [-h * a, 0]])",
+            0,
+        ),
         ("velocities exchanged", "return [[h * a, h * (a + b)], [-h * b, 0]]", 0),
         ("M", "return M(q)", 0),
         ("zero", "return np.zeros((2, 2))", 0),

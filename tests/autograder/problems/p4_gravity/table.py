@@ -66,7 +66,11 @@ TABLE = {
             of_links(second="q1 - q2"),
             0,
         ),
-        ("elbow changes nothing", P("m1*g*lc1*np.sin(q1) + m2*g*l1*np.sin(q1)"), 0.5),
+        (
+            "dropped / the weight of link 2 beyond the elbow",
+            P("m1*g*lc1*np.sin(q1) + m2*g*l1*np.sin(q1)"),
+            0.5,
+        ),
         (
             "dropped / the weight of link 2 at the elbow",
             P("m1*g*lc1*np.sin(q1) + m2*g*lc2*np.sin(q1 + q2)"),
@@ -113,7 +117,10 @@ TABLE = {
             0,
         ),
         (
-            ("elbow changes nothing", "dropped / the weight of link 2 at the elbow"),
+            (
+                "dropped / the weight of link 2 beyond the elbow",
+                "dropped / the weight of link 2 at the elbow",
+            ),
             P("m1*g*lc1*np.sin(q1)"),
             0,
         ),
