@@ -83,7 +83,7 @@ class Generated:
         from autograder.mutation.checks import mistakes_of
 
         made = [self._said(mistake) for mistake in mistakes_of(self.mechanism, self.answer)]
-        return made + ([self._of_example()] if self.example else [])
+        return made + ([self._said(self._of_example())] if self.example else [])
 
     def __call__(self, calls: list[Call]) -> list[tuple[Mistake, Sequence | np.ndarray]]:
         """Every mistake, with what it returns for each call."""

@@ -10,6 +10,7 @@ import numpy as np
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.terms import Term
+from autograder.mutation.generated import Generated
 from autograder.problems.c6_regressor import mistakes
 from autograder.problems.material import planar_2r, sampling
 from autograder.protocol import Call
@@ -53,6 +54,15 @@ def _columns(call, value):
     masses, inertias = value[:, [mistakes.M1, mistakes.M2]], value[:, [mistakes.J1, mistakes.J2]]
     at_joint_1, at_joint_2 = value[:, mistakes.MC2]
     return masses, value[:, mistakes.MC1], inertias, np.array(at_joint_1), np.array(at_joint_2)
+
+
+class SixColumns(Generated):
+    """The mistakes of the regressor that follows from the arm, which has no column of m1: it is 0."""
+
+    def __call__(self, calls):
+        return [
+            (m, np.insert(values, mistakes.M1, 0.0, -1)) for m, values in super().__call__(calls)
+        ]
 
 
 def _part(gravity=0.0, velocity=0.0, acceleration=0.0):
@@ -190,6 +200,7 @@ CHECKS = (
             Criterion("column of m2 ℓc2, joint 2", "m/s²", 0.2),
         ),
         mistakes=mistakes.REGRESSOR,
+        catalogue=SixColumns("planar-2r", "regressor", mistakes.REGRESSOR_SAID, mistakes.EXAMPLE),
         terms=(
             Term("its gravity part", _part(gravity=1.0)),
             Term("its velocity part", _part(velocity=1.0)),

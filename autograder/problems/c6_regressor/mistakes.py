@@ -10,7 +10,6 @@ from autograder.problems.material.planar_2r import (
     BASE_COLUMNS,
     base_parameters,
     changed,
-    parameters,
     regressor,
 )
 
@@ -101,126 +100,124 @@ EXAMPLE_ARM = (
     "Your Y is always that of the arm in the set-up cell, whatever arm is given. Where does your "
     "function read ℓ1 and g of its own argument?"
 )
+COUPLING_ONCE = (
+    "In your column of m2 ℓc2, q̈1 counts too little at joint 1. Look at the coupling term of M11 "
+    "and of M12: are they the same?"
+)
 CENTRIFUGAL = (
     "A product of velocities has the wrong sign in your column of m2 ℓc2. Compare with C q̇: "
     "which joint gets h and which gets −h, and what sign does h itself have?"
 )
 
-# Those about one column stand before those about several, which may look like them in that column.
-REGRESSOR = (
-    Mistake(
-        "sign of gravity",
-        _with(g=lambda arm: -arm.g),
-        "Gravity has the wrong sign in your Y. On which side of the equation does g(q) stand, and "
-        "which way must the motors push to hold the arm out to the right?",
+REGRESSOR_SAID = {
+    "wrong sign / g(q)": (
+        "Gravity has the wrong sign in your Y. On which side of the equation does g(q) stand, "
+        "and which way must the motors push to hold the arm out to the right?"
     ),
-    Mistake(
-        "gravity missing in the column of m2",
-        _plus(lambda s, arm: {(0, M2): -arm.l1 * arm.g * s.c1}),
-        "The weight is missing from your column of m2. The elbow carries m2: which joint holds it "
-        "up?",
+    "dropped / the weight of link 2 at the elbow / in g_vec": (
+        "The weight is missing from your column of m2. The elbow carries m2: which joint holds "
+        "it up?"
     ),
-    Mistake(
-        "gravity missing in the column of m2 lc2",
-        _plus(lambda s, arm: {(0, MC2): -arm.g * s.c12, (1, MC2): -arm.g * s.c12}),
+    "dropped / the weight of link 2 beyond the elbow / in g_vec": (
         "Gravity is missing from your column of m2 ℓc2. Where in g(q) does the product m2 ℓc2 "
-        "stand?",
+        "stand?"
     ),
-    Mistake(
-        "gravity of m2 lc2 missing at joint 1",
-        _plus(lambda s, arm: {(0, MC2): -arm.g * s.c12}),
+    "dropped / the weight of link 2 beyond the elbow / g1 / in g_vec": (
         "Gravity is missing at joint 1 in your column of m2 ℓc2. Does the direction of link 2 "
-        "change when joint 1 turns?",
+        "change when joint 1 turns?"
     ),
-    Mistake("gravity missing", _with(g=lambda arm: 0.0), NO_GRAVITY),
-    Mistake(
-        "sine for cosine in gravity",
-        _gravity_as(lambda s: np.sin(s.q1), lambda s: np.sin(s.q1 + s.q2)),
+    "dropped / g(q)": NO_GRAVITY,
+    "dropped / g(q) / row 1": NO_GRAVITY,  # so that both rows say it once
+    "sine for cosine / in g_vec": (
         "In your Y, gravity varies with the sine, as if the angles were measured from the "
-        "vertical. From which axis is q1 measured, and at which q1 does the weight of link 1 pull "
-        "most?",
+        "vertical. From which axis is q1 measured, and at which q1 does the weight of link 1 "
+        "pull most?"
     ),
-    Mistake(
-        "absolute second angle in gravity",
-        _gravity_as(lambda s: s.c1, lambda s: s.c2),
+    "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2 / in g_vec": (
         "In the gravity of link 2 you take q2 for its direction in space. From where is q2 "
-        "measured?",
+        "measured?"
     ),
-    Mistake(
-        "coupling without the factor 2",
-        _coupling(lambda s: -s.c2 * s.qdd1, _nothing),
-        "In your column of m2 ℓc2, q̈1 counts too little at joint 1. Look at the coupling term of M11 "
-        "and of M12: are they the same?",
+    "halved / the coupling of the two links / M11 / in M": COUPLING_ONCE,
+    "sine for cosine / the coupling of the two links / in M": (
+        "In your column of m2 ℓc2, the accelerations come with the sine of q2. Which function "
+        "of q2 does M hold, and is it largest when the arm is stretched?"
     ),
-    Mistake(
-        "sine for cosine in the coupling",
-        _coupling(
-            lambda s: (s.s2 - s.c2) * (2 * s.qdd1 + s.qdd2), lambda s: (s.s2 - s.c2) * s.qdd1
-        ),
-        "In your column of m2 ℓc2, the accelerations come with the sine of q2. Which function of "
-        "q2 does M hold, and is it largest when the arm is stretched?",
-    ),
-    Mistake(
-        "cos q1 in the coupling",
-        _coupling(
-            lambda s: (s.c1 - s.c2) * (2 * s.qdd1 + s.qdd2), lambda s: (s.c1 - s.c2) * s.qdd1
-        ),
+    "wrong angle / the coupling of the two links / q1 / q2 / in M": (
         "In your column of m2 ℓc2, the accelerations come with the cosine of q1. Would the "
-        "inertia of the arm change if the whole arm turned about the shoulder?",
+        "inertia of the arm change if the whole arm turned about the shoulder?"
     ),
-    Mistake(
-        "velocity products left out at joint 2",
-        _coupling(_nothing, lambda s: -s.s2 * s.qd1**2),
-        "In your Y, the row of joint 2 has no product of velocities. What does link 2 feel at the "
-        "elbow when only joint 1 turns?",
+    "dropped / C q̇ / row 2": (
+        "In your Y, the row of joint 2 has no product of velocities. What does link 2 feel at "
+        "the elbow when only joint 1 turns?"
     ),
-    Mistake(
-        "velocity products left out",
-        _at(qd=0.0),
+    "dropped / C q̇": (
         "Your Y does not depend on the velocities. Where does C(q, q̇) q̇ enter, and with which "
-        "product of parameters?",
+        "product of parameters?"
     ),
-    Mistake(
-        "Coriolis without the factor 2",
-        _coupling(lambda s: s.s2 * s.qd1 * s.qd2, _nothing),
+    "dropped / the coupling of the two links / C11 / in C": (
         "In your column of m2 ℓc2, the product q̇1 q̇2 counts only half. How many entries of C "
-        "bring it into C q̇?",
+        "bring it into C q̇?"
     ),
-    Mistake(
-        "centrifugal part missing at joint 1",
-        _coupling(lambda s: s.s2 * s.qd2**2, _nothing),
-        "In your column of m2 ℓc2, the square of q̇2 is missing at joint 1. Multiply C by q̇ once "
-        "more, entry by entry.",
+    "product dropped / row 1 / qd2² / in C": (
+        "In your column of m2 ℓc2, the square of q̇2 is missing at joint 1. Multiply C by q̇ "
+        "once more, entry by entry."
     ),
-    Mistake(
-        "sign of the velocity products",
-        _coupling(
-            lambda s: 2 * s.s2 * (2 * s.qd1 * s.qd2 + s.qd2**2), lambda s: -2 * s.s2 * s.qd1**2
-        ),
-        CENTRIFUGAL,
+    "wrong sign / C q̇": CENTRIFUGAL,
+    "wrong sign / C q̇ / row 1": CENTRIFUGAL,
+    "wrong sign / C q̇ / row 2": CENTRIFUGAL,
+    "no velocity / in C": (
+        "Your velocities stand alone, not in products: you have added up the rows of C. By "
+        "which vector must you multiply C?"
     ),
-    Mistake(
-        "sign of the velocity products at joint 1",
-        _coupling(lambda s: 2 * s.s2 * (2 * s.qd1 * s.qd2 + s.qd2**2), _nothing),
-        CENTRIFUGAL,
+    "dropped / the column of I2 + m2·lc2² / row 1": (
+        "In your column of J2, the row of joint 1 is empty. Does joint 1 not turn link 2 as well?"
     ),
-    Mistake(
-        "sign of the velocity products at joint 2",
-        _coupling(_nothing, lambda s: -2 * s.s2 * s.qd1**2),
-        CENTRIFUGAL,
+    "square lost / the mass of link 2 at the elbow / l1 / l1² / in M and C": (
+        "Look at the units in your column of m2. By what must you multiply m2 to get an inertia?"
     ),
-    Mistake(
-        "C times ones",
-        _coupling(
-            lambda s: s.s2 * (2 * s.qd1 * s.qd2 + s.qd2**2 - s.qd1 - 2 * s.qd2),
-            lambda s: s.s2 * (s.qd1 - s.qd1**2),
-        ),
-        "Your velocities stand alone, not in products: you have added up the rows of C. By which "
-        "vector must you multiply C?",
+    "dropped / the mass of link 2 at the elbow / in M and C": (
+        "Your column of m2 holds only the weight. Joint 1 also accelerates the elbow: what "
+        "inertia does a mass m2 have there?"
     ),
+    "dropped / M q̈": (
+        "Your Y does not depend on the accelerations. Y π is the whole left side M q̈ + C q̇ + "
+        "g: which columns does q̈ enter?"
+    ),
+    "dropped / the column of m2": (
+        "Your column of m2 is empty. Put all of m2 into the elbow, so that ℓc2 = 0: does joint "
+        "1 feel it?"
+    ),
+    "parameters inside": (
+        "Your columns add up to the torque: each of them still holds its own parameter. What is "
+        "left of a column when you take π out of it?"
+    ),
+    "sign of the whole": (
+        "Every entry of your Y has the wrong sign. On which side of the equation of motion do "
+        "the torques u stand?"
+    ),
+    "columns in another order": ORDER,
+    "joints exchanged": (
+        "You swapped the rows of the two joints. Which joint feels the weight of link 1?"
+    ),
+    "wrong parameter / l2 / l1": (
+        "You use ℓ2 where link 2 begins. Which length leads from the shoulder to the elbow?"
+    ),
+    "parameter left out / g / in g_vec": (
+        "The gravitational acceleration g is missing from your Y. Is g one of the unknowns?"
+    ),
+    "gravity of Earth / 9.81 / g / in g_vec": HARD_CODED_G,
+    "numbers of the example": EXAMPLE_ARM,
+    "radians converted": sentences.RADIANS_CONVERTED,
+    "angle in degrees": sentences.IN_DEGREES,
+}
+_absolute_acceleration = _plus(lambda s, arm: {(0, J2): -s.qdd1, (1, J2): -s.qdd1})
+_coupling_once = _coupling(lambda s: -s.c2 * s.qdd1, _nothing)
+# This one also follows from the arm, but there what is halved is never one of two mistakes.
+REGRESSOR = (
+    Mistake("coupling without the factor 2", _coupling_once, COUPLING_ONCE),
     Mistake(
         "absolute acceleration of link 2",
-        _plus(lambda s, arm: {(0, J2): -s.qdd1, (1, J2): -s.qdd1}),
+        _absolute_acceleration,
         "In your column of J2, link 2 turns with q̈2 only. What is its angular acceleration in space?",
     ),
     Mistake(
@@ -229,38 +226,10 @@ REGRESSOR = (
         "In your column of J2, joint 2 does not feel q̈1. Is J2 in M12?",
     ),
     Mistake(
-        "J2 left out at joint 1",
-        _plus(lambda s, arm: {(0, J2): -s.spin_2}),
-        "In your column of J2, the row of joint 1 is empty. Does joint 1 not turn link 2 as well?",
-    ),
-    Mistake(
         "J1 at joint 2",
         _plus(lambda s, arm: {(1, J1): s.qdd1}),
         "In your column of J1, joint 2 has a torque. Which joints does link 1 load: those before "
         "it or those after it?",
-    ),
-    Mistake(
-        "l1 not squared",
-        _plus(lambda s, arm: {(0, M2): (arm.l1 - arm.l1**2) * s.qdd1}),
-        "Look at the units in your column of m2. By what must you multiply m2 to get an inertia?",
-    ),
-    Mistake(
-        "inertia of m2 at the elbow missing",
-        _plus(lambda s, arm: {(0, M2): -(arm.l1**2) * s.qdd1}),
-        "Your column of m2 holds only the weight. Joint 1 also accelerates the elbow: what "
-        "inertia does a mass m2 have there?",
-    ),
-    Mistake(
-        "no acceleration",
-        _at(qdd=0.0),
-        "Your Y does not depend on the accelerations. Y π is the whole left side M q̈ + C q̇ + g: "
-        "which columns does q̈ enter?",
-    ),
-    Mistake(
-        "column of m2 missing",
-        _plus(lambda s, arm: {(0, M2): -(arm.l1**2) * s.qdd1 - arm.l1 * arm.g * s.c1}),
-        "Your column of m2 is empty. Put all of m2 into the elbow, so that ℓc2 = 0: does joint 1 "
-        "feel it?",
     ),
     Mistake(
         "inertia about the centre of mass",
@@ -291,62 +260,20 @@ REGRESSOR = (
         "unknowns: which entry of π holds it already?",
         whole=True,
     ),
-    Mistake(
-        "parameters in Y",
-        lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm) * parameters(arm),
-        "Your columns add up to the torque: each of them still holds its own parameter. What is "
-        "left of a column when you take π out of it?",
-    ),
-    Mistake(
-        "all reversed",
-        lambda q, qd, qdd, arm: -regressor(q, qd, qdd, arm),
-        "Every entry of your Y has the wrong sign. On which side of the equation of motion do the "
-        "torques u stand?",
-        whole=True,
-    ),
-    Mistake("by kind", _columns(M1, M2, MC1, MC2, J1, J2), ORDER),
     Mistake("each link reversed", _columns(J1, MC1, M1, J2, MC2, M2), ORDER),
     Mistake("inertia first", _columns(J1, M1, MC1, J2, M2, MC2), ORDER),
     Mistake("inertia before first moment", _columns(M1, J1, MC1, M2, J2, MC2), ORDER),
     Mistake("first moment first", _columns(MC1, M1, J1, MC2, M2, J2), ORDER),
     Mistake("link 2 first", _columns(M2, MC2, J2, M1, MC1, J1), ORDER),
     Mistake(
-        "rows swapped",
-        lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm)[..., ::-1, :],
-        "You swapped the rows of the two joints. Which joint feels the weight of link 1?",
-        whole=True,
-    ),
-    Mistake(
         "reshaped for transposed",
         lambda q, qd, qdd, arm: np.reshape(regressor(q, qd, qdd, arm).T, (2, 6)),
         sentences.RESHAPED,
     ),
     Mistake(
-        "l2 for l1",
-        _with(l1=lambda arm: arm.l2),
-        "You use ℓ2 where link 2 begins. Which length leads from the shoulder to the elbow?",
-    ),
-    Mistake(
         "lc1 for l1",
         _with(l1=lambda arm: arm.lc1),
         "You let link 2 begin at the centre of mass of link 1. Where on link 1 is the elbow?",
-    ),
-    Mistake(
-        "g missing",
-        _with(g=lambda arm: 1.0),
-        "The gravitational acceleration g is missing from your Y. Is g one of the unknowns?",
-    ),
-    Mistake("9.81", _with(g=lambda arm: 9.81), HARD_CODED_G),
-    Mistake("example arm", _with(l1=lambda arm: EXAMPLE.l1, g=lambda arm: EXAMPLE.g), EXAMPLE_ARM),
-    Mistake(
-        "radians taken for degrees",
-        _at(q=np.pi / 180),
-        sentences.RADIANS_CONVERTED,
-    ),
-    Mistake(
-        "angles in degrees",
-        _at(q=180 / np.pi),
-        sentences.IN_DEGREES,
     ),
 )
 
@@ -560,25 +487,25 @@ STANDS_ON = (
     "You fit by least squares, but with a wrong regressor. First make the card of part A green, "
     "or look at what you changed in it here."
 )
-IDENTIFY += tuple(
-    Mistake(f"fit: {mistake.name}", _fit_with(mistake.wrong), STANDS_ON)
-    for mistake in REGRESSOR
-    if mistake.name
-    in (
-        "gravity missing",
-        "sign of gravity",
-        "sine for cosine in gravity",
-        "absolute second angle in gravity",
-        "coupling without the factor 2",
-        "velocity products left out",
-        "no acceleration",
-        "sign of the velocity products",
-        "absolute acceleration of link 2",
-        "l2 for l1",
-        "9.81",
-        "example arm",
-    )
-)
+FITTED = {
+    "gravity missing": _with(g=lambda arm: 0.0),
+    "sign of gravity": _with(g=lambda arm: -arm.g),
+    "sine for cosine in gravity": _gravity_as(
+        lambda s: np.sin(s.q1), lambda s: np.sin(s.q1 + s.q2)
+    ),
+    "absolute second angle in gravity": _gravity_as(lambda s: s.c1, lambda s: s.c2),
+    "coupling without the factor 2": _coupling_once,
+    "velocity products left out": _at(qd=0.0),
+    "no acceleration": _at(qdd=0.0),
+    "sign of the velocity products": _coupling(
+        lambda s: 2 * s.s2 * (2 * s.qd1 * s.qd2 + s.qd2**2), lambda s: -2 * s.s2 * s.qd1**2
+    ),
+    "absolute acceleration of link 2": _absolute_acceleration,
+    "l2 for l1": _with(l1=lambda arm: arm.l2),
+    "9.81": _with(g=lambda arm: 9.81),
+    "example arm": _with(l1=lambda arm: EXAMPLE.l1, g=lambda arm: EXAMPLE.g),
+}
+IDENTIFY += tuple(Mistake(f"fit: {name}", _fit_with(Y), STANDS_ON) for name, Y in FITTED.items())
 
 
 def rank(q, qd, qdd, arm) -> int:

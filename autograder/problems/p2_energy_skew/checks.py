@@ -197,7 +197,6 @@ CHECKS = (
                 is_property=True,
             ),
         ),
-        mistakes=mistakes.CORIOLIS,
         catalogue=Generated("planar-2r", "C", mistakes.CORIOLIS_SAID),
         terms=mistakes.CORIOLIS_TERMS,
         hints=(

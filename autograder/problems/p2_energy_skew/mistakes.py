@@ -236,14 +236,8 @@ CORIOLIS_SAID = _of_wrong_arms("C") | {
     "summed over the first index": FIRST_INDEX,
     "no velocity": NO_VELOCITY,
     "velocity of the column": WRONG_VELOCITY,
+    "rate of M less 2C": M_DOT_LESS_2C,
 }
-CORIOLIS = (
-    Mistake(
-        "M_dot less 2C",
-        lambda q, qd, arm: right.M_dot(q, qd, arm) - 2 * right.C(q, qd, arm),
-        M_DOT_LESS_2C,
-    ),
-)
 CORIOLIS_TERMS = (
     Term("the Coriolis term of row 1 (q̇1 q̇2)", _h_times(lambda a, b: [[b, a], [0.0, 0.0]])),
     Term("the centrifugal term of row 1 (q̇2²)", _h_times(lambda a, b: [[0.0, b], [0.0, 0.0]])),

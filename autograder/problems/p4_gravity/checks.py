@@ -137,7 +137,6 @@ CHECKS = (
                 "change of P as link 1 turns from level and link 2 keeps its direction", "J", 0.5
             ),
         ),
-        mistakes=mistakes.POTENTIAL,
         catalogue=POTENTIAL,
         terms=POTENTIAL.terms,
         hints=(

@@ -13,12 +13,6 @@ EXAMPLE = SimpleNamespace(
     l1=0.45, l2=0.38, lc1=0.21, lc2=0.17, m1=4.2, m2=2.6, I1=0.075, I2=0.034, g=9.81
 )
 
-
-def _energy(arm, height_1, height_2):
-    """P of links whose directions have these heights on a circle of radius 1."""
-    return arm.g * (arm.m1 * arm.lc1 * height_1 + arm.m2 * (arm.l1 * height_1 + arm.lc2 * height_2))
-
-
 HARD_CODED_G = (
     "Your answer is right only on Earth, because you typed 9.81 into it. The check also puts the "
     "arm on other planets: which parameter of arm gives g?"
@@ -65,6 +59,10 @@ POTENTIAL_SAID = {
         "Your P takes the difference of the angles for the direction of link 2. Turn the elbow a "
         "little counter-clockwise: does link 2's angle with the x axis grow or shrink?"
     ),
+    "dropped / the weight of link 2 beyond the elbow": (
+        "Your P does not change as the elbow turns, as if the whole mass of link 2 sat at the "
+        "elbow or were left out. Where is its centre of mass?"
+    ),
     "dropped / the weight of link 2 at the elbow": (
         "In your P, link 2 begins at the height of the shoulder. How high is the elbow, where it "
         "really begins?"
@@ -85,14 +83,6 @@ POTENTIAL_SAID = {
     "angle in degrees": sentences.IN_DEGREES,
     "kind left out / kg": MASSES_MISSING,
 }
-POTENTIAL = (
-    Mistake(
-        "elbow changes nothing",
-        lambda q, arm: _energy(arm, np.sin(q[0]), 0.0),
-        "Your P does not change as the elbow turns, as if the whole mass of link 2 sat at the "
-        "elbow or were left out. Where is its centre of mass?",
-    ),
-)
 
 GRAVITY_SAID = {
     "numbers of the example": EXAMPLE_ARM,

@@ -1,12 +1,15 @@
 """Every mistake of every check, as a student would type it: it is named, and by its own sentence."""
 
+import fnmatch
 from collections import Counter
 from importlib import import_module
 
 import pytest
 
+from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS, MODULES
+from tests.autograder.every_mutant import assert_each_is_found
 from tests.autograder.problems.row import Row, names_in, verdict_on
 from tests.autograder.verdicts import sentences
 
@@ -18,6 +21,10 @@ ROWS = [
     for check_id, rows in table.items()
     for row in rows
 ]
+GENERATED = [check_id for check_id, check in CHECKS.items() if check.catalogue]
+FEW = 15
+# Of a few cases only one has a joint so slow that a smooth sign in its friction shows.
+CASES = {"p5-f": HIDDEN_CASES}
 
 
 @pytest.mark.parametrize("row", ROWS, ids=str)
@@ -51,3 +58,24 @@ def test_the_mistakes_of_a_check_have_different_names(check_id):
     """A row finds its mistake by the name, and so does a reader of the class report."""
     counts = Counter(mistake.name for mistake in CHECKS[check_id].mistakes)
     assert max(counts.values(), default=1) == 1, counts.most_common(3)
+
+
+@pytest.mark.parametrize("check_id", GENERATED)
+def test_some_mutants_are_found_beside_the_written_mistakes(check_id):
+    assert_each_is_found(CHECKS[check_id], FEW, CASES.get(check_id, VISIBLE_CASES))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("check_id", GENERATED)
+def test_each_mutant_is_found_beside_the_written_mistakes(check_id):
+    assert_each_is_found(CHECKS[check_id], None, CASES.get(check_id, VISIBLE_CASES))
+
+
+@pytest.mark.parametrize("check_id", GENERATED)
+def test_every_sentence_is_said_of_a_mutant(check_id):
+    """A row that fits none is mistyped; one that is never the most specific says nothing."""
+    catalogue = CHECKS[check_id].catalogue
+    names = [mistake.name for mistake in catalogue.mistakes()]
+    assert not [row for row in catalogue.rows if not fnmatch.filter(names, row)]
+    said = {mistake.sentence for mistake in catalogue.mistakes()}
+    assert not [row for row, sentence in catalogue.rows.items() if sentence not in said]

@@ -339,7 +339,7 @@ def test_wrong_answers_are_named():
     for check_id, *names in (
         (
             "c6-regressor",
-            "sign of gravity",
+            "wrong sign / g(q)",
             "absolute acceleration of link 2",
             "J1 at joint 2",
         ),

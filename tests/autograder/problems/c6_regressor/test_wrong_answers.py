@@ -82,7 +82,7 @@ def test_a_weighted_fit_is_told_what_least_squares_means():
 
 def test_a_mistake_is_named_only_where_it_matches_to_rounding():
     for check_id, name, result in (
-        ("c6-regressor", "sine for cosine in gravity", "return Y"),
+        ("c6-regressor", "sine for cosine / in g_vec", "return Y"),
         ("c6-identify", "joint 2 only", "return b"),
     ):
         (sentence,) = sentences(check_id, name)

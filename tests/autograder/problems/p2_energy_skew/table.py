@@ -38,43 +38,13 @@ C = "np.array([[h * b, h * (a + b)], [-h * a, 0]])"
 BODIES = {
     "p2-M_dot": [
         ("sign of the whole", "H = -h\nreturn [[2 * H * b, H * b], [H * b, 0]]", 0.1),
-        ("velocities exchanged", "return [[2 * h * a, h * a], [h * a, 0]]", 0.1),
         ("sum of the velocities", "return h * (a + b) * np.array([[2, 1], [1, 0]])", 0.1),
-        ("chain rule forgotten", "return [[2 * h, h], [h, 0]]", 0.1),
         ("zero", "return np.zeros((2, 2))", 0.1),
-        ("half of the whole", "return [[h * b, h * b / 2], [h * b / 2, 0]]", 0.1),
         ("twice C", "return 2 * np.array([[h * b, h * (a + b)], [-h * a, 0]])", 0.55),
-        ("C", "return [[h * b, h * (a + b)], [-h * a, 0]]", 0.1),
-        ("M", "return M(q)", 0),
         ("constants differentiated", "return M(q) * qd[1]", 0),
-        (
-            "cosine for sine / the coupling of the two links",
-            "H = -mll * np.cos(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
-            0.1,
-        ),
-        (
-            "cosine for sine / the coupling of the two links / −",
-            "H = mll * np.cos(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
-            0.1,
-        ),
         (
             "wrong parameter / the coupling of the two links / l2 / lc2",
             "H = -arm.m2 * arm.l1 * arm.l2 * np.sin(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
-            0.1,
-        ),
-        (
-            "wrong parameter / the coupling of the two links / lc1 / l1",
-            "H = -arm.m2 * arm.lc1 * arm.lc2 * np.sin(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
-            0.1,
-        ),
-        (
-            "wrong parameter / the coupling of the two links / m1 / m2",
-            "H = -arm.m1 * arm.l1 * arm.lc2 * np.sin(q[1])\nreturn [[2 * H * b, H * b], [H * b, 0]]",
-            0.1,
-        ),
-        (
-            "radians converted / the coupling of the two links",
-            "H = -mll * np.sin(np.radians(q[1]))\nreturn [[2 * H * b, H * b], [H * b, 0]]",
             0.1,
         ),
         (
@@ -82,26 +52,6 @@ BODIES = {
             "H = -mll * np.sin(q[0] + q[1])\n"
             "return [[2 * H * (a + b), H * (a + b)], [H * (a + b), 0]]",
             0.1,
-        ),
-        (
-            "wrong angle / the coupling of the two links / q1 − q2 / q2 / in M",
-            "H = -mll * np.sin(q[1] - q[0]) * (b - a)\nreturn [[2 * H, H], [H, 0]]",
-            0.1,
-        ),
-        (
-            "wrong angle / the coupling of the two links / q1 / q2 / in M",
-            "H = -mll * np.sin(q[0]) * a\nreturn [[2 * H, H], [H, 0]]",
-            0.1,
-        ),
-        (
-            "halved / the coupling of the two links / Ṁ11",
-            "return [[h * b, h * b], [h * b, 0]]",
-            0.55,
-        ),
-        (
-            "astray / the coupling of the two links / Ṁ22 / Ṁ12",
-            "return [[2 * h * b, h * b], [h * b, h * b]]",
-            0.9,
         ),
         (
             (
@@ -118,135 +68,23 @@ BODIES = {
             "return [[0, h * (a + b)], [-h * a, 0]]",
             0,
         ),
-        ("product dropped / row 1 / qd1 qd2", "return [[0, h * b], [-h * a, 0]]", 0),
-        ("sign of the whole", "return [[-h * b, -h * (a + b)], [h * a, 0]]", 0),
-        (
-            "product of the wrong sign / row 1 / qd2²",
-            "return [[h * b, h * (a - b)], [-h * a, 0]]",
-            0,
-        ),
-        ("product dropped / row 1 / qd2²", "return [[h * b, h * a], [-h * a, 0]]", 0),
         (
             "wrong sign / the coupling of the two links / C21",
             "return [[h * b, h * (a + b)], [h * a, 0]]",
             0,
         ),
-        (
-            "dropped / the coupling of the two links / C21",
-            "return [[h * b, h * (a + b)], [0, 0]]",
-            0,
-        ),
-        ("twice the whole", "return [[2 * h * b, 2 * h * (a + b)], [-2 * h * a, 0]]", 0),
-        ("torque for C", "return [h * (2 * a * b + b**2), -h * a**2]", 0),
-        ("torque for C", "return np.diag([h * (2 * a * b + b**2), -h * a**2])", 0),
-        ("C times ones", "return [[h * (a + 2 * b)], [-h * a]]", 0),
-        ("C times ones", "return np.diag([h * (a + 2 * b), -h * a])", 0),
         ("transposed", "return [[h * b, -h * a], [h * (a + b), 0]]", 0.5),
-        ("transposed", "return M_dot - np.array([[h * b, h * (a + b)], [-h * a, 0]])", 0.5),
-        (
-            "products in the later column",
-            "return [[0, h * (2 * a + b)], [-h * a, 0]]",
-            0.7,
-        ),
-        (
-            "products in the earlier column",
-            "return [[2 * h * b, h * b], [-h * a, 0]]",
-            0.7,
-        ),
-        ("rate of M", "return M_dot", 0),
         ("half the rate of M", "return M_dot / 2", 0.5),
-        ("M_dot less 2C", "return M_dot - 2 * np.array([[h * b, h * (a + b)], [-h * a, 0]])", 0),
-        ("velocities exchanged", "return [[h * a, h * (a + b)], [-h * b, 0]]", 0),
-        ("M", "return M(q)", 0),
         ("zero", "return np.zeros((2, 2))", 0),
-        (
-            "sign of the last derivative",
-            "return matrix(lambda i, j, k: (D[i, j, k] + D[i, k, j] + D[j, k, i]) / 2 * qd[k])",
-            0,
-        ),
-        (
-            "last derivative missing",
-            "return matrix(lambda i, j, k: (D[i, j, k] + D[i, k, j]) / 2 * qd[k])",
-            0,
-        ),
-        (
-            "second derivative missing",
-            "return matrix(lambda i, j, k: (D[i, j, k] - D[j, k, i]) / 2 * qd[k])",
-            0,
-        ),
         (
             "summed over the first index",
             "return matrix(lambda i, j, k: (D[k, i, j] + D[k, j, i] - D[i, j, k]) / 2 * qd[k])",
             0.2,
         ),
         (
-            "no velocity",
-            "return matrix(lambda i, j, k: (D[i, j, k] + D[i, k, j] - D[j, k, i]) / 2)",
-            0,
-        ),
-        (
-            "velocity of the column",
-            "return matrix(lambda i, j, k: (D[i, j, k] + D[i, k, j] - D[j, k, i]) / 2 * qd[j])",
-            0,
-        ),
-        (
-            "cosine for sine / the coupling of the two links",
-            "H = -mll * np.cos(q[1])\nreturn [[H * b, H * (a + b)], [-H * a, 0]]",
-            0,
-        ),
-        (
-            "cosine for sine / the coupling of the two links / −",
-            "H = mll * np.cos(q[1])\nreturn [[H * b, H * (a + b)], [-H * a, 0]]",
-            0,
-        ),
-        (
             "wrong parameter / the coupling of the two links / l2 / lc2",
             "H = -arm.m2 * arm.l1 * arm.l2 * np.sin(q[1])\n"
             "return [[H * b, H * (a + b)], [-H * a, 0]]",
-            0,
-        ),
-        (
-            "wrong parameter / the coupling of the two links / lc1 / l1",
-            "H = -arm.m2 * arm.lc1 * arm.lc2 * np.sin(q[1])\n"
-            "return [[H * b, H * (a + b)], [-H * a, 0]]",
-            0,
-        ),
-        (
-            "wrong parameter / the coupling of the two links / m1 / m2",
-            "H = -arm.m1 * arm.l1 * arm.lc2 * np.sin(q[1])\n"
-            "return [[H * b, H * (a + b)], [-H * a, 0]]",
-            0,
-        ),
-        (
-            "radians converted / the coupling of the two links",
-            "H = -mll * np.sin(np.radians(q[1]))\nreturn [[H * b, H * (a + b)], [-H * a, 0]]",
-            0,
-        ),
-        (
-            "wrong angle / the coupling of the two links / q1 + q2 / q2 / in M",
-            "H = -mll * np.sin(q[0] + q[1])\n"
-            "return christoffel([[2 * H, H], [H, 0]], [[2 * H, H], [H, 0]])",
-            0,
-        ),
-        (
-            "wrong angle / the coupling of the two links / q1 − q2 / q2 / in M",
-            "H = -mll * np.sin(q[1] - q[0])\n"
-            "return christoffel([[-2 * H, -H], [-H, 0]], [[2 * H, H], [H, 0]])",
-            0,
-        ),
-        (
-            "wrong angle / the coupling of the two links / q1 / q2 / in M",
-            "H = -mll * np.sin(q[0])\nreturn christoffel([[2 * H, H], [H, 0]], np.zeros((2, 2)))",
-            0,
-        ),
-        (
-            "halved / the coupling of the two links / M11 / in M",
-            "return christoffel(np.zeros((2, 2)), [[h, h], [h, 0]])",
-            0,
-        ),
-        (
-            "astray / the coupling of the two links / M22 / M12 / in M",
-            "return christoffel(np.zeros((2, 2)), [[2 * h, h], [h, h]])",
             0,
         ),
         (

@@ -52,58 +52,14 @@ TABLE = {
         ),
         ("cosine for sine", of_links("np.cos"), 0),
         (
-            "cosine for sine / −",
-            P("g*(m1*lc1*(1-np.cos(q1)) + m2*(l1*(1-np.cos(q1)) + lc2*(1-np.cos(q1+q2))))"),
-            0,
-        ),
-        (
-            "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2",
-            of_links(second="q2"),
-            0,
-        ),
-        (
-            "wrong angle / the weight of link 2 beyond the elbow / q1 − q2 / q1 + q2",
-            of_links(second="q1 - q2"),
-            0,
-        ),
-        ("elbow changes nothing", P("m1*g*lc1*np.sin(q1) + m2*g*l1*np.sin(q1)"), 0.5),
-        (
-            "dropped / the weight of link 2 at the elbow",
-            P("m1*g*lc1*np.sin(q1) + m2*g*lc2*np.sin(q1 + q2)"),
-            0.5,
-        ),
-        (
-            "dropped / the weight of link 1 beyond the shoulder",
-            P("m2*g*(l1*np.sin(q1) + lc2*np.sin(q1 + q2))"),
-            0.5,
-        ),
-        (
-            "wrong parameter / the weight of link 1 beyond the shoulder / l1 / lc1",
-            with_lines(of_links(), "lc1 = l1"),
-            0.5,
-        ),
-        (
-            "wrong parameter / the weight of link 2 beyond the elbow / l2 / lc2",
-            with_lines(of_links(), "lc2 = l2"),
-            0.5,
-        ),
-        (
-            "wrong parameter / the weight of link 2 at the elbow / lc1 / l1",
-            with_lines(of_links(), "l1 = lc1"),
+            "dropped / the weight of link 2 beyond the elbow",
+            P("m1*g*lc1*np.sin(q1) + m2*g*l1*np.sin(q1)"),
             0.5,
         ),
         ("half of the whole", with_lines(of_links(), "g = 0.5 * g"), 0),
-        ("kind left out / kg", P("g * (lc1*np.sin(q1) + l1*np.sin(q1) + lc2*np.sin(q1 + q2))"), 0),
         ("parameters exchanged / m1 / m2", with_lines(of_links(), "m1, m2 = m2, m1"), 0),
-        (
-            "parameter left out / g",
-            P("m1*lc1*np.sin(q1) + m2*(l1*np.sin(q1) + lc2*np.sin(q1 + q2))"),
-            0,
-        ),
         ("gravity of Earth / 9.81 / g", with_lines(of_links(), "g = 9.81"), 0),
-        ("numbers of the example", with_lines(of_links(), *EXAMPLE_LINES), 0),
         ("radians converted", with_lines(of_links(), "q1, q2 = np.deg2rad(q)"), 0),
-        ("angle in degrees", with_lines(of_links(), "q1, q2 = np.degrees(q)"), 0),
         (
             (
                 "wrong parameter / the weight of link 2 beyond the elbow / l2 / lc2",
@@ -113,39 +69,20 @@ TABLE = {
             0,
         ),
         (
-            ("elbow changes nothing", "dropped / the weight of link 2 at the elbow"),
+            (
+                "dropped / the weight of link 2 beyond the elbow",
+                "dropped / the weight of link 2 at the elbow",
+            ),
             P("m1*g*lc1*np.sin(q1)"),
             0,
         ),
     ],
     "p4-g_vec": [
         ("sign of the whole", torque(sign="-"), 0),
-        ("sine for cosine", torque("np.sin"), 0),
-        ("sine for cosine / −", torque("np.sin", sign="-"), 0),
         (
             "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2",
             torque(second="q2"),
             0,
-        ),
-        (
-            "wrong angle / the weight of link 2 beyond the elbow / q1 − q2 / q1 + q2",
-            torque(second="q1 - q2"),
-            0,
-        ),
-        (
-            "dropped / the weight of link 2 beyond the elbow / g1",
-            P("[(m1*lc1 + m2*l1)*g*np.cos(q1), m2*lc2*g*np.cos(q1+q2)]"),
-            0.5,
-        ),
-        (
-            "dropped / the weight of link 2 at the elbow",
-            P("[m1*lc1*g*np.cos(q1) + m2*lc2*g*np.cos(q1+q2), m2*lc2*g*np.cos(q1+q2)]"),
-            0.5,
-        ),
-        (
-            "dropped / the weight of link 1 beyond the shoulder",
-            P("[m2*g*(l1*np.cos(q1) + lc2*np.cos(q1+q2)), m2*lc2*g*np.cos(q1+q2)]"),
-            0.5,
         ),
         (
             "astray / the weight of link 2 at the elbow / g2 / g1",
@@ -160,38 +97,14 @@ TABLE = {
             P("[m1*g*lc1*np.sin(q1), m2*g*(l1*np.sin(q1) + lc2*np.sin(q1 + q2))]"),
             0,
         ),
-        (
-            "energy for its derivative",
-            P("np.ones(2) * g * (m1*lc1*np.sin(q1) + m2*(l1*np.sin(q1) + lc2*np.sin(q1 + q2)))"),
-            0,
-        ),
         ("joints exchanged", torque() + "[::-1]", 0),
-        (
-            "wrong parameter / the weight of link 1 beyond the shoulder / l1 / lc1",
-            with_lines(torque(), "lc1 = l1"),
-            0.5,
-        ),
-        (
-            "wrong parameter / the weight of link 2 beyond the elbow / l2 / lc2",
-            with_lines(torque(), "lc2 = l2"),
-            0,
-        ),
-        (
-            "wrong parameter / the weight of link 2 at the elbow / lc1 / l1",
-            with_lines(torque(), "l1 = lc1"),
-            0.5,
-        ),
         (
             "kind left out / kg",
             P("[g*((lc1 + l1)*np.cos(q1) + lc2*np.cos(q1 + q2)), g*lc2*np.cos(q1 + q2)]"),
             0,
         ),
-        ("parameters exchanged / m1 / m2", with_lines(torque(), "m1, m2 = m2, m1"), 0),
         ("parameter left out / g", with_lines(torque(), "g = 1"), 0),
-        ("gravity of Earth / 9.81 / g", with_lines(torque(), "g = 9.81"), 0),
         ("numbers of the example", with_lines(torque(), *EXAMPLE_LINES), 0),
-        ("radians converted", with_lines(torque(), "q1, q2 = np.deg2rad(q)"), 0),
-        ("angle in degrees", with_lines(torque(), "q1, q2 = np.degrees(q)"), 0),
         (
             (
                 "wrong parameter / the weight of link 2 beyond the elbow / l2 / lc2",
@@ -215,11 +128,6 @@ TABLE = {
                 "astray / the weight of link 2 at the elbow / g2 / g1",
             ),
             P("[m1*g*lc1*np.cos(q1), m2*g*(l1*np.cos(q1) + lc2*np.cos(q1 + q2))]"),
-            0,
-        ),
-        (
-            "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2 / in the energy",
-            P("[(m1*lc1 + m2*l1)*g*np.cos(q1), m2*lc2*g*np.cos(q2)]"),
             0,
         ),
     ],

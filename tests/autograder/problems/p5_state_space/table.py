@@ -13,13 +13,6 @@ def g_vec(q):
     return np.array([(arm.m1 * arm.lc1 + arm.m2 * arm.l1) * arm.g * np.cos(q[0]) + g2, g2])
 """
 
-EXAMPLE_ARM = """
-from types import SimpleNamespace
-arm = SimpleNamespace(
-    l1=1.0, l2=0.8, lc1=0.5, lc2=0.4, m1=2.0, m2=1.5, I1=0.17, I2=0.08, g=9.81,
-    viscous=np.array([0.3, 0.2]), coulomb=np.array([0.4, 0.25]),
-)
-"""
 
 TORQUE = "u(t[k], x) if callable(u) else u"
 
@@ -127,61 +120,15 @@ return states
 TABLE = {
     "p5-f": [
         ("halves of ẋ swapped", rate(returned="np.concatenate([qdd, qd])"), 0),
-        ("q for its rate", rate(returned="np.concatenate([q, qdd])"), 0.75),
-        ("state read as q̇ and q", rate(state="qd, q = x[:2], x[2:]"), 0),
         ("state interleaved", rate(state="q, qd = x[::2], x[1::2]"), 0),
-        (
-            "states interleaved",
-            rate(state="q, qd = x[::2], x[1::2]", returned="[qd[0], qdd[0], qd[1], qdd[1]]"),
-            0,
-        ),
-        ("dropped / C q̇", rate("u - g - d * qd - k * np.sign(qd)"), 0.25),
-        ("wrong sign / C q̇", rate("u + C @ qd - g - d * qd - k * np.sign(qd)"), 0.25),
         (
             "C times ones in the torque",
             rate("u - C @ np.ones(2) - g - d * qd - k * np.sign(qd)"),
             0.25,
         ),
-        ("transposed / in C", rate("u - qd @ C - g - d * qd - k * np.sign(qd)"), 0.25),
-        ("dropped / g(q)", rate("u - C @ qd - d * qd - k * np.sign(qd)"), 0.25),
-        ("wrong sign / g(q)", rate("u - C @ qd + g - d * qd - k * np.sign(qd)"), 0.25),
-        (
-            "gravity of Earth / 9.81 / g / in g_vec",
-            rate("u - C @ qd - g / arm.g * 9.81 - d * qd - k * np.sign(qd)"),
-            0.25,
-        ),
-        ("dropped / the friction", rate("u - C @ qd - g"), 0.25),
-        ("wrong sign / the friction", rate("u - C @ qd - g + d * qd + k * np.sign(qd)"), 0.25),
-        ("dropped / the viscous friction", rate("u - C @ qd - g - k * np.sign(qd)"), 0.25),
-        (
-            "wrong sign / the viscous friction",
-            rate("u - C @ qd - g + d * qd - k * np.sign(qd)"),
-            0.25,
-        ),
         (
             "quadratic friction / the viscous friction",
             rate("u - C @ qd - g - d * qd * abs(qd) - k * np.sign(qd)"),
-            0.25,
-        ),
-        ("dropped / the Coulomb friction", rate("u - C @ qd - g - d * qd"), 0.25),
-        (
-            "wrong sign / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd + k * np.sign(qd)"),
-            0.25,
-        ),
-        (
-            "friction in one direction / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd - k"),
-            0.25,
-        ),
-        (
-            "absolute value for sign / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd - k * np.abs(qd)"),
-            0.25,
-        ),
-        (
-            "velocity for its sign / the Coulomb friction",
-            rate("u - C @ qd - g - (d + k) * qd"),
             0.25,
         ),
         (
@@ -190,58 +137,11 @@ TABLE = {
             0.25,
         ),
         (
-            "smooth sign / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd - k * np.tanh(qd)"),
-            0.25,
-        ),
-        (
-            "smooth sign / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd - k * np.tanh(10 * qd)"),
-            0.25,
-        ),
-        (
-            "smooth sign / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd - k * np.tanh(20 * qd)"),
-            0.25,
-        ),
-        (
-            "smooth sign / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd - k * np.tanh(100 * qd)"),
-            0.25,
-        ),
-        (
-            "smooth sign / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd - k * np.tanh(qd / 1e-3)"),
-            0.25,
-        ),
-        (
-            "friction at rest / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd - k * np.copysign(1, qd)"),
-            0.25,
-        ),
-        (
-            "friction at rest / the Coulomb friction",
-            rate("u - C @ qd - g - d * qd - k * np.where(qd > 0, 1, -1)"),
-            0.25,
-        ),
-        (
             "coefficients exchanged / the friction",
             rate("u - C @ qd - g - k * qd - d * np.sign(qd)"),
             0.25,
         ),
-        ("dropped / the input u", rate("-C @ qd - g - d * qd - k * np.sign(qd)"), 0.25),
-        ("wrong sign / the input u", rate("-u - C @ qd - g - d * qd - k * np.sign(qd)"), 0.25),
-        (
-            "not divided by M / the friction",
-            rate("u - C @ qd - g", qdd="np.linalg.solve(M, torque) - d * qd - k * np.sign(qd)"),
-            0.25,
-        ),
-        ("M not inverted", rate(qdd="M @ torque"), 0.25),
-        ("torque for acceleration", rate(qdd="torque"), 0.25),
         ("divided by the diagonal of M", rate(qdd="torque / np.diag(M)"), 0.25),
-        ("entries of M inverted", rate(qdd="1 / M @ torque"), 0.25),
-        ("divided by M entry by entry", rate(qdd="sum(torque / M)"), 0.25),
-        ("numbers of the example", EXAMPLE_ARM + rate(), 0.25),
         (
             ("wrong sign / C q̇", "dropped / the Coulomb friction"),
             rate("u + C @ qd - g - d * qd"),
@@ -357,38 +257,16 @@ TABLE = {
     ],
     "p5-energy_drift": [
         ("½ of K missing", drift(K="qd @ M(q) @ qd"), 0.35),
-        ("diagonal of M alone", drift(K="0.5 * M(q).diagonal() @ qd**2"), 0.35),
-        ("M of the start", drift(K="0.5 * qd @ M(x[0, :2]) @ qd"), 0.7),
         ("C in the energy", drift(K="0.5 * qd @ (M(q) + C(q, qd)) @ qd"), 0.35),
-        ("C for M", drift(K="0.5 * qd @ C(q, qd) @ qd"), 0.35),
-        ("P missing", drift(P="0"), 0.35),
         ("K missing", drift(K="0"), 0.35),
-        ("L for the energy", drift(E="K - P"), 0.35),
-        (
-            "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2",
-            drift(P="P1 + arm.m2 * arm.g * (arm.l1 * np.sin(q[0]) + arm.lc2 * np.sin(q[1]))"),
-            0.35,
-        ),
         (
             "cosine for sine",
             drift(P="arm.g * (S1 * np.cos(q[0]) + arm.m2 * arm.lc2 * np.cos(q[0] + q[1]))"),
             0.35,
         ),
-        (
-            "dropped / the weight of link 2 at the elbow",
-            drift(P="P1 + arm.m2 * arm.g * arm.lc2 * np.sin(q[0] + q[1])"),
-            0.35,
-        ),
-        ("torque times coordinate", drift(P="g_vec(q) @ q"), 0.35),
         ("gravity of Earth / 9.81 / g", "arm.g = 9.81\n" + drift(), 0.35),
-        ("from the row before", drift(returned="np.append(0, E[1:] - E[:-1])"), 0),
-        ("size of the drift", drift(returned="abs(E - E[0])"), 0),
         ("sign of the whole", drift(returned="E[0] - E"), 0),
-        ("energy for its drift", drift(returned="E"), 0),
-        ("from the mean", drift(returned="E - E.mean()"), 0),
         ("from the end", drift(returned="E - E[-1]"), 0),
-        ("share for the drift", drift(returned="(E - E[0]) / E[0]"), 0),
-        ("numbers of the example", EXAMPLE_ARM + drift(), 0),
         (("½ of K missing", "L for the energy"), drift(K="qd @ M(q) @ qd", E="K - P"), 0),
     ],
 }
