@@ -37,7 +37,7 @@ def _judged(mechanism: Mechanism) -> Judged:
 def _case(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]:
     """One arm at rest here, at rest there, and moving there, fast: P's rounding must not hide K."""
     arm, here, there = mechanism.drawn(rng), mechanism.placed(rng), mechanism.placed(rng)
-    qd = 2 * mechanism.moving(rng)
+    qd = 6 * mechanism.moving(rng)
     return [(here, 0 * qd, arm), (there, 0 * qd, arm), (there, qd, arm)]
 
 
