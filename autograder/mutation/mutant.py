@@ -37,5 +37,12 @@ class Mutant:
 
 
 # Steps that are the whole's: what is half, or zero, in one entry alone has another reason there.
-OF_THE_WHOLE = ("half of the whole", "twice the whole", "sign of the whole", "zero", "inverse")
+OF_THE_WHOLE = (
+    "half of the whole",
+    "twice the whole",
+    "sign of the whole",
+    "zero",
+    "inverse",
+    "joints exchanged",
+)
 STEP_NAMES = {name for steps in STEPS.values() for name in steps}

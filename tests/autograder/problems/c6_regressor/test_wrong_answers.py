@@ -144,7 +144,7 @@ def test_no_wrong_model_looks_like_another(check_id):
     [
         (lambda Y: np.multiply(Y, [1, 1, 1, 1, -1, 1]), "Every entry"),
         (lambda Y: np.where(np.arange(6) == 4, Y[0], Y), "swapped the rows"),
-        (lambda Y: Y * [[1, 0, 1, 1, 1, 1], [1] * 6], "the column of m1"),
+        (lambda Y: Y * [[1, 0, 1, 1, 1, 1], [1] * 6], "the column of m1,"),
     ],
 )
 def test_what_is_said_of_all_of_Y_is_true_of_all_of_it(spoilt, said):
