@@ -47,13 +47,18 @@ def entry(parts: tuple[str, ...], make: Callable[[], dict], fits: Callable[[dict
 @cache
 def code() -> str:
     """A digest of the code that derives, and of the packages under it."""
+    versions = [f"{name} {metadata.version(name)}" for name in ("numpy", "sympy")]
+    return digest(*versions, *(path.read_text(encoding="utf-8") for path in sources()))
+
+
+def sources() -> list[Path]:
+    """The files of that code; an entry holds no sentences."""
     armdyn = find_spec("armdyn")  # importing it would load SciPy
     assert armdyn is not None
     assert armdyn.origin is not None
     folders = (*DERIVING, Path(armdyn.origin).parent / "derive")
-    sources = sorted(path for folder in folders for path in folder.rglob("*.py"))
-    versions = [f"{name} {metadata.version(name)}" for name in ("numpy", "sympy")]
-    return digest(*versions, *(path.read_text(encoding="utf-8") for path in sources))
+    found = (path for folder in folders for path in folder.rglob("*.py"))
+    return sorted(path for path in found if path.parent.name != "sentences")
 
 
 def _folder() -> Path:

@@ -63,6 +63,12 @@ def test_another_process_derives_nothing(folder):
     assert run.stdout.strip() == str(len(Catalogue(PENDULUM, "M").mutants)), run.stderr
 
 
+def test_an_entry_follows_from_all_that_derives_and_from_no_sentence():
+    names = {path.name for path in kept.sources()}
+    assert {"operators.py", "steps.py", "coriolis.py", "mechanism.py", "derivation.py"} <= names
+    assert "of_terms.py" not in names
+
+
 @pytest.mark.parametrize("change", ["energy", "name of a term", "unit of a parameter", "code"])
 def test_another_mechanism_or_other_code_has_another_entry(folder, derived, monkeypatch, change):
     Catalogue(PENDULUM, "M")
