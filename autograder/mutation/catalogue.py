@@ -17,10 +17,10 @@ from autograder.mutation import kept
 from autograder.mutation.answers import ANSWERS, PARTS
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.operators import astray, rewritings
-from autograder.mutation.steps import STEPS
+from autograder.mutation.steps import STEPS, Right
 from autograder.mutation.tape import Tape
 from autograder.mutation.taping import taped
-from autograder.mutation.whole import whole
+from autograder.mutation.whole import as_right, expressions
 
 # To less than this share of the answer two mistakes give the same numbers.
 SAME = 1e-7
@@ -44,7 +44,7 @@ class Catalogue:
         own = [e for entries in self._contributed for e in entries]
         wrong = [e for _, _, contributed, _ in self._wrong for e in contributed]
         self._of_term = np.array([k for k, *_ in self._wrong], dtype=int)
-        self._tape = taped(self._symbols, [*own, *wrong])
+        self._tape = taped(self._symbols, [*expressions(self.mechanism), *own, *wrong])
         every = self._all()
         drawn = self._drawn(np.random.default_rng(0))
         with np.errstate(all="ignore"):
@@ -73,7 +73,8 @@ class Catalogue:
             found.append((Mutant(*fields), of))
         tape = Tape.from_data(data["tape"])
         entries = int(np.prod(self.answer.shape(self.mechanism.n)))
-        if len(tape.outputs) != (len(self.terms) + len(of_term)) * entries:
+        expected = self._of_whole + (len(self.terms) + len(of_term)) * entries
+        if len(tape.outputs) != expected:
             raise ValueError("the tape is not that of these mistakes")
         return found, of_term, tape
 
@@ -122,7 +123,7 @@ class Catalogue:
     def contributions(self, q, qd, arms) -> np.ndarray:
         """What each right term contributes to the answer, (terms, cases, …)."""
         with np.errstate(all="ignore"):  # wrong terms come with them
-            return self._contributions(q, qd, arms)[0]
+            return self._computed(q, qd, arms)[1]
 
     def _all(self) -> list[tuple[Mutant, object]]:
         """Each mistake with what its numbers are made of: a step's name, or (rewriting, entry)."""
@@ -179,9 +180,8 @@ class Catalogue:
         return q, qd, arms
 
     def _numbers_of(self, chosen, q, qd, arms) -> np.ndarray:
-        own, rewritten = self._contributions(q, qd, arms)
+        numbers, own, rewritten = self._computed(q, qd, arms)
         right = np.sum(own, axis=0)
-        numbers = whole(self.mechanism)(q, qd, arms)
         # Complex where q is, as slopes are taken by complex steps.
         found = np.empty((len(chosen), *right.shape), np.result_type(right, numbers.M))
         for i, (_, of) in enumerate(chosen):
@@ -193,14 +193,21 @@ class Catalogue:
                 found[i] = right + (change if mask is None else mask * change)
         return found
 
-    def _contributions(self, q, qd, arms) -> tuple[np.ndarray, np.ndarray]:
-        """Of the right terms, and of the rewritten ones: (…, cases, *shape) each."""
-        numbers = self._shaped(q, qd, arms)
-        return numbers[: len(self.terms)], numbers[len(self.terms) :]
-
-    def _shaped(self, q, qd, arms) -> np.ndarray:
+    def _computed(self, q, qd, arms) -> tuple[Right, np.ndarray, np.ndarray]:
+        """All right numbers; what the right terms contribute, and the rewritten ones: (…, cases, *shape)
+        each.
+        """
         flat = self._tape(np.array(self._columns(q, qd, arms)))
-        return np.moveaxis(flat.reshape(-1, *self.answer.shape(self.mechanism.n), len(q)), -1, 1)
+        numbers, flat = flat[: self._of_whole], flat[self._of_whole :]
+        shape = self.answer.shape(self.mechanism.n)
+        terms = np.moveaxis(flat.reshape(-1, *shape, len(q)), -1, 1)
+        return as_right(numbers, qd), terms[: len(self.terms)], terms[len(self.terms) :]
+
+    @property
+    def _of_whole(self) -> int:
+        """How many numbers of the tape are those of the whole mechanism."""
+        n = self.mechanism.n
+        return n * n + n**3 + n + 1
 
     def _columns(self, q, qd, arms) -> list[np.ndarray]:
         parameters = [

@@ -17,23 +17,31 @@ STEP = 1e-30
 @lru_cache(maxsize=64)
 def whole(mechanism: Mechanism) -> Callable[..., Right]:
     """A function of q, q̇ (cases, n) and the arms, one a case."""
-    n = mechanism.n
-    M = inertia(mechanism.K, mechanism)
-    slopes = [entry.diff(x) for entry in M for x in mechanism.q]
     names = [p.name for p in mechanism.parameters]
     symbols = [*mechanism.q, *(p.symbol for p in mechanism.parameters)]
-    entries = [*M, *slopes, *gradient(mechanism.P, mechanism), mechanism.P]
-    compute = sp.lambdify(symbols, entries, modules="numpy", cse=True)
+    compute = sp.lambdify(symbols, expressions(mechanism), modules="numpy", cse=True)
 
     def right(q, qd, arms) -> Right:
         columns = [*np.transpose(q), *([getattr(arm, x) for arm in arms] for x in names)]
         values = compute(*(np.array(column) for column in columns))
-        flat = np.array([np.broadcast_to(value, len(q)) for value in values]).T
-        M, slopes, g, P = np.split(flat, np.cumsum([n * n, n**3, n]), axis=-1)
-        square = M.reshape(-1, n, n)
-        return Right(square, slopes.reshape(-1, n, n, n), np.asarray(qd), g, P[:, 0])
+        return as_right(np.array([np.broadcast_to(value, len(q)) for value in values]), qd)
 
     return right
+
+
+def expressions(mechanism: Mechanism) -> list[sp.Expr]:
+    """M, its slopes, g and P, entry by entry."""
+    M = inertia(mechanism.K, mechanism)
+    slopes = [entry.diff(x) for entry in M for x in mechanism.q]
+    return [*M, *slopes, *gradient(mechanism.P, mechanism), mechanism.P]
+
+
+def as_right(numbers: np.ndarray, qd: np.ndarray) -> Right:
+    """The numbers of these expressions (expressions, cases) by their names."""
+    n = np.shape(qd)[1]
+    M, slopes, g, P = np.split(numbers.T, np.cumsum([n * n, n**3, n]), axis=-1)
+    square = M.reshape(-1, n, n)
+    return Right(square, slopes.reshape(-1, n, n, n), np.asarray(qd), g, P[:, 0])
 
 
 def slopes(M: Callable[[np.ndarray], np.ndarray], q: np.ndarray) -> np.ndarray:
