@@ -44,13 +44,16 @@ def terms_off(
     for count in range(1, min(MOST, len(present)) + 1):
         if len(error) < count + SURPLUS:
             break
-        for chosen in itertools.combinations(present, count):
-            columns = np.array([column for _, column in chosen]).T
-            factors = np.linalg.lstsq(columns, error, rcond=None)[0]
-            fit = columns @ factors
-            left = np.linalg.norm(error - fit)
-            if left <= NEARLY_ALL * np.linalg.norm(error) and _is(fit, expected, given, tolerance):
-                return [(term, 1 + float(f)) for (term, _), f in zip(chosen, factors, strict=True)]
+        every = list(itertools.combinations(range(len(present)), count))
+        # All at once: (combinations, numbers, count).
+        columns = np.stack([of for _, of in present])[np.array(every)].swapaxes(-1, -2)
+        factors = np.linalg.pinv(columns) @ error
+        fits = np.squeeze(columns @ factors[..., np.newaxis], -1)
+        left = np.linalg.norm(error - fits, axis=-1)
+        for k in np.flatnonzero(left <= NEARLY_ALL * np.linalg.norm(error)):
+            if _is(fits[k], expected, given, tolerance):
+                chosen = [present[place][0] for place in every[k]]
+                return [(term, 1 + float(f)) for term, f in zip(chosen, factors[k], strict=True)]
     return []
 
 
