@@ -129,7 +129,9 @@ def value(expression: sp.Expr, at: dict) -> tuple[float, float]:
     # So are fractions, and what is added to a large number; 2, 3 and the like are exact.
     rounded = {c for c in expression.atoms(sp.Rational) if c.q != 1 or abs(c) > 1000}
     rounded |= expression.atoms(sp.NumberSymbol, sp.Float)
-    nudged = {c: sp.Float(c, 50) * (1 + sp.Float("1e-15", 50)) for c in rounded}
+    # And sums of numbers, the innermost: acosh(1 + 1e-15) hangs on the last digit.
+    rounded |= {c for c in expression.atoms(sp.Add) if c.is_number and c.atoms(sp.Add) == {c}}
+    nudged = {c: c.evalf(50) * (1 + sp.Float("1e-15", 50)) for c in rounded}
     moved.append(_evaluated(expression, nudged, exact))
     # With every step rounded to 53 bits: 1 + x loses a small x, whatever becomes of it.
     moved.append(_evaluated(expression, {s: sp.Float(v, 15) for s, v in at.items()}))
