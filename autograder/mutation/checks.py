@@ -22,11 +22,6 @@ from autograder.mutation.sentences.notation import written
 from autograder.protocol import Call
 
 
-def checks_of(mechanism: Mechanism) -> tuple[Check, ...]:
-    """One check for each answer: `cart-pole-M`, `cart-pole-C` and so on."""
-    return tuple(check_of(mechanism, answer) for answer in ANSWERS)
-
-
 def check_of(mechanism: Mechanism, answer: str) -> Check:
     """The check of one answer. Its mistakes are made when the first answer is wrong."""
     asked = ANSWERS[answer]
