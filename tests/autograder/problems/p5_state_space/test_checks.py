@@ -315,3 +315,12 @@ def test_wrong_submission_says_why():
         ("p5-energy_drift", "sign of the whole"),
     ):
         assert verdicts[check_id].diagnosis == sentences(check_id, name)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_each_joint_stands_still_and_creeps_in_a_visible_check(seed):
+    """So that friction which is wrong in one joint alone shows."""
+    calls = CHECKS["p5-f"].calls(np.random.default_rng(seed), VISIBLE_CASES)
+    speeds = np.abs([call.args[0][2:] for call in calls])
+    assert np.all(np.any(speeds == 0, axis=0))
+    assert np.all(np.any((speeds > 0) & (speeds < 0.01), axis=0))
