@@ -11,11 +11,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from itertools import groupby
-from types import FunctionType
 
 import numpy as np
 
 from autograder.judging import changes, dependence
+from autograder.judging.at_points import AtPoints
 from autograder.judging.criterion import Criterion, relative_errors
 from autograder.judging.diagnosis import Catalogue, Mistake, Wrong, sentences
 from autograder.judging.faults import NUMBERS, describe_fault, describe_second_fault
@@ -27,7 +27,7 @@ from autograder.judging.quantities import (
     finite,
     one_number,
 )
-from autograder.judging.stacked import Layout, layouts, rows, stacked
+from autograder.judging.stacked import Layout, layouts, rows, stacked, unlike
 from autograder.judging.terms import Term
 from autograder.judging.verdict import Row, State, Verdict, Witness
 from autograder.judging.witness import witness
@@ -258,8 +258,7 @@ class Check:
         for shape, group in groupby((values for _, values in made), _shape):
             alike = list(group)
             if shape is None:
-                one_by_one = [rows(layout, self.quantities(calls, list(own))) for own in alike]
-                more = [np.array(own) for own in zip(*one_by_one, strict=True)]
+                more = unlike(layout, self.quantities, calls, alike)
             else:
                 numbers = np.array([np.asarray(list(own), dtype=float) for own in alike])
                 more = stacked(layout, self.quantities, calls, numbers)
@@ -338,13 +337,11 @@ def _needed(call: Call) -> str:
 def _evaluated(model: Callable, call: Call):
     """A model's numbers for a call, as those of a student's function are read.
 
-    A model of plain Symbols is one of numbers here, and tried point by point. One of expressions may
-    give a function from a point to its numbers, which costs less than an expression.
+    A model of plain Symbols is one of numbers here, and tried point by point.
     """
+    if isinstance(model, AtPoints):
+        return model(call)
     if call.at and all(isinstance(value, Symbol) for value in call.args):
         points = [[point[symbol.name] for symbol in call.args] for point in call.at]
         return np.array([model(*point) for point in points], dtype=float)
-    result = model(*map(real, call.args))
-    if call.at and isinstance(result, FunctionType):
-        return np.array([result(point) for point in call.at], dtype=float)
-    return read(call, result)
+    return read(call, model(*map(real, call.args)))

@@ -64,4 +64,10 @@ def _largest(values: list) -> np.ndarray:
     """The largest entry of each; one array of all where they have one shape, as that is faster."""
     if len({np.shape(value) for value in values}) == 1:
         return np.max(np.abs(np.reshape(values, (len(values), -1))), axis=1, initial=0.0)
-    return np.array([np.max(np.abs(value), initial=0.0) for value in values])
+    sizes = [1 + np.size(value) for value in values]  # with a 0 before each, as some have no entry
+    flat = np.zeros(sum(sizes))
+    starts = np.cumsum([0, *sizes[:-1]])
+    mask = np.ones(len(flat), dtype=bool)
+    mask[starts] = False
+    flat[mask] = np.concatenate([np.ravel(value) for value in values])
+    return np.maximum.reduceat(np.abs(flat), starts)

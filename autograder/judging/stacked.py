@@ -46,10 +46,22 @@ class Layout:
 
     def row(self, values: list) -> np.ndarray:
         """One row; a value that is one number for several stands for each of them."""
+        if len(set(self.shapes)) == 1 and all(np.shape(v) == self.shapes[0] for v in values):
+            row = np.zeros((len(values), self.sizes[0]))
+            row[:, 1:] = np.reshape(values, (len(values), -1))
+            return row.ravel()
         parts: list[Any] = []
         for value, shape in zip(values, self.shapes, strict=True):
             parts += [[0.0], np.broadcast_to(value, shape).ravel()]
         return np.concatenate(parts)
+
+    def some(self, cases: list[int]) -> tuple["Layout", np.ndarray]:
+        """That of some cases, and where their numbers stand in a row of all."""
+        shapes = tuple(self.shapes[case] for case in cases)
+        sizes = tuple(self.sizes[case] for case in cases)
+        columns = [np.arange(self.sizes[case]) + self.starts[case] for case in cases]
+        starts = np.cumsum([0, *sizes[:-1]])
+        return Layout(shapes, sizes, starts, self.floor), np.concatenate(columns)
 
     def errors(self, expected: np.ndarray, given: np.ndarray) -> np.ndarray:
         """As `relative_errors`, of rows (…, numbers): (…, cases)."""
@@ -75,6 +87,31 @@ def layouts(numbers: Numbers, expected: Numbers) -> list[Layout]:
 def rows(layout: list[Layout], numbers: Numbers) -> list[np.ndarray]:
     """For each criterion the row of its numbers."""
     return [own.row([case[k] for case in numbers]) for k, own in enumerate(layout)]
+
+
+def unlike(
+    layout: list[Layout], quantities: Quantities, calls: list[Call], values: list
+) -> list[np.ndarray]:
+    """As `stacked`, where calls differ in the shape of what came back. values: for each answer that of
+    each call. Where each call is judged by itself, those of one shape are taken together.
+    """
+    places: dict[tuple, list[int]] = {}
+    for case, alike in enumerate(zip(*values, strict=True)):
+        shape, *others = {np.shape(value) for value in alike}
+        places.setdefault(() if others else (shape,), []).append(case)
+    if () in places or not isinstance(quantities, each):
+        formed = [rows(layout, quantities(calls, list(own))) for own in values]
+        return [np.array(own) for own in zip(*formed, strict=True)]
+    found = [np.zeros((len(values), own.length)) for own in layout]
+    for cases in places.values():
+        some = np.array([[own[case] for case in cases] for own in values], dtype=float)
+        parts = [own.some(cases) for own in layout]
+        numbers = stacked(
+            [part for part, _ in parts], quantities, [calls[case] for case in cases], some
+        )
+        for whole, own, (_, columns) in zip(found, numbers, parts, strict=True):
+            whole[:, columns] = own
+    return found
 
 
 def stacked(

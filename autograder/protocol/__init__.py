@@ -6,7 +6,7 @@ nothing of the problems, and holds nothing that a student should not see. Its im
 because it has another name in the sandbox.
 """
 
-from .arguments import Expressions, Function, Symbol, real
+from .arguments import Expressions, Function, Symbol, numbers_at, real
 from .calls import (
     CALL_SECONDS,
     PATIENCE,
@@ -53,6 +53,7 @@ __all__ = [
     "encode_reply",
     "kind_of",
     "message_of",
+    "numbers_at",
     "one_line",
     "read",
     "real",

@@ -30,23 +30,25 @@ def _links_calls(rng, count):
     return [
         Call(
             "inertia_from_links",
-            (rng.uniform(-1, 1, (L, 6, n)), np.array([_spatial_inertia(rng) for _ in range(L)])),
+            (rng.uniform(-1, 1, (L, 6, n)), _spatial_inertias(rng, L)),
         )
         for L, n in shapes[:count]
     ]
 
 
-def _spatial_inertia(rng):
-    """A body's 6 × 6 inertia about a point beside its centre of mass, rows and columns (ω, v)."""
-    mass, com = rng.uniform(0.5, 3.0), rng.choice([-1, 1], 3) * rng.uniform(0.3, 0.9, 3)
-    size = np.diag(rng.uniform(0.1, 0.5, 3))
-    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    spread = turn @ size @ turn.T  # ∫ r rᵀ dm: any positive one is some body's
-    x, y, z = com
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    about_point = np.trace(spread) * np.eye(3) - spread - mass * cross @ cross
+def _spatial_inertias(rng, links):
+    """Bodies' 6 × 6 inertias about points beside their centres of mass, rows and columns (ω, v)."""
+    mass = rng.uniform(0.5, 3.0, (links, 1, 1))
+    com = rng.choice([-1, 1], (links, 3)) * rng.uniform(0.3, 0.9, (links, 3))
+    turn = np.linalg.qr(rng.normal(size=(links, 3, 3)))[0]
+    size = rng.uniform(0.1, 0.5, (links, 1, 3))
+    spread = turn * size @ turn.mT  # ∫ r rᵀ dm: any positive one is some body's
+    # Row by row, a unit vector's cross product with r is that of r × with the sign turned.
+    cross = -np.cross(np.eye(3), com[:, np.newaxis])
+    trace = np.trace(spread, axis1=1, axis2=2)[:, np.newaxis, np.newaxis]
+    about_point = trace * np.eye(3) - spread - mass * cross @ cross
     inertia = np.block([[about_point, mass * cross], [-mass * cross, mass * np.eye(3)]])
-    return (inertia + inertia.T) / 2
+    return (inertia + inertia.mT) / 2
 
 
 @each

@@ -15,7 +15,7 @@ from autograder.judging.quantities import array, each
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.p2_energy_skew import mistakes
-from autograder.protocol import Call, Expressions, Symbol, real
+from autograder.protocol import Call, Expressions, Symbol
 
 # Ṁ − 2C is clearly not skew where C + Cᵀ and Ṁ differ by this share of the largest entry of C.
 CLEARLY = 0.01
@@ -138,7 +138,7 @@ def _symbolic(call, value):
     """C q̇, and C."""
     (point,), n = call.at, len(call.args[1])
     qd = np.array([point[symbol.name] for symbol in call.args[2]])
-    C = _matrix(value[0], n, lambda: (_christoffel(*map(real, call.args))(point), qd))
+    C = _matrix(value[0], n, lambda: (_christoffel.of(call, point), qd))
     return C @ qd, C
 
 

@@ -4,14 +4,14 @@ Those of the 2R arm follow from it; here stand their sentences. Those of the Chr
 over D[i, j, k] = ∂M_ij/∂q_k, for any n.
 """
 
-from functools import lru_cache
-
 import numpy as np
 
+from autograder.judging.at_points import AtPoints
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.terms import Term
 from autograder.problems.material import planar_2r as right
 from autograder.problems.material import sentences
+from autograder.protocol import Expressions, numbers_at
 
 # How the coupling m2 ℓ1 ℓc2 cos q2 enters M.
 PATTERN = np.array([[2.0, 1.0], [1.0, 0.0]])
@@ -295,42 +295,26 @@ OTHER = (
 STEP = 1e-30  # no difference is formed, so no digits are lost
 
 
-@lru_cache(maxsize=64)
-def _derivatives_of(M, q):
-    """A function from the values of q to D, (n, n, n), and M, (n, n).
+def _derivatives_at(M: Expressions, q: list[str], point: dict[str, float]):
+    """D, (n, n, n), and M, (n, n), at a point.
 
     The complex step, Im M(q + i ε) / ε, is exact for analytic entries, and a fraction of the work of
     SymPy's derivatives.
     """
-    import sympy  # only a symbolic question pays for it
-
-    n = len(q)
-    numbers = sympy.lambdify(q, list(M), "numpy")
-
-    def at(values):
-        steps = np.array(values) + 1j * STEP * np.eye(n)
-        M = np.array([np.reshape(numbers(*step), (n, n)) for step in steps])
-        return np.moveaxis(M.imag, 0, -1) / STEP, M[0].real
-
-    return at
+    steps = np.array([point[name] for name in q]) + 1j * STEP * np.eye(len(q))
+    values = np.array([numbers_at(M, dict(zip(q, step, strict=True))) for step in steps])
+    return np.moveaxis(values.imag, 0, -1) / STEP, values[0].real
 
 
 def at_points(of):
-    """A model of `christoffel` from one of numbers: of(D, q̇, M) → (n, n).
+    """A model of `christoffel` from one of numbers: of(D, q̇, M) → (n, n)."""
 
-    The matrix is compiled once, whatever is made of it.
-    """
+    def numbers(call, point):
+        M, q, qd = call.args
+        D, inertia = _derivatives_at(M, [symbol.name for symbol in q], point)
+        return of(D, np.array([point[symbol.name] for symbol in qd]), inertia)
 
-    def model(M, q, qd):
-        at = _derivatives_of(M.as_immutable(), tuple(q))
-
-        def numbers(point):
-            D, inertia = at([point[symbol.name] for symbol in q])
-            return of(D, np.array([point[symbol.name] for symbol in qd]), inertia)
-
-        return numbers
-
-    return model
+    return AtPoints(numbers)
 
 
 CHRISTOFFEL = tuple(

@@ -222,7 +222,7 @@ def test_symbolic_reference_agrees_with_the_definition():
         ]
         at = {symbol: point[symbol.name] for symbol in (*q, *qd)}
         expected = np.array(sp.Matrix(C).subs(at), dtype=float)
-        np.testing.assert_allclose(check.reference(M, q, qd)(point), expected, rtol=1e-12)
+        np.testing.assert_allclose(check.reference.of(call, point), expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize("check", P2, ids=lambda check: check.id)
