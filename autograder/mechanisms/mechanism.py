@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from types import SimpleNamespace
 
 import numpy as np
@@ -164,6 +165,14 @@ class Mechanism:
         _once(where, "coefficients of friction", [term.symbol.name for term in self.friction])
         refuse_other_than_joules(where, self)
         self._try_points(where)
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.name, self.coordinates, self.parameters, self.kinetic, self.potential))
+
+    def __hash__(self) -> int:
+        """Made once, as what follows from a mechanism is looked up by it."""
+        return self._hash
 
     def _refuse_foreign(self, where: str, energy: str, term: EnergyTerm) -> None:
         try:

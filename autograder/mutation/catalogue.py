@@ -15,12 +15,14 @@ import sympy as sp
 from autograder.mechanisms import EnergyTerm, Mechanism
 from autograder.mutation import kept
 from autograder.mutation.answers import ANSWERS, PARTS
+from autograder.mutation.formulas import columns, symbols
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.operators import astray, rewritings
+from autograder.mutation.shared import shared
 from autograder.mutation.steps import STEPS, Right
 from autograder.mutation.tape import Tape
 from autograder.mutation.taping import taped
-from autograder.mutation.whole import as_right, expressions
+from autograder.mutation.whole import as_right, count, expressions
 
 # To less than this share of the answer two mistakes give the same numbers.
 SAME = 1e-7
@@ -34,8 +36,9 @@ class Catalogue:
 
     def __init__(self, mechanism: Mechanism, answer: str):
         self.mechanism, self.answer = mechanism, (ANSWERS | PARTS)[answer]
+        self.numbers = shared(self._numbers)
         self._kept, self._of_term, self._tape = kept.entry(
-            ("catalogue", sp.srepr(_definition(mechanism)), answer), self._made, self._read
+            ("catalogue", *kept.definition(mechanism), answer), self._made, self._read
         )
 
     def _made(self) -> dict:
@@ -44,7 +47,7 @@ class Catalogue:
         own = [e for entries in self._contributed for e in entries]
         wrong = [e for _, _, contributed, _ in self._wrong for e in contributed]
         self._of_term = np.array([k for k, *_ in self._wrong], dtype=int)
-        self._tape = taped(self._symbols, [*expressions(self.mechanism), *own, *wrong])
+        self._tape = taped(symbols(self.mechanism), [*expressions(self.mechanism), *own, *wrong])
         every = self._all()
         drawn = self._drawn(np.random.default_rng(0))
         with np.errstate(all="ignore"):
@@ -111,7 +114,7 @@ class Catalogue:
     def mutants(self) -> list[Mutant]:
         return [mutant for mutant, _ in self._kept]
 
-    def numbers(self, q, qd, arms: Sequence[SimpleNamespace]) -> np.ndarray:
+    def _numbers(self, q, qd, arms: Sequence[SimpleNamespace]) -> np.ndarray:
         """What each mutant returns: (mutants, cases, …). q, qd: (cases, n); arms: one a case."""
         with np.errstate(all="ignore"):  # a wrong term may have no value everywhere
             return self._numbers_of(self._kept, q, qd, arms)
@@ -184,20 +187,30 @@ class Catalogue:
         right = np.sum(own, axis=0)
         # Complex where q is, as slopes are taken by complex steps.
         found = np.empty((len(chosen), *right.shape), np.result_type(right, numbers.M))
+        changes = rewritten - own[self._of_term]
+        alone, places, masked = [], [], []
         for i, (_, of) in enumerate(chosen):
             if isinstance(of, str):
                 found[i] = STEPS[self.answer.name][of](numbers)
+            elif len(of[0]) > 1:
+                change = np.sum(changes[of[0]], axis=0)
+                found[i] = right + (change if of[1] is None else of[1] * change)
             else:
-                which, mask = of
-                change = sum(rewritten[r] - own[self._of_term[r]] for r in which)
-                found[i] = right + (change if mask is None else mask * change)
+                alone.append(i)
+                places += of[0]
+                masked += [] if of[1] is None else [(i, of[1])]
+        found[alone] = changes[places]
+        if masked:
+            at, masks = zip(*masked, strict=True)
+            found[list(at)] *= np.array(masks)[:, np.newaxis]
+        found[alone] += right
         return found
 
     def _computed(self, q, qd, arms) -> tuple[Right, np.ndarray, np.ndarray]:
         """All right numbers; what the right terms contribute, and the rewritten ones: (…, cases, *shape)
         each.
         """
-        flat = self._tape(np.array(self._columns(q, qd, arms)))
+        flat = self._tape(columns(self.mechanism, q, qd, arms))
         numbers, flat = flat[: self._of_whole], flat[self._of_whole :]
         shape = self.answer.shape(self.mechanism.n)
         terms = np.moveaxis(flat.reshape(-1, *shape, len(q)), -1, 1)
@@ -206,32 +219,11 @@ class Catalogue:
     @property
     def _of_whole(self) -> int:
         """How many numbers of the tape are those of the whole mechanism."""
-        n = self.mechanism.n
-        return n * n + n**3 + n + 1
-
-    def _columns(self, q, qd, arms) -> list[np.ndarray]:
-        parameters = [
-            np.array([getattr(arm, p.name) for arm in arms]) for p in self.mechanism.parameters
-        ]
-        return [*np.transpose(q), *np.transpose(qd), *parameters]
-
-    @cached_property
-    def _symbols(self) -> list[sp.Symbol]:
-        m = self.mechanism
-        return [*m.q, *m.qd, *(p.symbol for p in m.parameters)]
+        return count(self.mechanism.n)
 
     @cached_property
     def _contributed(self) -> list[list[sp.Expr]]:
         return [derived(term.energy, self.mechanism) for term, derived in self._derived]
-
-
-def _definition(mechanism: Mechanism) -> sp.Tuple:
-    """What the mistakes follow from, in SymPy's terms."""
-    energies = (*mechanism.kinetic, *mechanism.potential)
-    words = [mechanism.name, *mechanism.coordinates, *mechanism.parameters]
-    words += [len(mechanism.kinetic), *(term.name for term in energies), *mechanism.friction]
-    formulas = [term.energy for term in energies] + [term.torque for term in mechanism.friction]
-    return sp.Tuple(sp.Symbol(str(words)), *map(sp.sympify, formulas))
 
 
 def _listed(mask: np.ndarray | None) -> list | None:

@@ -10,13 +10,17 @@ import os
 import stat
 import sys
 from collections.abc import Callable
-from functools import cache
+from functools import cache, lru_cache
 from importlib import metadata
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from autograder.digest import digest
 from autograder.files import put_in_place
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 HERE = Path(__file__).parent
 DERIVING = (HERE, HERE.parent / "mechanisms")
@@ -49,6 +53,18 @@ def code() -> str:
     """A digest of the code that derives, and of the packages under it."""
     versions = [f"{name} {metadata.version(name)}" for name in ("numpy", "sympy")]
     return digest(*versions, *(path.read_text(encoding="utf-8") for path in sources()))
+
+
+@lru_cache(maxsize=64)
+def definition(mechanism: "Mechanism") -> tuple[str, ...]:
+    """What of a mechanism its mistakes and numbers follow from, as parts of an entry's name."""
+    import sympy as sp
+
+    energies = (*mechanism.kinetic, *mechanism.potential)
+    words = [mechanism.name, *mechanism.coordinates, *mechanism.parameters]
+    words += [len(mechanism.kinetic), *(term.name for term in energies), *mechanism.friction]
+    formulas = [term.energy for term in energies] + [term.torque for term in mechanism.friction]
+    return (str(words), *(sp.srepr(sp.sympify(formula)) for formula in formulas))
 
 
 def sources() -> list[Path]:

@@ -13,6 +13,7 @@ from autograder.mutation.answers.answer import Answer, Judged, in_motion, mixed,
 from autograder.mutation.answers.composition import Composition, Group
 from autograder.mutation.derivatives import coriolis
 from autograder.mutation.mutant import Mutant
+from autograder.mutation.shared import shared
 from autograder.mutation.steps import Right
 from autograder.mutation.whole import slopes, whole
 
@@ -87,6 +88,7 @@ def propagated(mechanism: Mechanism, inertia) -> tuple[list[int], Callable[..., 
     terms = [k for k, mutant in enumerate(inertia.mutants) if not mutant.is_step]
     right = whole(mechanism)
 
+    @shared
     def numbers(q, qd, arms) -> Right:
         def wrong(at):
             some = arms * (len(at) // len(arms))

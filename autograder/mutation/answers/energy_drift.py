@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator
 from functools import lru_cache
 
 import numpy as np
-import sympy as sp
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import each, vector
@@ -12,6 +11,7 @@ from autograder.mechanisms import Mechanism
 from autograder.mutation.answers.answer import Answer, Judged, in_motion
 from autograder.mutation.answers.composition import Composition, Group
 from autograder.mutation.derivatives import energy
+from autograder.mutation.formulas import formulas
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.steps import STEPS, Run, drift
 from autograder.mutation.whole import whole
@@ -55,7 +55,7 @@ def _composition(mechanism: Mechanism) -> Composition:
 
     def run(x, arms) -> Run:
         q, qd, some = _flat(x, arms)
-        numbers = vars(right(q, qd, some)) | {"q": q}
+        numbers = right(q, qd, some).named() | {"q": q}
         shape = x.shape[:2]
         return Run(**{name: np.reshape(v, shape + v.shape[1:]) for name, v in numbers.items()})
 
@@ -92,17 +92,13 @@ def _flat(x, arms) -> tuple:
 
 def _energies(mechanism: Mechanism) -> Callable[..., np.ndarray]:
     """A function of q, q̇ (cases, n) and the arms to the energy of each term, (terms, cases)."""
-    names = [p.name for p in mechanism.parameters]
-    symbols = [*mechanism.q, *mechanism.qd, *(p.symbol for p in mechanism.parameters)]
-    terms = [term.energy for term in (*mechanism.kinetic, *mechanism.potential)]
-    compute = sp.lambdify(symbols, terms, modules="numpy", cse=True)
-
-    def function(q, qd, arms) -> np.ndarray:
-        columns = [np.array([getattr(arm, name) for arm in arms]) for name in names]
-        values = compute(*np.transpose(q), *np.transpose(qd), *columns)
-        return np.array([np.broadcast_to(value, len(q)) for value in values])
-
-    return function
+    count = len(mechanism.kinetic) + len(mechanism.potential)
+    return formulas(
+        mechanism,
+        ("energies",),
+        lambda of: [term.energy for term in (*of.kinetic, *of.potential)],
+        count,
+    )
 
 
 ENERGY = Answer(

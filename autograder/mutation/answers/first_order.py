@@ -13,6 +13,7 @@ from autograder.mutation.answers.composition import Composition, Group, througho
 from autograder.mutation.answers.coriolis import propagated, wrong_products
 from autograder.mutation.friction import torques, wrong_torques
 from autograder.mutation.mutant import Mutant
+from autograder.mutation.shared import shared
 from autograder.mutation.steps import STEPS, Driven, rate, solved, times
 from autograder.mutation.whole import whole
 
@@ -54,12 +55,12 @@ def _columns(calls: list[tuple]) -> tuple:
 def _driven(mechanism: Mechanism, q, qd, u, arms) -> Driven:
     right = whole(mechanism)(q, qd, arms)
     friction = np.sum(torques(mechanism)(q, qd, arms), axis=0)
-    return Driven(**vars(right), q=q, u=u, friction=friction)
+    return Driven(**right.named(), q=q, u=u, friction=friction)
 
 
 @lru_cache(maxsize=64)
 def _composition(mechanism: Mechanism) -> Composition:
-    at = partial(_driven, mechanism)
+    at = shared(partial(_driven, mechanism))
 
     def right(q, qd, u, arms):
         return rate(qd, at(q, qd, u, arms).acceleration)

@@ -24,10 +24,12 @@ def symmetric(mechanism: Mechanism, head: str, entries: list, per: str) -> Judge
 
     zero = [place for i, j in zero for place in dict.fromkeys(((i, j), (j, i)))]
 
+    places = [tuple(np.array([*dict.fromkeys(((i, j), (j, i)))]).T) for i, j in pairs]
+
     @each
     def parts(call, value):
         M = np.reshape(value, (1, 1)) if n == 1 and np.size(value) == 1 else array(value, n, n)
-        found = [M[[i, j], [j, i]] if i != j else M[[i], [i]] for i, j in pairs]
+        found = [M[at] for at in places]
         beside = [M[i, j] for i, j in zero]
         return (np.array([*found[0], *beside]), *found[1:])
 
