@@ -11,7 +11,8 @@ import numpy as np
 import sympy as sp
 
 from autograder.mechanisms.friction import joint_friction
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import EnergyTerm, Mechanism
+from autograder.mechanisms.outline import Coordinate, Parameter
 
 PLACES = {1: "the shoulder", 2: "the elbow", 3: "the wrist"}
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.answers.answer import states
 from autograder.mutation.shared import shared
@@ -21,7 +21,7 @@ class Model:
     numbers: from the columns of calls to what is returned for them, (cases, …).
     """
 
-    mechanism: Mechanism
+    mechanism: Outline
     answer: str
     numbers: Callable[..., np.ndarray]
 
@@ -52,7 +52,7 @@ class Gathered:
 
 
 def of_calls(
-    mechanism: Mechanism, answer: str, calls: list[Call], numbers: Callable[..., np.ndarray]
+    mechanism: Outline, answer: str, calls: list[Call], numbers: Callable[..., np.ndarray]
 ) -> np.ndarray:
     """What models return for each call, (models, calls, …). numbers: of columns, (models, cases, …).
 
@@ -79,17 +79,15 @@ def of_calls(
 
 
 @lru_cache(maxsize=128)
-def _columns(mechanism: Mechanism, answer: str) -> Callable[..., tuple]:
+def _columns(mechanism: Outline, answer: str) -> Callable[..., tuple]:
     """From the arguments of calls, a tuple each, to what an answer's numbers take."""
     composed = ANSWERS[answer].composition
     columns = composed(mechanism).columns if composed else states
     return shared(lambda *calls: columns(list(calls)))
 
 
-def _state(mechanism: Mechanism, point: Mapping[str, float]) -> tuple:
+def _state(mechanism: Outline, point: Mapping[str, float]) -> tuple:
     """q, q̇ and the arm of a point at which an expression is tried, by the mechanism's names."""
-    q, qd = (
-        np.array([point[symbol.name] for symbol in symbols])
-        for symbols in (mechanism.q, mechanism.qd)
-    )
+    q = np.array([point[c.name] for c in mechanism.coordinates])
+    qd = np.array([point[c.rate] for c in mechanism.coordinates])
     return q, qd, SimpleNamespace(**{p.name: point[p.name] for p in mechanism.parameters})

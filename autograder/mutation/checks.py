@@ -1,22 +1,15 @@
 """Makes the checks of a mechanism: what is asked, the right answer, and every mistake that follows."""
 
-from functools import lru_cache, partial
-
-import numpy as np
+from functools import partial
 
 from autograder.judging.check import Check
-from autograder.judging.diagnosis import Mistake
 from autograder.judging.terms import Term
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS, Answer
-from autograder.mutation.calls import Model, of_calls
-from autograder.mutation.composed import catalogue_of
 from autograder.mutation.generated import Generated
-from autograder.mutation.mutant import Mutant
-from autograder.mutation.references import contributions, reference
-from autograder.mutation.sentences import sentence
+from autograder.mutation.mistakes import parts_of
+from autograder.mutation.references import reference
 from autograder.mutation.sentences.notation import written
-from autograder.protocol import Call
 
 
 def check_of(mechanism: Mechanism, answer: str) -> Check:
@@ -35,50 +28,6 @@ def check_of(mechanism: Mechanism, answer: str) -> Check:
         hints=_hints(mechanism, asked),
         pose=lambda call: list(mechanism.points(asked.position(call.args), call.args[-1])),
     )
-
-
-@lru_cache(maxsize=64)
-def mistakes_of(mechanism: Mechanism, answer: str) -> list[Mistake]:
-    """Every mistake of an answer with its sentence."""
-    return [
-        Mistake(
-            " / ".join(filter(None, _places(m))),
-            partial(_one, mechanism, answer, k),
-            sentence(m, mechanism, ANSWERS[answer]),
-            whole=m.is_of_whole,
-            combines=m.operator not in ("doubled", "halved"),
-        )
-        for k, m in enumerate(catalogue_of(mechanism, answer).mutants)
-    ]
-
-
-def _places(mutant: Mutant) -> list[str]:
-    return [
-        *(mutant.operator, mutant.term, mutant.entry, mutant.put, mutant.instead_of),
-        "in the energy" if mutant.in_energy else "",
-        f"in {mutant.source}" if mutant.source else "",
-    ]
-
-
-def numbers_of(mechanism: Mechanism, answer: str, calls: list[Call]) -> np.ndarray:
-    """What each mistake returns for each call, (mistakes, calls, …), as `of_calls`."""
-    return of_calls(mechanism, answer, calls, catalogue_of(mechanism, answer).numbers)
-
-
-def _one(mechanism: Mechanism, answer: str, k: int, *args) -> np.ndarray:
-    """What the k-th mistake returns for one call."""
-    return numbers_of(mechanism, answer, [Call(answer, args)])[k, 0]
-
-
-@lru_cache(maxsize=64)
-def parts_of(mechanism: Mechanism, answer: str) -> tuple[tuple[str, Model], ...]:
-    """The parts of the right answer, by the terms of the energies or the torques they come from."""
-    asked = ANSWERS[answer]
-    found = list(contributions(mechanism, answer))
-    if asked.composition:
-        for name, numbers in asked.composition(mechanism).terms.items():
-            found.append((name, Model(mechanism, answer, numbers)))
-    return tuple(found)
 
 
 def terms_of(mechanism: Mechanism, answer: str) -> tuple[Term, ...]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation import kept
 from autograder.mutation.shared import shared
 from autograder.mutation.tape import Tape
@@ -17,13 +17,15 @@ from autograder.mutation.tape import Tape
 if TYPE_CHECKING:
     import sympy as sp
 
-Make = Callable[[Mechanism], "list[sp.Expr]"]
+    from autograder.mechanisms import Mechanism
+
+Make = Callable[["Mechanism"], "list[sp.Expr]"]
 # From q, q̇ (cases, n) and the arms, one a case, to an array (formulas, cases).
 Numbers = Callable[..., np.ndarray]
 
 
 def formulas(
-    mechanism: Mechanism, parts: tuple[str, ...], make: Make, count: int, friction: bool = False
+    mechanism: Outline, parts: tuple[str, ...], make: Make, count: int, friction: bool = False
 ) -> Numbers:
     """The numbers of so many formulas. make: gives them, and is called where none are kept yet.
 
@@ -33,7 +35,8 @@ def formulas(
     def made() -> dict:
         from autograder.mutation.taping import taped
 
-        return taped(symbols(mechanism, friction), make(mechanism)).as_data()
+        full = mechanism.full
+        return taped(symbols(full, friction), make(full)).as_data()
 
     def read(data: dict) -> Tape:
         tape = Tape.from_data(data)
@@ -54,7 +57,7 @@ def formulas(
 
 
 def columns(
-    mechanism: Mechanism, q, qd, arms: Sequence[SimpleNamespace], friction: bool = False
+    mechanism: Outline, q, qd, arms: Sequence[SimpleNamespace], friction: bool = False
 ) -> np.ndarray:
     """What a tape takes, (inputs, cases), in the order of `symbols`."""
     parameters = [[getattr(arm, p.name) for arm in arms] for p in mechanism.parameters]
@@ -66,7 +69,7 @@ def columns(
     return np.array([*np.transpose(q), *np.transpose(qd), *parameters])
 
 
-def symbols(mechanism: Mechanism, friction: bool = False) -> "list[sp.Symbol]":
+def symbols(mechanism: "Mechanism", friction: bool = False) -> "list[sp.Symbol]":
     """q, q̇, the parameters, and the coefficients of friction."""
     found = [*mechanism.q, *mechanism.qd, *(p.symbol for p in mechanism.parameters)]
     return found + [term.symbol for term in mechanism.friction] if friction else found

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation import kept
 from autograder.mutation.formulas import formulas
 from autograder.mutation.mutant import Mutant
@@ -15,28 +15,30 @@ from autograder.mutation.mutant import Mutant
 if TYPE_CHECKING:
     import sympy as sp
 
+    from autograder.mechanisms import Mechanism
+
 
 @lru_cache(maxsize=64)
-def torques(mechanism: Mechanism) -> Callable[..., np.ndarray]:
+def torques(mechanism: Outline) -> Callable[..., np.ndarray]:
     """A function of q, q̇ (cases, n) and arms to the right torque of each term, (terms, cases, n)."""
 
-    def right(of: Mechanism) -> "list[dict[int, sp.Expr]]":
+    def right(of: "Mechanism") -> "list[dict[int, sp.Expr]]":
         return [{k: term.torque} for k, term in enumerate(of.friction)]
 
     return _rows(mechanism, "friction", right, len(mechanism.friction))
 
 
 @lru_cache(maxsize=64)
-def wrong_torques(mechanism: Mechanism) -> tuple[list[Mutant], Callable[..., np.ndarray]]:
+def wrong_torques(mechanism: Outline) -> tuple[list[Mutant], Callable[..., np.ndarray]]:
     """The mistakes, and a function to the whole friction of each, (mutants, cases, n)."""
 
-    def wrong(of: Mechanism) -> "list[tuple[Mutant, dict[int, sp.Expr]]]":
+    def wrong(of: "Mechanism") -> "list[tuple[Mutant, dict[int, sp.Expr]]]":
         from autograder.mutation.wrong_friction import mistakes
 
         return mistakes(of)
 
     def made() -> dict:
-        return {"mutants": [astuple(mutant) for mutant, _ in wrong(mechanism)]}
+        return {"mutants": [astuple(mutant) for mutant, _ in wrong(mechanism.full)]}
 
     def read(data: dict) -> list[Mutant]:
         return [Mutant(*fields) for fields in data["mutants"]]
@@ -52,7 +54,7 @@ def wrong_torques(mechanism: Mechanism) -> tuple[list[Mutant], Callable[..., np.
 
 
 def _rows(
-    mechanism: Mechanism,
+    mechanism: Outline,
     name: str,
     rows: "Callable[[Mechanism], list[dict[int, sp.Expr]]]",
     count: int,
@@ -63,7 +65,7 @@ def _rows(
     """
     n = mechanism.n
 
-    def entries(of: Mechanism) -> "list[sp.Expr]":
+    def entries(of: "Mechanism") -> "list[sp.Expr]":
         return [
             sum(torque for k, torque in row.items() if of.place(of.friction[k]) == i)
             for row in rows(of)

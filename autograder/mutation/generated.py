@@ -1,7 +1,7 @@
 """What follows from a mechanism for one answer: the right one, its terms and its mistakes.
 
-A check of a problem is declared with it. Nothing is derived, and SymPy is not imported, before an
-answer is asked for.
+A check of a problem is declared with it. Nothing is derived before an answer is asked for, and
+SymPy is not imported where what is needed is kept.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from autograder.judging.terms import Term
 from autograder.protocol import Call
 
 if TYPE_CHECKING:
-    from autograder.mechanisms import Mechanism
+    from autograder.mechanisms.outline import Outline
     from autograder.mutation.calls import Gathered, Model
 
 NUMBERS_OF_THE_EXAMPLE = (
@@ -37,7 +37,7 @@ class Generated:
 
     def __init__(
         self,
-        mechanism: str | Mechanism,
+        mechanism: str | Outline,
         answer: str,
         rows: Mapping[str, str] | None = None,
         example: SimpleNamespace | None = None,
@@ -46,12 +46,12 @@ class Generated:
         self.rows = dict(rows or {})
 
     @cached_property
-    def mechanism(self) -> Mechanism:
+    def mechanism(self) -> Outline:
         if not isinstance(self.given, str):
             return self.given
-        from autograder.mechanisms import MECHANISMS
+        from autograder.mutation.outlines import outline
 
-        return MECHANISMS[self.given]
+        return outline(self.given)
 
     @cached_property
     def reference(self) -> Model:
@@ -62,7 +62,7 @@ class Generated:
 
     def terms(self) -> tuple[Term, ...]:
         from autograder.mutation.calls import Gathered
-        from autograder.mutation.checks import parts_of
+        from autograder.mutation.mistakes import parts_of
 
         return tuple(
             Term(name, Gathered(model, self._gathered))
@@ -83,14 +83,14 @@ class Generated:
 
     @cached_property
     def _made(self) -> list[Mistake]:
-        from autograder.mutation.checks import mistakes_of
+        from autograder.mutation.mistakes import mistakes_of
 
         made = [self._said(mistake) for mistake in mistakes_of(self.mechanism, self.answer)]
         return made + ([self._said(self._of_example())] if self.example else [])
 
     def __call__(self, calls: list[Call]) -> list[tuple[Mistake, Sequence | np.ndarray]]:
         """Every mistake, with what it returns for each call."""
-        from autograder.mutation.checks import numbers_of
+        from autograder.mutation.mistakes import numbers_of
 
         values: list = [*numbers_of(self.mechanism, self.answer, calls)]
         if self.example:

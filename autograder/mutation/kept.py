@@ -20,7 +20,7 @@ from autograder.digest import digest
 from autograder.files import put_in_place
 
 if TYPE_CHECKING:
-    from autograder.mechanisms import Mechanism
+    from autograder.mechanisms.outline import Outline
 
 HERE = Path(__file__).parent
 DERIVING = (HERE, HERE.parent / "mechanisms")
@@ -56,10 +56,16 @@ def code() -> str:
 
 
 @lru_cache(maxsize=64)
-def definition(mechanism: "Mechanism") -> tuple[str, ...]:
-    """What of a mechanism its mistakes and numbers follow from, as parts of an entry's name."""
+def definition(outline: "Outline") -> tuple[str, ...]:
+    """What of a mechanism its mistakes and numbers follow from, as parts of an entry's name.
+
+    One that comes with the kit follows from the code, which names every entry.
+    """
+    if outline.is_built_in or _is_of_the_kit(outline):
+        return ("built in", outline.name)
     import sympy as sp
 
+    mechanism = outline.full
     energies = (*mechanism.kinetic, *mechanism.potential)
     words = [mechanism.name, *mechanism.coordinates, *mechanism.parameters]
     words += [len(mechanism.kinetic), *(term.name for term in energies), *mechanism.friction]
@@ -67,8 +73,28 @@ def definition(mechanism: "Mechanism") -> tuple[str, ...]:
     return (str(words), *(sp.srepr(sp.sympify(formula)) for formula in formulas))
 
 
+def _is_of_the_kit(outline: "Outline") -> bool:
+    """Whether it is one of `MECHANISMS`, or that one in π."""
+    loaded = sys.modules.get("autograder.mechanisms.built_in")
+    if loaded is None:
+        return False
+    from autograder.mutation.inertial_parameters import IN_PI, in_inertial_parameters
+
+    base = loaded.MECHANISMS.get(outline.name.removesuffix(IN_PI))
+    if base is None or base.name == outline.name:
+        return base is outline
+    return in_inertial_parameters(base) is outline
+
+
+@cache
+def sentences() -> str:
+    """A digest of the code that makes sentences."""
+    files = sorted((HERE / "sentences").glob("*.py"))
+    return digest(*(path.read_text(encoding="utf-8") for path in files))
+
+
 def sources() -> list[Path]:
-    """The files of that code; an entry holds no sentences."""
+    """The files of that code; sentences have a digest of their own."""
     armdyn = find_spec("armdyn")  # importing it would load SciPy
     assert armdyn is not None
     assert armdyn.origin is not None

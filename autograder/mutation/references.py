@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.calls import Model
 from autograder.mutation.formulas import formulas
@@ -13,7 +13,7 @@ from autograder.mutation.shared import shared
 
 
 @lru_cache(maxsize=64)
-def reference(mechanism: Mechanism, answer: str) -> Model:
+def reference(mechanism: Outline, answer: str) -> Model:
     """The right answer, with the arguments of the student's function."""
     asked = ANSWERS[answer]
     if asked.of_kinetic or asked.of_potential:
@@ -29,10 +29,10 @@ def reference(mechanism: Mechanism, answer: str) -> Model:
 
 
 @lru_cache(maxsize=64)
-def contributions(mechanism: Mechanism, answer: str) -> tuple[tuple[str, Model], ...]:
+def contributions(mechanism: Outline, answer: str) -> tuple[tuple[str, Model], ...]:
     """What each term of the energies contributes to the right answer, by the term's name."""
     asked = ANSWERS[answer]
-    names = [term.name for term, _ in asked.terms(mechanism)]
+    names = asked.term_names(mechanism)
     shape = asked.shape(mechanism.n)
     size = int(np.prod(shape))
     entries = formulas(

@@ -2,21 +2,26 @@
 
 from collections.abc import Callable
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-import sympy as sp
 
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation.derivatives import gradient, inertia
 from autograder.mutation.formulas import formulas
 from autograder.mutation.steps import Right
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from autograder.mechanisms import Mechanism
 
 # No difference is formed, so no digits are lost.
 STEP = 1e-30
 
 
 @lru_cache(maxsize=64)
-def whole(mechanism: Mechanism) -> Callable[..., Right]:
+def whole(mechanism: Outline) -> Callable[..., Right]:
     """A function of q, q̇ (cases, n) and the arms, one a case."""
     numbers = formulas(mechanism, ("whole",), expressions, count(mechanism.n))
 
@@ -26,7 +31,7 @@ def whole(mechanism: Mechanism) -> Callable[..., Right]:
     return right
 
 
-def expressions(mechanism: Mechanism) -> list[sp.Expr]:
+def expressions(mechanism: "Mechanism") -> "list[sp.Expr]":
     """M, its slopes, g and P, entry by entry."""
     M = inertia(mechanism.K, mechanism)
     slopes = [entry.diff(x) for entry in M for x in mechanism.q]

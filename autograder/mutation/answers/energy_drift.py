@@ -1,13 +1,16 @@
 """energy_drift(x, arm): E(t_k) − E(t_0) along the states of a motion, a row each."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import each, vector
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation.answers.answer import Answer, Judged, in_motion
 from autograder.mutation.answers.composition import Composition, Group
 from autograder.mutation.derivatives import energy
@@ -15,6 +18,9 @@ from autograder.mutation.formulas import formulas
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.steps import STEPS, Run, drift
 from autograder.mutation.whole import whole
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 ROWS = 6
 NOTHING = np.zeros(0)
@@ -50,7 +56,7 @@ def _case(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]
 
 
 @lru_cache(maxsize=64)
-def _composition(mechanism: Mechanism) -> Composition:
+def _composition(mechanism: Outline) -> Composition:
     right, energies = whole(mechanism), _energies(mechanism)
 
     def run(x, arms) -> Run:
@@ -90,7 +96,7 @@ def _flat(x, arms) -> tuple:
     return q, qd, [arm for arm in arms for _ in range(x.shape[1])]
 
 
-def _energies(mechanism: Mechanism) -> Callable[..., np.ndarray]:
+def _energies(mechanism: Outline) -> Callable[..., np.ndarray]:
     """A function of q, q̇ (cases, n) and the arms to the energy of each term, (terms, cases)."""
     count = len(mechanism.kinetic) + len(mechanism.potential)
     return formulas(

@@ -1,12 +1,18 @@
 """M(q): the inertia matrix."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import array, each
-from autograder.mechanisms import Mechanism
 from autograder.mutation.answers.answer import Answer, Judged, at_rest, unit_of_inertia
 from autograder.mutation.derivatives import inertia
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 
 def _judged(mechanism: Mechanism) -> Judged:

@@ -12,8 +12,9 @@ from autograder.judging.diagnosis import OfCalls
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.calls import Model
-from autograder.mutation.checks import check_of, mistakes_of, numbers_of
+from autograder.mutation.checks import check_of
 from autograder.mutation.generated import Generated
+from autograder.mutation.mistakes import mistakes_of, numbers_of
 from autograder.mutation.shared import shared
 from autograder.protocol import Reply
 
