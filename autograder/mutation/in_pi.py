@@ -15,10 +15,10 @@ class InPi(BuiltIn):
 
     @property
     def full(self) -> "Mechanism":
-        from autograder.mechanisms import MECHANISMS
+        from autograder.mechanisms.built_in import named
         from autograder.mutation.inertial_parameters import IN_PI, in_inertial_parameters
 
-        return in_inertial_parameters(MECHANISMS[self.name.removesuffix(IN_PI)])
+        return in_inertial_parameters(named(self.name.removesuffix(IN_PI)))
 
 
 @lru_cache(maxsize=64)

@@ -29,23 +29,36 @@ DERIVING = (HERE, HERE.parent / "mechanisms")
 def entry(parts: tuple[str, ...], make: Callable[[], dict], fits: Callable[[dict], object]):
     """What `fits` makes of the kept entry of these parts; it is made and kept where there is none.
 
-    fits: raises KeyError, TypeError, ValueError or IndexError where an entry is damaged, which is then
-    made anew. That the folder cannot be read or written is no error.
+    fits: raises KeyError, TypeError, ValueError or IndexError where an entry is not what it should be.
+    It is then made anew, as is one of which anything was changed since. That the folder cannot be read
+    or written is no error.
     """
     path = _folder() / f"{digest(code(), *parts)}.json"
     try:
         if _is_own(path.parent):
-            return fits(json.loads(path.read_text(encoding="utf-8")))
+            return fits(json.loads(_checked(path.read_text(encoding="utf-8"))))
     except (OSError, ValueError, KeyError, TypeError, IndexError):
         pass  # none yet, or damaged
     made = make()
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         if _is_own(path.parent):
-            put_in_place(path, json.dumps(made), mode=0o600)
+            put_in_place(path, signed(json.dumps(made)), mode=0o600)
     except OSError:
         pass  # the next process makes it again
     return fits(made)
+
+
+def signed(text: str) -> str:
+    """What stands in the file: a digest of the text, which shows any damage, then the text."""
+    return f"{digest(text)}\n{text}"
+
+
+def _checked(content: str) -> str:
+    text = content.partition("\n")[2]
+    if content != signed(text):
+        raise ValueError("the entry is damaged")
+    return text
 
 
 @cache
@@ -74,16 +87,17 @@ def definition(outline: "Outline") -> tuple[str, ...]:
 
 
 def _is_of_the_kit(outline: "Outline") -> bool:
-    """Whether it is one of `MECHANISMS`, or that one in π."""
+    """Whether it is one of the kit, or that one in π, and follows from its name."""
     loaded = sys.modules.get("autograder.mechanisms.built_in")
     if loaded is None:
         return False
     from autograder.mutation.inertial_parameters import IN_PI, in_inertial_parameters
 
-    base = loaded.MECHANISMS.get(outline.name.removesuffix(IN_PI))
-    if base is None or base.name == outline.name:
-        return base is outline
-    return in_inertial_parameters(base) is outline
+    try:
+        base = loaded.named(outline.name.removesuffix(IN_PI))
+    except KeyError:
+        return False
+    return outline is (base if base.name == outline.name else in_inertial_parameters(base))
 
 
 @cache

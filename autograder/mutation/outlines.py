@@ -11,8 +11,8 @@ def outline(name: str) -> BuiltIn:
     """KeyError where the kit has no mechanism of this name."""
 
     def made() -> dict:
-        from autograder.mechanisms import MECHANISMS
+        from autograder.mechanisms.built_in import named
 
-        return BuiltIn.of(MECHANISMS[name]).as_data()
+        return BuiltIn.of(named(name)).as_data()
 
     return kept.entry(("outline", name), made, BuiltIn.from_data)
