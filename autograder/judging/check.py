@@ -17,7 +17,7 @@ import numpy as np
 from autograder.judging import changes, dependence
 from autograder.judging.at_points import AtPoints
 from autograder.judging.criterion import Criterion, relative_errors
-from autograder.judging.diagnosis import Catalogue, Mistake, Wrong, sentences
+from autograder.judging.diagnosis import Catalogue, Mistake, OfCalls, Wrong, sentences
 from autograder.judging.faults import NUMBERS, describe_fault, describe_second_fault
 from autograder.judging.quantities import (
     Numbers,
@@ -217,6 +217,8 @@ class Check:
         ]
 
     def _quantities_of(self, model: Callable, calls: list[Call]) -> Numbers:
+        if isinstance(model, OfCalls):
+            return self.quantities(calls, list(model.for_calls(calls)))
         return self.quantities(calls, [_evaluated(model, call) for call in calls])
 
     def _diagnosis(
@@ -260,7 +262,7 @@ class Check:
             if shape is None:
                 more = unlike(layout, self.quantities, calls, alike)
             else:
-                numbers = np.array([np.asarray(list(own), dtype=float) for own in alike])
+                numbers = np.array([np.asarray(own, dtype=float) for own in alike])
                 more = stacked(layout, self.quantities, calls, numbers)
             parts = [np.vstack(both) for both in zip(parts, more, strict=True)]
         return Wrong(mistakes, parts)

@@ -6,7 +6,7 @@ or those of two mistakes at once. If none matches, `findings` says what is true 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -47,6 +47,13 @@ class Catalogue(Protocol):
     def mistakes(self) -> list[Mistake]: ...
 
     def __call__(self, calls: list[Call], /) -> Sequence[tuple[Mistake, Sequence | np.ndarray]]: ...
+
+
+@runtime_checkable
+class OfCalls(Protocol):
+    """A model that also gives what it returns for all calls in one step, in their order."""
+
+    def for_calls(self, calls: list[Call], /) -> Sequence | np.ndarray: ...
 
 
 @dataclass(frozen=True)
@@ -98,12 +105,14 @@ def sentences(
     order = _likeliest_first(
         criteria, layout, rows(layout, expected), rows(layout, given), met, wrong
     )
+    likely = [i for i in order if not wrong.mistakes[i].whole]
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
         right, theirs = _part(k, expected), _part(k, given)
-        kept = [i for i in order if not wrong.mistakes[i].whole
-                and (not criterion.is_property or wrong.mistakes[i].sentence in said)]  # fmt: skip
+        kept = likely
+        if criterion.is_property:
+            kept = [i for i in likely if wrong.mistakes[i].sentence in said]
         known = [wrong.mistakes[i] for i in kept]
         row = layout[k].row
         shown = _shown(

@@ -19,6 +19,7 @@ NEGLIGIBLE = 1e-6
 MOST_VALUES = 128
 # Quantities are linear in the values where that holds to this, in three mistakes.
 LINEAR = 1e-9
+ZERO = np.zeros(1)
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,8 @@ class Layout:
             return row.ravel()
         parts: list[Any] = []
         for value, shape in zip(values, self.shapes, strict=True):
-            parts += [[0.0], np.broadcast_to(value, shape).ravel()]
+            same = np.shape(value) == shape
+            parts += [ZERO, np.ravel(value if same else np.broadcast_to(value, shape))]
         return np.concatenate(parts)
 
     def some(self, cases: list[int]) -> tuple["Layout", np.ndarray]:

@@ -1,20 +1,18 @@
-"""The mechanisms that problems are made of, by their names."""
+"""The mechanisms that problems are made of, by their names in `MECHANISMS`.
 
-from autograder.mechanisms.carts import CART_POLE, SPRING_CART
-from autograder.mechanisms.elastic_joint import ELASTIC_JOINT
-from autograder.mechanisms.friction import FrictionTerm, joint_friction
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
-from autograder.mechanisms.pendulums import FURUTA, PENDULUM, SPHERICAL
-from autograder.mechanisms.planar_arms import (
-    PLANAR_2R,
-    PLANAR_2R_ABSOLUTE,
-    PLANAR_2R_BESIDE,
-    PLANAR_2R_HANGING,
-    PLANAR_2R_SLOPE,
-    PLANAR_3R,
-)
-from autograder.mechanisms.slider_crank import SLIDER_CRANK
-from autograder.mechanisms.sliding_arm import TURN_AND_SLIDE
+SymPy is imported with the first of them, or with a class that holds formulas; what is kept of a
+mechanism is read without it.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from autograder.mechanisms.outline import Coordinate, Parameter
+
+if TYPE_CHECKING:
+    from autograder.mechanisms.built_in import MECHANISMS
+    from autograder.mechanisms.friction import FrictionTerm, joint_friction
+    from autograder.mechanisms.mechanism import EnergyTerm, Mechanism
 
 __all__ = [
     "MECHANISMS",
@@ -26,22 +24,17 @@ __all__ = [
     "joint_friction",
 ]
 
-MECHANISMS = {
-    mechanism.name: mechanism
-    for mechanism in (
-        PENDULUM,
-        PLANAR_2R,
-        PLANAR_2R_ABSOLUTE,
-        PLANAR_2R_HANGING,
-        PLANAR_2R_BESIDE,
-        PLANAR_2R_SLOPE,
-        CART_POLE,
-        TURN_AND_SLIDE,
-        PLANAR_3R,
-        SPRING_CART,
-        FURUTA,
-        SPHERICAL,
-        SLIDER_CRANK,
-        ELASTIC_JOINT,
-    )
+
+_MODULES = {
+    "MECHANISMS": "built_in",
+    "EnergyTerm": "mechanism",
+    "FrictionTerm": "friction",
+    "Mechanism": "mechanism",
+    "joint_friction": "friction",
 }
+
+
+def __getattr__(name: str):
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)

@@ -5,7 +5,8 @@ import math
 import sympy as sp
 
 from autograder.mechanisms.friction import joint_friction
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import EnergyTerm, Mechanism
+from autograder.mechanisms.outline import Coordinate, Parameter
 from autograder.mechanisms.shapes import Cart, Link, Mass, Rail, Spring, Wall
 
 

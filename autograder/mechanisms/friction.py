@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from autograder.mechanisms.outline import Coordinate, Resistance
+
 if TYPE_CHECKING:
-    from autograder.mechanisms.mechanism import Coordinate, Mechanism
+    from autograder.mechanisms.mechanism import Mechanism
 
 
 @dataclass(frozen=True)
-class FrictionTerm:
+class FrictionTerm(Resistance):
     """A torque or force that resists one coordinate, in words: "the viscous friction of joint 1".
 
     coordinate: its name. coefficient: of the array of arm that holds its number, "viscous" for
@@ -22,9 +24,6 @@ class FrictionTerm:
     stands on the left of the equation of motion, and takes energy out.
     """
 
-    name: str
-    coordinate: str
-    coefficient: str
     unit: str
     torque: sp.Expr
     low: float = 0.2

@@ -3,7 +3,6 @@
 import keyword
 import re
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from types import SimpleNamespace
 
@@ -11,70 +10,22 @@ import numpy as np
 import sympy as sp
 
 from autograder.mechanisms.friction import FrictionTerm, refuse_other_than_friction
+from autograder.mechanisms.outline import Coordinate, Outline, Parameter, Part
 from autograder.mechanisms.shapes import SHAPES, Shape, arm
-from autograder.mechanisms.units import UnitError, refuse_other_than_joules, spelled
+from autograder.mechanisms.units import refuse_other_than_joules
 
 UNITS_OF_COORDINATES = ("rad", "m")
 
 
 @dataclass(frozen=True)
-class Coordinate:
-    """A generalised coordinate. zero: where it is 0, in words: "link 1 along the x axis"."""
+class EnergyTerm(Part):
+    """A part of an energy, with its formula."""
 
-    name: str
-    unit: str
-    zero: str
-
-    @property
-    def symbol(self) -> sp.Symbol:
-        return sp.Symbol(self.name, real=True)
-
-    @property
-    def velocity(self) -> sp.Symbol:
-        """qd1 for q1, xd for x."""
-        head = self.name.rstrip("0123456789")
-        return sp.Symbol(f"{head}d{self.name[len(head) :]}", real=True)
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A parameter: what it is, and the range from which random mechanisms draw it.
-
-    to_find: whether a regressor finds it from measured torques, as a mass, or it is known without them,
-    as the length of a link; by default lengths and gravity are known. unit: in any usual spelling; it
-    is kept as students read it, m/s² for "m/s^2".
-    """
-
-    name: str
-    unit: str
-    doc: str
-    low: float
-    high: float
-    to_find: bool | None = None
-
-    def __post_init__(self):
-        with suppress(UnitError, AttributeError):  # the mechanism says which one cannot be read
-            object.__setattr__(self, "unit", spelled(self.unit))
-
-    @property
-    def known(self) -> bool:
-        return self.unit in ("m", "m/s²") if self.to_find is None else not self.to_find
-
-    @property
-    def symbol(self) -> sp.Symbol:
-        return sp.Symbol(self.name, positive=True)
-
-
-@dataclass(frozen=True)
-class EnergyTerm:
-    """A part of an energy, in words: "the rotation of link 2"."""
-
-    name: str
     energy: sp.Expr
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class Mechanism(Outline):
     """A robot given by its energies.
 
     kinetic, potential: the named terms whose sums are K (J) and P (J), expressions in the
@@ -223,9 +174,11 @@ class Mechanism:
             return list(self.draws(q, given))
         return arm([(float(x), float(y)) for x, y in self.points(q, given)])
 
+    __hash__ = Outline.__hash__
+
     @property
-    def n(self) -> int:
-        return len(self.coordinates)
+    def full(self) -> "Mechanism":
+        return self
 
     @property
     def q(self) -> tuple[sp.Symbol, ...]:
@@ -254,10 +207,6 @@ class Mechanism:
             numbers = vars(arm).setdefault(term.coefficient, np.zeros(self.n))
             numbers[self.place(term)] = rng.uniform(term.low, term.high)
         return arm
-
-    def place(self, term: FrictionTerm) -> int:
-        """The place of the coordinate that a friction term resists."""
-        return [c.name for c in self.coordinates].index(term.coordinate)
 
     def placed(self, rng: np.random.Generator) -> np.ndarray:
         """A random q, (n,): angles whose sine and cosine do not nearly vanish, lengths up to 1 m."""

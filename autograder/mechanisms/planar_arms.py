@@ -11,16 +11,19 @@ import numpy as np
 import sympy as sp
 
 from autograder.mechanisms.friction import joint_friction
-from autograder.mechanisms.mechanism import Coordinate, EnergyTerm, Mechanism, Parameter
+from autograder.mechanisms.mechanism import EnergyTerm, Mechanism
+from autograder.mechanisms.outline import Coordinate, Parameter
 
+Angles = Literal["relative", "square", "absolute", "crossed"]
+Zero = Literal["level", "hanging"]
 PLACES = {1: "the shoulder", 2: "the elbow", 3: "the wrist"}
 
 
 def planar_arm(
     name: str,
     n: int,
-    angles: Literal["relative", "square", "absolute", "crossed"] = "relative",
-    zero: Literal["level", "hanging"] = "level",
+    angles: Angles = "relative",
+    zero: Zero = "level",
     beside: bool = False,
     slope: bool = False,
 ) -> Mechanism:

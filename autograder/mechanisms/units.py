@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-import sympy as sp
-
 if TYPE_CHECKING:
+    import sympy as sp
+
     from autograder.mechanisms.mechanism import Mechanism
 
 # Exponents of kg, m and s. An angle is a number.
@@ -115,12 +115,14 @@ def _power(exponent: Fraction | int) -> str:
     return f"^({exponent})"
 
 
-def dimension_in(expression: sp.Expr, of: Mapping[sp.Symbol, Dimension]) -> Dimension:
+def dimension_in(expression: "sp.Expr", of: "Mapping[sp.Symbol, Dimension]") -> Dimension:
     """The dimension of an expression. of: that of each symbol.
 
     UnitError for a sum of different units, for an angle's function of a length, and for a power that is
     no number.
     """
+    import sympy as sp  # only an energy's unit pays for it
+
     if expression.is_Symbol:
         return of[expression]
     if expression.is_number:
@@ -165,6 +167,8 @@ def _times(one: Dimension, other: Dimension, power: Fraction | int = 1) -> Dimen
 
 def refuse_other_than_joules(where: str, mechanism: "Mechanism") -> None:
     """ValueError for a term of K or P whose unit is not J, and for a unit that cannot be read."""
+    import sympy as sp
+
     units = [(c.name, c.unit, c.symbol) for c in mechanism.coordinates]
     units += [(p.name, p.unit, p.symbol) for p in mechanism.parameters]
     units += [(c.name, f"{c.unit}/s", c.velocity) for c in mechanism.coordinates]

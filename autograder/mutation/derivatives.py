@@ -1,9 +1,16 @@
-"""The derivatives of the energies that answers are made of, entry by entry."""
+"""The derivatives of the energies that answers are made of, entry by entry.
 
-import sympy as sp
+SymPy is imported where they are made: most often their numbers are kept.
+"""
 
-from armdyn.derive import christoffel_symbols
-from autograder.mechanisms import Mechanism
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from autograder.mechanisms import Mechanism
 
 
 def inertia(term: sp.Expr, mechanism: Mechanism) -> list[sp.Expr]:
@@ -13,12 +20,18 @@ def inertia(term: sp.Expr, mechanism: Mechanism) -> list[sp.Expr]:
 
 def inertia_rate(term: sp.Expr, mechanism: Mechanism) -> list[sp.Expr]:
     """Σ_k ∂M_ij/∂q_k q̇_k of a kinetic energy, row by row."""
+    import sympy as sp
+
     rates = list(zip(mechanism.q, mechanism.qd, strict=True))
     return [sp.Add(*(entry.diff(x) * xd for x, xd in rates)) for entry in inertia(term, mechanism)]
 
 
 def coriolis(term: sp.Expr, mechanism: Mechanism) -> list[sp.Expr]:
     """Σ_k h_ijk q̇_k of a kinetic energy, row by row."""
+    import sympy as sp
+
+    from armdyn.derive import christoffel_symbols
+
     n = mechanism.n
     M = sp.Matrix(n, n, inertia(term, mechanism))
     h = christoffel_symbols(M, mechanism.q)

@@ -1,104 +1,80 @@
-"""Friction: its torques, and what people do wrong with it."""
+"""Friction in numbers: the right torques, and those of each mistake."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from dataclasses import astuple
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-import sympy as sp
 
-from autograder.mechanisms import FrictionTerm, Mechanism
+from autograder.mechanisms.outline import Outline
+from autograder.mutation import kept
+from autograder.mutation.formulas import formulas
 from autograder.mutation.mutant import Mutant
-from autograder.mutation.operators import Rewriting
 
-# Widths of what is put for a sign that jumps.
-WIDTHS = (1, sp.Rational(1, 10), sp.Rational(1, 20), sp.Rational(1, 100), sp.Rational(1, 1000))
-WORDS = {"viscous": "the viscous friction", "coulomb": "the Coulomb friction"}
+if TYPE_CHECKING:
+    import sympy as sp
 
-
-def rewritings(term: FrictionTerm, mechanism: Mechanism) -> Iterator[Rewriting]:
-    """The wrong forms of one term's torque."""
-    for name, times in (("dropped", 0), ("wrong sign", -1), ("doubled", 2), ("halved", sp.S.Half)):
-        yield Rewriting(name, sp.Tuple(times * term.torque))
-    i = mechanism.place(term)
-    q, v = mechanism.q[i], mechanism.qd[i]
-    if sp.sign(v) not in term.torque.atoms(sp.sign):
-        yield Rewriting("quadratic friction", sp.Tuple(term.torque.xreplace({v: v * sp.Abs(v)})))
-        return
-    for name, put in (
-        ("friction in one direction", sp.S.One),
-        ("absolute value for sign", sp.Abs(v)),
-        ("velocity for its sign", v),
-        ("sign of the coordinate", sp.sign(q)),
-        *(("smooth sign", sp.tanh(v / width)) for width in WIDTHS),
-        ("friction at rest", 2 * sp.Heaviside(v, 1) - 1),
-        ("friction at rest", 1 - 2 * sp.Heaviside(-v, 1)),
-    ):
-        yield Rewriting(name, sp.Tuple(term.torque.xreplace({sp.sign(v): put})))
-
-
-def mistakes(mechanism: Mechanism) -> list[tuple[Mutant, dict[int, sp.Expr]]]:
-    """Each with the torques of all terms, by place: made in one, in all of one kind, or in all."""
-    right = {k: sp.sympify(term.torque) for k, term in enumerate(mechanism.friction)}
-    found: list[tuple[Mutant, dict[int, sp.Expr]]] = []
-    alike: dict[tuple[str, str, int], dict[int, sp.Expr]] = {}
-    for k, term in enumerate(mechanism.friction):
-        for number, done in enumerate(rewritings(term, mechanism)):
-            (torque,) = done.expressions
-            found.append((Mutant(done.operator, term.name), {k: torque}))
-            words = WORDS.get(term.coefficient, "the friction")
-            for kind in (words, "the friction"):
-                alike.setdefault((done.operator, kind, number), {})[k] = torque
-    all_alike = [
-        (Mutant(operator, words), changes)
-        for (operator, words, _), changes in alike.items()
-        if len(changes) > 1
-    ]
-    kinds = sorted({term.coefficient for term in mechanism.friction})
-    swapped = {
-        term.symbol: other.symbol
-        for term in mechanism.friction
-        for other in mechanism.friction
-        if term.coordinate == other.coordinate and term != other
-    }
-    if len(kinds) == 2:
-        changes = {k: torque.xreplace(swapped) for k, torque in right.items()}
-        all_alike.append((Mutant("coefficients exchanged", "the friction"), changes))
-    return [(mutant, right | changes) for mutant, changes in (*all_alike, *found)]
+    from autograder.mechanisms import Mechanism
 
 
 @lru_cache(maxsize=64)
-def torques(mechanism: Mechanism) -> Callable[..., np.ndarray]:
+def torques(mechanism: Outline) -> Callable[..., np.ndarray]:
     """A function of q, q̇ (cases, n) and arms to the right torque of each term, (terms, cases, n)."""
-    return _compiled(mechanism, [{k: term.torque} for k, term in enumerate(mechanism.friction)])
+
+    def right(of: "Mechanism") -> "list[dict[int, sp.Expr]]":
+        return [{k: term.torque} for k, term in enumerate(of.friction)]
+
+    return _rows(mechanism, "friction", right, len(mechanism.friction))
 
 
-def wrong_torques(mechanism: Mechanism) -> tuple[list[Mutant], Callable[..., np.ndarray]]:
+@lru_cache(maxsize=64)
+def wrong_torques(mechanism: Outline) -> tuple[list[Mutant], Callable[..., np.ndarray]]:
     """The mistakes, and a function to the whole friction of each, (mutants, cases, n)."""
-    known = mistakes(mechanism)
-    return [mutant for mutant, _ in known], _compiled(mechanism, [wrong for _, wrong in known])
+
+    def wrong(of: "Mechanism") -> "list[tuple[Mutant, dict[int, sp.Expr]]]":
+        from autograder.mutation.wrong_friction import mistakes
+
+        return mistakes(of)
+
+    def made() -> dict:
+        return {"mutants": [astuple(mutant) for mutant, _ in wrong(mechanism.full)]}
+
+    def read(data: dict) -> list[Mutant]:
+        return [Mutant(*fields) for fields in data["mutants"]]
+
+    mutants = kept.entry(("mistakes in friction", *kept.definition(mechanism)), made, read)
+    numbers = _rows(
+        mechanism,
+        "wrong friction",
+        lambda of: [changed for _, changed in wrong(of)],
+        len(mutants),
+    )
+    return mutants, numbers
 
 
-def _compiled(mechanism: Mechanism, rows: list[dict[int, sp.Expr]]) -> Callable[..., np.ndarray]:
-    """For each row the sum of its terms' torques, at the coordinates they resist: (rows, cases, n)."""
-    terms = mechanism.friction
-    n, names = mechanism.n, [p.name for p in mechanism.parameters]
-    symbols = [*mechanism.q, *mechanism.qd, *(p.symbol for p in mechanism.parameters)]
-    symbols += [term.symbol for term in terms]
-    entries = [
-        sp.Add(*(torque for k, torque in row.items() if mechanism.place(terms[k]) == i))
-        for row in rows
-        for i in range(n)
-    ]
-    compute = sp.lambdify(symbols, entries, modules="numpy", cse=True)
+def _rows(
+    mechanism: Outline,
+    name: str,
+    rows: "Callable[[Mechanism], list[dict[int, sp.Expr]]]",
+    count: int,
+) -> Callable[..., np.ndarray]:
+    """For each row the sum of its terms' torques, at the coordinates they resist: (rows, cases, n).
+
+    rows(mechanism): each a torque by the place of its term, called where none are kept.
+    """
+    n = mechanism.n
+
+    def entries(of: "Mechanism") -> "list[sp.Expr]":
+        return [
+            sum(torque for k, torque in row.items() if of.place(of.friction[k]) == i)
+            for row in rows(of)
+            for i in range(n)
+        ]
+
+    numbers = formulas(mechanism, (name,), entries, count * n, friction=True)
 
     def function(q, qd, arms) -> np.ndarray:
-        columns = [*np.transpose(q), *np.transpose(qd)]
-        columns += [np.array([getattr(arm, name) for arm in arms]) for name in names]
-        columns += [
-            np.array([getattr(arm, term.coefficient)[mechanism.place(term)] for arm in arms])
-            for term in terms
-        ]
-        values = [np.broadcast_to(value, len(q)) for value in compute(*columns)]
-        return np.moveaxis(np.reshape(values, (len(rows), n, len(q))), 1, -1)
+        return np.moveaxis(numbers(q, qd, arms).reshape(count, n, len(q)), 1, -1)
 
     return function

@@ -1,15 +1,15 @@
 """What follows from a mechanism for one answer: the right one, its terms and its mistakes.
 
-A check of a problem is declared with it. Nothing is derived, and SymPy is not imported, before an
-answer is asked for.
+A check of a problem is declared with it. Nothing is derived before an answer is asked for, and
+SymPy is not imported where what is needed is kept.
 """
 
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
@@ -20,7 +20,8 @@ from autograder.judging.terms import Term
 from autograder.protocol import Call
 
 if TYPE_CHECKING:
-    from autograder.mechanisms import Mechanism
+    from autograder.mechanisms.outline import Outline
+    from autograder.mutation.calls import Gathered, Model
 
 NUMBERS_OF_THE_EXAMPLE = (
     "You always use the numbers of the example, whatever you are given. Where does your function read "
@@ -36,7 +37,7 @@ class Generated:
 
     def __init__(
         self,
-        mechanism: str | Mechanism,
+        mechanism: str | Outline,
         answer: str,
         rows: Mapping[str, str] | None = None,
         example: SimpleNamespace | None = None,
@@ -45,34 +46,36 @@ class Generated:
         self.rows = dict(rows or {})
 
     @cached_property
-    def mechanism(self) -> Mechanism:
+    def mechanism(self) -> Outline:
         if not isinstance(self.given, str):
             return self.given
-        from autograder.mechanisms import MECHANISMS
+        from autograder.mutation.outlines import outline
 
-        return MECHANISMS[self.given]
+        return outline(self.given)
 
-    def reference(self, *args):
+    @cached_property
+    def reference(self) -> Model:
         """The right answer, with the arguments of the student's function."""
         from autograder.mutation.references import reference
 
-        return reference(self.mechanism, self.answer)(*args)
+        return reference(self.mechanism, self.answer)
 
     def terms(self) -> tuple[Term, ...]:
-        from autograder.mutation.checks import terms_of
+        from autograder.mutation.calls import Gathered
+        from autograder.mutation.mistakes import parts_of
 
         return tuple(
-            replace(term, model=partial(self._gathered, term.model))
-            for term in terms_of(self.mechanism, self.answer)
+            Term(name, Gathered(model, self._gathered))
+            for name, model in parts_of(self.mechanism, self.answer)
         )
 
-    def _gathered(self, model: Callable, *args):
-        """What a model of (q, q̇, arm) gives for a function of all numbers, one by one."""
+    def _gathered(self, args: tuple) -> tuple:
+        """(q, q̇, arm) of all numbers, one by one, as some functions take them."""
         m, n = self.mechanism, self.mechanism.n
         if isinstance(args[-1], SimpleNamespace):
-            return model(*args)
+            return args
         numbers = dict(zip([p.name for p in m.parameters], args[2 * n :], strict=True))
-        return model(np.array(args[:n]), np.array(args[n : 2 * n]), SimpleNamespace(**numbers))
+        return np.array(args[:n]), np.array(args[n : 2 * n]), SimpleNamespace(**numbers)
 
     def mistakes(self) -> list[Mistake]:
         """Every mistake, with the sentence of its row, or else of its operator."""
@@ -80,25 +83,28 @@ class Generated:
 
     @cached_property
     def _made(self) -> list[Mistake]:
-        from autograder.mutation.checks import mistakes_of
+        from autograder.mutation.mistakes import mistakes_of
 
         made = [self._said(mistake) for mistake in mistakes_of(self.mechanism, self.answer)]
         return made + ([self._said(self._of_example())] if self.example else [])
 
     def __call__(self, calls: list[Call]) -> list[tuple[Mistake, Sequence | np.ndarray]]:
         """Every mistake, with what it returns for each call."""
-        from autograder.mutation.checks import numbers_of
+        from autograder.mutation.mistakes import numbers_of
 
         values: list = [*numbers_of(self.mechanism, self.answer, calls)]
         if self.example:
-            values.append([self._on_example(*call.args) for call in calls])
+            values.append(self._on_example.for_calls(calls))
         return list(zip(self.mistakes(), values, strict=True))
 
     def _of_example(self) -> Mistake:
         return Mistake("numbers of the example", self._on_example, NUMBERS_OF_THE_EXAMPLE)
 
-    def _on_example(self, *args):
-        return self.reference(*args[:-1], self.example)
+    @property
+    def _on_example(self) -> Gathered:
+        from autograder.mutation.calls import Gathered
+
+        return Gathered(self.reference, lambda args: (*args[:-1], self.example))
 
     def _said(self, mistake: Mistake) -> Mistake:
         fitting = [row for row in self._rows if fnmatch.fnmatchcase(mistake.name, row)]

@@ -12,6 +12,9 @@ import sympy as sp
 from autograder.mechanisms import EnergyTerm, Mechanism, Parameter
 from autograder.mechanisms.units import spelled
 
+# Behind the name of a mechanism whose parameters are these.
+IN_PI = "-in-pi"
+
 
 @dataclass(frozen=True)
 class InertialParameter:
@@ -75,7 +78,7 @@ def in_inertial_parameters(mechanism: Mechanism) -> Mechanism:
 
     return replace(
         mechanism,
-        name=f"{mechanism.name}-in-pi",
+        name=f"{mechanism.name}{IN_PI}",
         parameters=(*(p for p in mechanism.parameters if p.known), *new),
         kinetic=rewritten(mechanism.kinetic),
         potential=rewritten(mechanism.potential),

@@ -4,41 +4,50 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-import sympy as sp
 
-from autograder.mechanisms import Mechanism
-from autograder.mutation.answers import ANSWERS, Answer
+from autograder.mechanisms.outline import Outline
+from autograder.mutation.answers import ANSWERS
+from autograder.mutation.calls import Model
+from autograder.mutation.formulas import formulas
+from autograder.mutation.shared import shared
 
 
 @lru_cache(maxsize=64)
-def reference(mechanism: Mechanism, answer: str) -> Callable:
+def reference(mechanism: Outline, answer: str) -> Model:
     """The right answer, with the arguments of the student's function."""
     asked = ANSWERS[answer]
     if asked.of_kinetic or asked.of_potential:
-        return _of_entries(mechanism, asked, asked.entries(mechanism))
+        shape = asked.shape(mechanism.n)
+        entries = formulas(mechanism, ("answer", answer), asked.entries, int(np.prod(shape)))
+
+        def right(q, qd, arms) -> np.ndarray:
+            return entries(q, qd, arms).T.reshape(-1, *shape)
+
+        return Model(mechanism, answer, right)
     assert asked.composition is not None
-    composed = asked.composition(mechanism)
-    return lambda *args: composed.right(*composed.columns([args]))[0]
+    return Model(mechanism, answer, asked.composition(mechanism).right)
 
 
-@lru_cache(maxsize=1024)
-def contribution(mechanism: Mechanism, answer: str, term: int) -> Callable:
-    """What one term of the energies, by its place, contributes to the right answer."""
+@lru_cache(maxsize=64)
+def contributions(mechanism: Outline, answer: str) -> tuple[tuple[str, Model], ...]:
+    """What each term of the energies contributes to the right answer, by the term's name."""
     asked = ANSWERS[answer]
-    part, derived = list(asked.terms(mechanism))[term]
-    return _of_entries(mechanism, asked, derived(part.energy, mechanism))
+    names = asked.term_names(mechanism)
+    shape = asked.shape(mechanism.n)
+    size = int(np.prod(shape))
+    entries = formulas(
+        mechanism,
+        ("terms", answer),
+        lambda of: [e for term, derived in asked.terms(of) for e in derived(term.energy, of)],
+        len(names) * size,
+    )
 
+    @shared
+    def every(q, qd, arms) -> np.ndarray:
+        found = entries(q, qd, arms).reshape(len(names), *shape, len(q))
+        return np.moveaxis(found, -1, 1)
 
-def _of_entries(mechanism: Mechanism, asked: Answer, entries: list[sp.Expr]) -> Callable:
-    names = [p.name for p in mechanism.parameters]
-    symbols = [*mechanism.q, *mechanism.qd, *(p.symbol for p in mechanism.parameters)]
-    compute = sp.lambdify(symbols, entries, modules="numpy", cse=True)
-    shape, n = asked.shape(mechanism.n), mechanism.n
+    def term(k: int) -> Callable[..., np.ndarray]:
+        return lambda *columns: every(*columns)[k]
 
-    def right(q, *rest):
-        *velocities, arm = rest
-        qd = velocities[0] if velocities else np.zeros(n)
-        values = compute(*q, *qd, *(getattr(arm, name) for name in names))
-        return np.reshape(np.array(values, dtype=float), shape)
-
-    return right
+    return tuple((name, Model(mechanism, answer, term(k))) for k, name in enumerate(names))

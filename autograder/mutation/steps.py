@@ -5,7 +5,8 @@ Each step is a function of the mechanism's right numbers: M (…, n, n), its slo
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -20,9 +21,13 @@ class Right:
     g_vec: np.ndarray
     P: np.ndarray
 
-    @property
+    @cached_property
     def C(self) -> np.ndarray:
         return np.einsum("...ijk,...k->...ij", self.christoffel(), self.qd)
+
+    def named(self) -> dict[str, np.ndarray]:
+        """All of them by their names."""
+        return {own.name: getattr(self, own.name) for own in fields(self)}
 
     @property
     def M_dot(self) -> np.ndarray:
@@ -46,7 +51,7 @@ class Driven(Right):
     u: np.ndarray
     friction: np.ndarray
 
-    @property
+    @cached_property
     def torques(self) -> dict[str, np.ndarray]:
         """What adds up to M q̈, by name."""
         return {
@@ -56,7 +61,7 @@ class Driven(Right):
             "the friction": -self.friction,
         }
 
-    @property
+    @cached_property
     def rest(self) -> np.ndarray:
         """u − C q̇ − g − f."""
         return sum(self.torques.values(), np.zeros_like(self.u))

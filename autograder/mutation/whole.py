@@ -2,38 +2,45 @@
 
 from collections.abc import Callable
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-import sympy as sp
 
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation.derivatives import gradient, inertia
+from autograder.mutation.formulas import formulas
 from autograder.mutation.steps import Right
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from autograder.mechanisms import Mechanism
 
 # No difference is formed, so no digits are lost.
 STEP = 1e-30
 
 
 @lru_cache(maxsize=64)
-def whole(mechanism: Mechanism) -> Callable[..., Right]:
+def whole(mechanism: Outline) -> Callable[..., Right]:
     """A function of q, q̇ (cases, n) and the arms, one a case."""
-    names = [p.name for p in mechanism.parameters]
-    symbols = [*mechanism.q, *(p.symbol for p in mechanism.parameters)]
-    compute = sp.lambdify(symbols, expressions(mechanism), modules="numpy", cse=True)
+    numbers = formulas(mechanism, ("whole",), expressions, count(mechanism.n))
 
     def right(q, qd, arms) -> Right:
-        columns = [*np.transpose(q), *([getattr(arm, x) for arm in arms] for x in names)]
-        values = compute(*(np.array(column) for column in columns))
-        return as_right(np.array([np.broadcast_to(value, len(q)) for value in values]), qd)
+        return as_right(numbers(q, qd, arms), qd)
 
     return right
 
 
-def expressions(mechanism: Mechanism) -> list[sp.Expr]:
+def expressions(mechanism: "Mechanism") -> "list[sp.Expr]":
     """M, its slopes, g and P, entry by entry."""
     M = inertia(mechanism.K, mechanism)
     slopes = [entry.diff(x) for entry in M for x in mechanism.q]
     return [*M, *slopes, *gradient(mechanism.P, mechanism), mechanism.P]
+
+
+def count(n: int) -> int:
+    """How many these are."""
+    return n * n + n**3 + n + 1
 
 
 def as_right(numbers: np.ndarray, qd: np.ndarray) -> Right:

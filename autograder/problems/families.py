@@ -59,7 +59,7 @@ def on(own: Convention, check: Check) -> Check:
     if own == BOOK:
         more = askew(own) if check.id == "p4-equilibria" else ()
         return replace(check, mistakes=(*_copied(own, check), *check.mistakes, *more))
-    made = Generated(own.mechanism, ASKED[check.id]) if check.id in ASKED else None
+    made = Generated(own.name, ASKED[check.id]) if check.id in ASKED else None
     changed = replace(
         check,
         reference=_right(own, check),

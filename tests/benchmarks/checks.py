@@ -22,7 +22,8 @@ from autograder.judging.check import VISIBLE_CASES, Check
 from autograder.judging.verdict import State
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.catalogue import Catalogue
-from autograder.mutation.checks import check_of, mistakes_of
+from autograder.mutation.checks import check_of
+from autograder.mutation.mistakes import mistakes_of
 from autograder.problems import CHECKS
 from autograder.protocol import Reply, answer_all
 from autograder.student.cell import VISIBLE_SEED

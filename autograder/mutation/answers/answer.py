@@ -1,26 +1,30 @@
 """What an answer is: its function, how it follows from the energies, and how it is judged."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import numpy as np
-import sympy as sp
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import Quantities
-from autograder.mechanisms import EnergyTerm, Mechanism
 from autograder.protocol import Call
 
 if TYPE_CHECKING:
+    import sympy as sp
+
+    from autograder.mechanisms import EnergyTerm, Mechanism
+    from autograder.mechanisms.outline import Outline
     from autograder.mutation.answers.composition import Composition
 
 # Random cases at least, so that no few terms fit just any error.
 LEAST_CASES = 12
 
 Judged = tuple[Quantities, tuple[Criterion, ...]]
-Derived = Callable[[sp.Expr, Mechanism], list[sp.Expr]]
+Derived = Callable[["sp.Expr", "Mechanism"], "list[sp.Expr]"]
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,7 @@ class Answer:
     symmetric: bool = False
     friction: bool = False
     position: Callable[[tuple], np.ndarray] = lambda args: args[0]
-    composition: "Callable[[Mechanism], Composition] | None" = None
+    composition: Callable[[Outline], Composition] | None = None
 
     @property
     def signature(self) -> str:
@@ -68,8 +72,16 @@ class Answer:
             if derived:
                 yield from ((term, derived) for term in energies)
 
+    def term_names(self, mechanism: Outline) -> list[str]:
+        """The names of these terms, for which no formula is needed."""
+        kinetic = mechanism.kinetic if self.of_kinetic else ()
+        potential = mechanism.potential if self.of_potential else ()
+        return [term.name for term in (*kinetic, *potential)]
+
     def entries(self, mechanism: Mechanism) -> list[sp.Expr]:
         """The right entries, in a row."""
+        import sympy as sp
+
         parts = [
             derived(energy, mechanism)
             for energy, derived in (
@@ -111,7 +123,7 @@ def states(calls: list[tuple]) -> tuple[np.ndarray, np.ndarray, list[SimpleNames
     return q, qd, [args[-1] for args in calls]
 
 
-def in_other_units(mechanism: Mechanism, q: np.ndarray) -> dict[str, np.ndarray]:
+def in_other_units(mechanism: Outline, q: np.ndarray) -> dict[str, np.ndarray]:
     """The angles among q (cases, n) converted where they need not be, by the operator's name."""
     turning = np.array([c.unit == "rad" for c in mechanism.coordinates])
     return {
@@ -120,13 +132,13 @@ def in_other_units(mechanism: Mechanism, q: np.ndarray) -> dict[str, np.ndarray]
     }
 
 
-def unit_of_inertia(mechanism: Mechanism, i: int, j: int) -> str:
+def unit_of_inertia(mechanism: Outline, i: int, j: int) -> str:
     """The unit of M_ij: a length among the coordinates takes one metre from it."""
     slides = [mechanism.coordinates[k].unit for k in (i, j)].count("m")
     return ("kg·m²", "kg·m", "kg")[slides]
 
 
-def mixed(mechanism: Mechanism, turning: str, sliding: str) -> str:
+def mixed(mechanism: Outline, turning: str, sliding: str) -> str:
     """The unit of a vector or matrix, where its entries may have several."""
     kinds = {c.unit for c in mechanism.coordinates}
     if kinds == {"rad"}:

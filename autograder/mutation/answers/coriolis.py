@@ -8,11 +8,12 @@ import numpy as np
 
 from autograder.judging.criterion import TOLERANCE, Criterion
 from autograder.judging.quantities import array, each
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation.answers.answer import Answer, Judged, in_motion, mixed, states
 from autograder.mutation.answers.composition import Composition, Group
 from autograder.mutation.derivatives import coriolis
 from autograder.mutation.mutant import Mutant
+from autograder.mutation.shared import shared
 from autograder.mutation.steps import Right
 from autograder.mutation.whole import slopes, whole
 
@@ -20,7 +21,7 @@ from autograder.mutation.whole import slopes, whole
 TIMES = {"dropped": 0.0, "of the wrong sign": -1.0, "halved": 0.5, "doubled": 2.0}
 
 
-def _judged(mechanism: Mechanism) -> Judged:
+def _judged(mechanism: Outline) -> Judged:
     @each
     def steps(call, value):
         C, qd = _matrix(mechanism, call, value), call.args[1]
@@ -44,7 +45,7 @@ def _judged(mechanism: Mechanism) -> Judged:
     )
 
 
-def _matrix(mechanism: Mechanism, call, value) -> np.ndarray:
+def _matrix(mechanism: Outline, call, value) -> np.ndarray:
     """C as it came. The vector C q̇ and the row sums of C are mistakes with a name: they count as the
     diagonal of a matrix.
     """
@@ -61,7 +62,7 @@ def _matrix(mechanism: Mechanism, call, value) -> np.ndarray:
 
 
 def of_wrong_inertia(
-    mechanism: Mechanism, name: str, follows: Callable[[Right], np.ndarray]
+    mechanism: Outline, name: str, follows: Callable[[Right], np.ndarray]
 ) -> Composition:
     """Of an answer that is linear in M's slopes: its own mistakes, and those of M that show in it."""
     right = whole(mechanism)
@@ -80,13 +81,14 @@ def of_wrong_inertia(
     return Composition(states, lambda q, qd, arms: follows(right(q, qd, arms)), groups)
 
 
-def propagated(mechanism: Mechanism, inertia) -> tuple[list[int], Callable[..., Right]]:
+def propagated(mechanism: Outline, inertia) -> tuple[list[int], Callable[..., Right]]:
     """The mistakes of M's catalogue that are made in a term; and from q, q̇ and the arms the numbers of
     an arm with such an M, (mutants, cases, …).
     """
     terms = [k for k, mutant in enumerate(inertia.mutants) if not mutant.is_step]
     right = whole(mechanism)
 
+    @shared
     def numbers(q, qd, arms) -> Right:
         def wrong(at):
             some = arms * (len(at) // len(arms))
@@ -98,10 +100,10 @@ def propagated(mechanism: Mechanism, inertia) -> tuple[list[int], Callable[..., 
     return terms, numbers
 
 
-def wrong_products(mechanism: Mechanism) -> Group:
+def wrong_products(mechanism: Outline) -> Group:
     """A product of two velocities in a row of C q̇, or a velocity in an entry of C, not there once."""
     n, right = mechanism.n, whole(mechanism)
-    names = [v.name for v in mechanism.qd]
+    names = [c.rate for c in mechanism.coordinates]
     mutants, weights = [], []
     for words, times in TIMES.items():
         for i in range(n):

@@ -1,20 +1,26 @@
 """energy_drift(x, arm): E(t_k) − E(t_0) along the states of a motion, a row each."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-import sympy as sp
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import each, vector
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation.answers.answer import Answer, Judged, in_motion
 from autograder.mutation.answers.composition import Composition, Group
 from autograder.mutation.derivatives import energy
+from autograder.mutation.formulas import formulas
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.steps import STEPS, Run, drift
 from autograder.mutation.whole import whole
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 ROWS = 6
 NOTHING = np.zeros(0)
@@ -50,12 +56,12 @@ def _case(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]
 
 
 @lru_cache(maxsize=64)
-def _composition(mechanism: Mechanism) -> Composition:
+def _composition(mechanism: Outline) -> Composition:
     right, energies = whole(mechanism), _energies(mechanism)
 
     def run(x, arms) -> Run:
         q, qd, some = _flat(x, arms)
-        numbers = vars(right(q, qd, some)) | {"q": q}
+        numbers = right(q, qd, some).named() | {"q": q}
         shape = x.shape[:2]
         return Run(**{name: np.reshape(v, shape + v.shape[1:]) for name, v in numbers.items()})
 
@@ -90,19 +96,15 @@ def _flat(x, arms) -> tuple:
     return q, qd, [arm for arm in arms for _ in range(x.shape[1])]
 
 
-def _energies(mechanism: Mechanism) -> Callable[..., np.ndarray]:
+def _energies(mechanism: Outline) -> Callable[..., np.ndarray]:
     """A function of q, q̇ (cases, n) and the arms to the energy of each term, (terms, cases)."""
-    names = [p.name for p in mechanism.parameters]
-    symbols = [*mechanism.q, *mechanism.qd, *(p.symbol for p in mechanism.parameters)]
-    terms = [term.energy for term in (*mechanism.kinetic, *mechanism.potential)]
-    compute = sp.lambdify(symbols, terms, modules="numpy", cse=True)
-
-    def function(q, qd, arms) -> np.ndarray:
-        columns = [np.array([getattr(arm, name) for arm in arms]) for name in names]
-        values = compute(*np.transpose(q), *np.transpose(qd), *columns)
-        return np.array([np.broadcast_to(value, len(q)) for value in values])
-
-    return function
+    count = len(mechanism.kinetic) + len(mechanism.potential)
+    return formulas(
+        mechanism,
+        ("energies",),
+        lambda of: [term.energy for term in (*of.kinetic, *of.potential)],
+        count,
+    )
 
 
 ENERGY = Answer(

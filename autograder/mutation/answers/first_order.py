@@ -2,25 +2,30 @@
 
 from collections.abc import Callable, Iterator
 from functools import lru_cache, partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import each, vector
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation.answers.answer import Answer, Judged, in_other_units, mixed
 from autograder.mutation.answers.composition import Composition, Group, throughout
 from autograder.mutation.answers.coriolis import propagated, wrong_products
 from autograder.mutation.friction import torques, wrong_torques
 from autograder.mutation.mutant import Mutant
+from autograder.mutation.shared import shared
 from autograder.mutation.steps import STEPS, Driven, rate, solved, times
 from autograder.mutation.whole import whole
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 # How often a torque is held, by what is wrong with it.
 TIMES = {"dropped": 0.0, "wrong sign": -1.0, "doubled": 2.0, "halved": 0.5}
 
 
-def _judged(mechanism: Mechanism) -> Judged:
+def _judged(mechanism: Outline) -> Judged:
     n = mechanism.n
 
     @each
@@ -34,7 +39,7 @@ def _judged(mechanism: Mechanism) -> Judged:
     )
 
 
-def _case(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]:
+def _case(mechanism: "Mechanism", rng: np.random.Generator, k: int) -> list[tuple]:
     """All joints moving; one at rest; one slow, each joint in turn: what tells a sign from its like."""
     n = mechanism.n
     arm = mechanism.drawn(rng, friction=True)
@@ -51,15 +56,15 @@ def _columns(calls: list[tuple]) -> tuple:
     return *np.split(x, 2, axis=-1), u, [args[2] for args in calls]
 
 
-def _driven(mechanism: Mechanism, q, qd, u, arms) -> Driven:
+def _driven(mechanism: Outline, q, qd, u, arms) -> Driven:
     right = whole(mechanism)(q, qd, arms)
     friction = np.sum(torques(mechanism)(q, qd, arms), axis=0)
-    return Driven(**vars(right), q=q, u=u, friction=friction)
+    return Driven(**right.named(), q=q, u=u, friction=friction)
 
 
 @lru_cache(maxsize=64)
-def _composition(mechanism: Mechanism) -> Composition:
-    at = partial(_driven, mechanism)
+def _composition(mechanism: Outline) -> Composition:
+    at = shared(partial(_driven, mechanism))
 
     def right(q, qd, u, arms):
         return rate(qd, at(q, qd, u, arms).acceleration)
@@ -119,7 +124,7 @@ def _of_torques(at: Callable[..., Driven]) -> Group:
     return Group(mutants, numbers)
 
 
-def _readings(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group:
+def _readings(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
     """x is read in another order or in other units, or ẋ written in that order."""
     names = ("state read as q̇ and q", "state interleaved", "states interleaved")
     converted = list(in_other_units(mechanism, np.zeros((1, mechanism.n))))
@@ -135,7 +140,7 @@ def _readings(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group:
     return Group([Mutant(name) for name in (*names, *converted)], numbers)
 
 
-def _of_friction(mechanism: Mechanism, at: Callable[..., Driven]) -> Group:
+def _of_friction(mechanism: Outline, at: Callable[..., Driven]) -> Group:
     mutants, wrong = wrong_torques(mechanism)
 
     def numbers(q, qd, u, arms):
@@ -146,7 +151,7 @@ def _of_friction(mechanism: Mechanism, at: Callable[..., Driven]) -> Group:
     return Group(mutants, numbers)
 
 
-def _of_parts(mechanism: Mechanism, at: Callable[..., Driven], catalogue) -> Iterator[Group]:
+def _of_parts(mechanism: Outline, at: Callable[..., Driven], catalogue) -> Iterator[Group]:
     """A mistake in g, in C, in M alone, or in M and in the C that follows from it."""
     g, inertia = catalogue("g_vec"), catalogue("M")
     own, products = catalogue("C"), wrong_products(mechanism)

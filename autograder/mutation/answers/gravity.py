@@ -1,12 +1,18 @@
 """g_vec(q, arm): the gradient of the potential energy."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import each, vector
-from autograder.mechanisms import Mechanism
 from autograder.mutation.answers.answer import Answer, Judged, at_rest
 from autograder.mutation.derivatives import gradient
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 
 def _judged(mechanism: Mechanism) -> Judged:

@@ -1,12 +1,18 @@
 """M(q): the inertia matrix."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import array, each
-from autograder.mechanisms import Mechanism
 from autograder.mutation.answers.answer import Answer, Judged, at_rest, unit_of_inertia
 from autograder.mutation.derivatives import inertia
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 
 def _judged(mechanism: Mechanism) -> Judged:
@@ -24,10 +30,12 @@ def symmetric(mechanism: Mechanism, head: str, entries: list, per: str) -> Judge
 
     zero = [place for i, j in zero for place in dict.fromkeys(((i, j), (j, i)))]
 
+    places = [tuple(np.array([*dict.fromkeys(((i, j), (j, i)))]).T) for i, j in pairs]
+
     @each
     def parts(call, value):
         M = np.reshape(value, (1, 1)) if n == 1 and np.size(value) == 1 else array(value, n, n)
-        found = [M[[i, j], [j, i]] if i != j else M[[i], [i]] for i, j in pairs]
+        found = [M[at] for at in places]
         beside = [M[i, j] for i, j in zero]
         return (np.array([*found[0], *beside]), *found[1:])
 

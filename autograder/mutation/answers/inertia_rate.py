@@ -1,10 +1,16 @@
 """M_dot(q, qd, arm): how fast the inertia matrix changes along a motion."""
 
-from autograder.mechanisms import Mechanism
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from autograder.mutation.answers.answer import Answer, Judged, in_motion
 from autograder.mutation.answers.coriolis import of_wrong_inertia
 from autograder.mutation.answers.inertia_matrix import symmetric
 from autograder.mutation.derivatives import inertia_rate
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 
 def _judged(mechanism: Mechanism) -> Judged:

@@ -1,13 +1,19 @@
 """lagrangian(q, qd, arm): L = K − P, but for a constant."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from autograder.judging.criterion import TOLERANCE, Criterion
 from autograder.judging.quantities import Numbers, one_number
-from autograder.mechanisms import Mechanism
 from autograder.mutation.answers.answer import Answer, Judged
 from autograder.mutation.derivatives import energy
 from autograder.protocol import Call
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 NOTHING = np.zeros(0)
 # A change has the rounding of two values.

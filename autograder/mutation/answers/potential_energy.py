@@ -1,13 +1,19 @@
 """potential_energy(q, arm): P, but for a constant."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import Numbers, one_number
-from autograder.mechanisms import Mechanism
 from autograder.mutation.answers.answer import Answer, Judged
 from autograder.mutation.derivatives import energy
 from autograder.protocol import Call
+
+if TYPE_CHECKING:
+    from autograder.mechanisms import Mechanism
 
 
 def _judged(mechanism: Mechanism) -> Judged:

@@ -4,24 +4,33 @@ A column of Y is the torque of the mechanism whose π is 1 there and 0 elsewhere
 those of wrong mechanisms whose parameters are the entries of π.
 """
 
+from __future__ import annotations
+
 import itertools
 from collections.abc import Callable, Iterator
 from functools import lru_cache, partial
 from types import SimpleNamespace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import UnfitError, each
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline, Parameter
 from autograder.mechanisms.units import spelled
 from autograder.mutation.answers.answer import Answer, Judged, in_other_units
 from autograder.mutation.answers.composition import Composition, Group, throughout
 from autograder.mutation.answers.coriolis import propagated, wrong_products
-from autograder.mutation.inertial_parameters import in_inertial_parameters, inertial_parameters
+from autograder.mutation.formulas import Numbers, formulas
+from autograder.mutation.in_pi import in_pi
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.steps import times
 from autograder.mutation.whole import whole
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from autograder.mechanisms import Mechanism
 
 PARTS = ("M q̈", "C q̇", "g(q)")
 TIMES = {"dropped": 0.0, "wrong sign": -1.0, "doubled": 2.0, "halved": 0.5}
@@ -33,26 +42,26 @@ OF_A_NUMBER = (
 
 
 def _judged(mechanism: Mechanism) -> Judged:
-    n, entries = mechanism.n, inertial_parameters(mechanism)
+    n, entries = mechanism.n, _pi(mechanism)
     shape = (n, len(entries))
 
     @each
     def columns(call, value):
         if np.shape(value) == shape:
             return tuple(np.transpose(value))
-        listed = ", ".join(pi.words for pi in entries)
+        listed = ", ".join(pi.doc for pi in entries)
         raise UnfitError(
             f"an array of shape {np.shape(value)}; it must return one row for each coordinate and one "
             f"column for each of {listed}, shape {shape}"
         )
 
     return columns, tuple(
-        Criterion(f"column of {pi.words}", _unit(mechanism, pi.unit), 1 / len(entries))
+        Criterion(f"column of {pi.doc}", _unit(mechanism, pi.unit), 1 / len(entries))
         for pi in entries
     )
 
 
-def _unit(mechanism: Mechanism, unit: str) -> str:
+def _unit(mechanism: Outline, unit: str) -> str:
     """Of a torque or force over this."""
     turning = {"kg": "m²/s²", "kg·m": "m/s²", "kg·m²": "rad/s²"}
     sliding = {"kg": "m/s²", "kg·m": "rad/s²", "kg·m²": "rad/(m·s²)"}
@@ -75,10 +84,10 @@ def _columns(calls: list[tuple]) -> tuple:
 
 
 @lru_cache(maxsize=64)
-def _composition(mechanism: Mechanism) -> Composition:
-    linear = in_inertial_parameters(mechanism)
+def _composition(mechanism: Outline) -> Composition:
+    linear = in_pi(mechanism)
     right = whole(linear)
-    count = len(inertial_parameters(mechanism))
+    count = len(_pi(mechanism))
 
     def made(torque: Callable, q, qd, qdd, arms) -> np.ndarray:
         """Y (…, cases, n, p) of a torque (…, columns · cases, n)."""
@@ -131,7 +140,7 @@ def _composition(mechanism: Mechanism) -> Composition:
     )
 
 
-def _readings(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group:
+def _readings(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
     def numbers(q, qd, qdd, arms):
         return np.array([right(at, qd, qdd, arms) for at in in_other_units(mechanism, q).values()])
 
@@ -144,13 +153,13 @@ def _only(row: str, torque: np.ndarray) -> np.ndarray:
     return torque * np.eye(torque.shape[-1])[int(row.removeprefix("row ")) - 1]
 
 
-def _of_columns(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group:
+def _of_columns(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
     """Columns in another order, missing, of the wrong sign, or with their parameters in them."""
-    entries = inertial_parameters(mechanism)
+    entries, values = _pi(mechanism), _values(mechanism)
     orders = _orders([pi.unit for pi in entries])
     rows: list[list[int]] = [list(range(mechanism.n)), *([i] for i in range(mechanism.n))]
     changes = [
-        (Mutant(operator, f"the column of {pi.words}", _row(row)), row, k, TIMES[operator])
+        (Mutant(operator, f"the column of {pi.doc}", _row(row)), row, k, TIMES[operator])
         for operator in TIMES
         for k, pi in enumerate(entries)
         for row in rows
@@ -158,14 +167,8 @@ def _of_columns(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group
 
     def numbers(q, qd, qdd, arms):
         Y = right(q, qd, qdd, arms)
-        pi = [
-            [
-                float(p.value.subs({s: getattr(arm, s.name) for s in p.value.free_symbols}))
-                for p in entries
-            ]
-            for arm in arms
-        ]
-        found = [Y * np.array(pi)[:, np.newaxis], Y[:, ::-1], -Y]
+        pi = values(q, qd, arms).T
+        found = [Y * pi[:, np.newaxis], Y[:, ::-1], -Y]
         found += [Y[..., order] for order in orders]
         for _, row, column, factor in changes:
             wrong = Y.copy()
@@ -176,6 +179,22 @@ def _of_columns(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group
     names = ("parameters inside", "joints exchanged", "sign of the whole")
     mutants = [Mutant(name) for name in (*names, *len(orders) * ["columns in another order"])]
     return Group([*mutants, *(mutant for mutant, *_ in changes)], numbers)
+
+
+def _pi(mechanism: Outline) -> list[Parameter]:
+    """π, in order; doc: what an entry is made of, as I1 + m1·lc1²."""
+    return [p for p in in_pi(mechanism).parameters if not p.known]
+
+
+def _values(mechanism: Outline) -> Numbers:
+    """A function of q, q̇ and the arms to π, (entries, cases)."""
+
+    def made(of: Mechanism) -> list[sp.Expr]:
+        from autograder.mutation.inertial_parameters import inertial_parameters
+
+        return [pi.value for pi in inertial_parameters(of)]
+
+    return formulas(mechanism, ("pi",), made, len(_pi(mechanism)))
 
 
 def _row(rows: list[int]) -> str:
@@ -195,7 +214,7 @@ def _orders(units: list[str]) -> list[list[int]]:
     return found
 
 
-def _of_energies(linear: Mechanism, catalogue: Callable, parts: Callable) -> Iterator[tuple]:
+def _of_energies(linear: Outline, catalogue: Callable, parts: Callable) -> Iterator[tuple]:
     """Mistakes in g, in C, in M, or in M and in the C that follows from it, as torques."""
     g, inertia, own = (catalogue(name, linear) for name in ("g_vec", "M", "C"))
     products = wrong_products(linear)

@@ -4,7 +4,7 @@ import fnmatch
 import re
 from dataclasses import replace
 
-from autograder.mechanisms import Mechanism
+from autograder.mechanisms.outline import Outline
 from autograder.mutation.answers import ANSWERS, Answer
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.sentences.notation import entry_of_pi, is_entry_of_pi, written
@@ -52,7 +52,7 @@ FOLLOWS = {
 }
 
 
-def sentence(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> str:
+def sentence(mutant: Mutant, mechanism: Outline, answer: Answer) -> str:
     """What to say of a mistake: a teacher's row, the most specific first, or the operator's sentence."""
     rows = [row for row in ROWS if _fits(row, mutant, mechanism, answer)]
     if mutant.source and not any(row.answer == answer.name for row in rows):
@@ -77,7 +77,7 @@ def _of_operator(mutant: Mutant) -> str:
     return known[mutant.operator]
 
 
-def _words(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> dict[str, str]:
+def _words(mutant: Mutant, mechanism: Outline, answer: Answer) -> dict[str, str]:
     turning = all(c.unit == "rad" for c in mechanism.coordinates)
     put = {p.name: p for p in mechanism.parameters}.get(mutant.put)
     # On a slope a direction is an angle and a constant, of which only the angle is a student's.
@@ -95,7 +95,7 @@ def _words(mutant: Mutant, mechanism: Mechanism, answer: Answer) -> dict[str, st
     }
 
 
-def _of_source(mutant: Mutant, mechanism: Mechanism) -> str:
+def _of_source(mutant: Mutant, mechanism: Outline) -> str:
     """What is said of the answer in which the mistake was made, of which only this one shows."""
     source = ANSWERS[mutant.source.partition(" ")[0]]
     return _of_another(sentence(replace(mutant, source=""), mechanism, source))
@@ -108,7 +108,7 @@ def _of_another(said: str) -> str:
     return said.replace("You return ", "You use ", 1)
 
 
-def _fits(row: Row, mutant: Mutant, mechanism: Mechanism, answer: Answer) -> bool:
+def _fits(row: Row, mutant: Mutant, mechanism: Outline, answer: Answer) -> bool:
     return row.operator == mutant.operator and all(
         fnmatch.fnmatchcase(value, pattern)
         for value, pattern in (

@@ -11,7 +11,6 @@ import hashlib
 import itertools
 import unicodedata
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -28,7 +27,7 @@ SLOPE = np.pi / 6
 
 @dataclass(frozen=True)
 class Convention:
-    """One member of the family. Its fields are arguments of `mechanisms.planar_arms.planar_arm`.
+    """One member of the family, by whose name `mechanisms.built_in` has its energies.
 
     slope: by how many times SLOPE gravity's pull is turned from the −y axis. A member has False or
     True; other numbers are what students take it for.
@@ -104,8 +103,10 @@ class Convention:
 
     @property
     def mechanism(self) -> "Mechanism":
-        """The same arm by its energies, of which mistakes are made."""
-        return _mechanism(self)
+        """The same arm by its energies. KeyError for what is no member of the family."""
+        from autograder.mechanisms.built_in import named  # loads SymPy
+
+        return named(self.name)
 
     def own_arm(self, code: str = "") -> OwnArm:
         return OwnArm(self.turns, self.zeros, self.pull, code)
@@ -163,13 +164,6 @@ class Convention:
 
     def _directions(self, q) -> np.ndarray:
         return self.directions(np.reshape(q, 2))
-
-
-@lru_cache(maxsize=32)
-def _mechanism(of: Convention) -> "Mechanism":
-    from autograder.mechanisms.planar_arms import planar_arm  # loads SymPy
-
-    return planar_arm(of.name, 2, of.angles, of.zero, slope=bool(of.slope))
 
 
 BOOK = Convention()

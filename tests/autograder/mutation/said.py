@@ -14,7 +14,8 @@ from pathlib import Path
 
 from autograder.mechanisms import MECHANISMS, Mechanism
 from autograder.mutation.answers import ANSWERS
-from autograder.mutation.checks import check_of, mistakes_of
+from autograder.mutation.checks import check_of
+from autograder.mutation.mistakes import mistakes_of
 from autograder.mutation.sentences.notation import written
 
 PAGE = Path(__file__).with_name("said.txt")

@@ -10,9 +10,10 @@ from armdyn import Planar2R
 from autograder.judging.verdict import State
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.answers import ANSWERS
-from autograder.mutation.checks import check_of, numbers_of
+from autograder.mutation.checks import check_of
 from autograder.mutation.composed import catalogue_of
 from autograder.mutation.inertial_parameters import inertial_parameters
+from autograder.mutation.mistakes import numbers_of
 from autograder.mutation.references import reference
 from autograder.mutation.sentences import sentence
 from autograder.problems import CHECKS, check_for

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -15,6 +16,7 @@ from hypothesis import strategies as st
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation import catalogue, kept
 from autograder.mutation.catalogue import Catalogue
+from autograder.mutation.mistakes import mistakes_of
 from autograder.mutation.tape import Tape
 from autograder.mutation.taping import UntapedError, taped
 
@@ -89,9 +91,16 @@ def test_another_mechanism_or_other_code_has_another_entry(folder, derived, monk
 
 
 def damaged(content):
-    data = json.loads(content)
     yield content[: len(content) // 2]
     yield ""
+    yield "[]"
+    yield content.replace("0", "1", 1)
+    for text in unfit(json.loads(content.partition("\n")[2])):
+        yield kept.signed(text)
+
+
+def unfit(data):
+    """What another version may have written."""
     yield "[]"
     yield json.dumps(data | {"mutants": [[["no such operator"], "no such step"]]})
     yield json.dumps(data | {"of_term": data["of_term"][:-1]})
@@ -113,6 +122,62 @@ def test_a_damaged_entry_is_made_anew(folder, derived):
         assert np.array_equal(numbers(Catalogue(PENDULUM, "M")), right)
         assert len(derived) == count, wrong[:80]
         assert path.read_text(encoding="utf-8") == content
+
+
+ALL_OF_F = """
+import json, sys
+import numpy as np
+from autograder.mutation.generated import Generated
+from autograder.mechanisms import MECHANISMS
+from autograder.mutation.answers import ANSWERS
+made = Generated("pendulum", "f")
+calls = ANSWERS["f"].calls(MECHANISMS["pendulum"], np.random.default_rng(0), 3)
+print([(m.name, m.sentence) for m in made.mistakes()])
+print([np.nan_to_num(values).round(9).tolist() for _, values in made(calls)])
+print([(term.name, term.model.for_calls(calls).round(9).tolist()) for term in made.terms()])
+print(made.reference.for_calls(calls).round(9).tolist())
+"""
+
+
+def test_whatever_entry_is_damaged_is_made_anew(folder):
+    """Those of the catalogues, their places, sentences, outlines and formulas."""
+
+    def said():
+        run = subprocess.run(
+            [sys.executable, "-c", ALL_OF_F], capture_output=True, text=True, timeout=60
+        )
+        assert run.returncode == 0, run.stderr
+        return run.stdout
+
+    right = said()
+    contents = {path: path.read_text(encoding="utf-8") for path in folder.iterdir()}
+    kinds = {tuple(json.loads(content.partition("\n")[2])) for content in contents.values()}
+    assert len(kinds) > 4  # of entries
+    for k, (path, content) in enumerate(sorted(contents.items())):
+        wrong = [
+            content[:-5],
+            "[]",
+            kept.signed("{}"),
+            re.sub(r"\[[^][]*\]", "[]", content, count=1),
+        ]
+        path.write_text(wrong[k % len(wrong)], encoding="utf-8")
+    assert said() == right
+    assert {path: path.read_text(encoding="utf-8") for path in contents} == contents
+
+
+def test_another_sentence_makes_the_sentences_alone_anew(folder, derived, monkeypatch):
+    again = mistakes_of.__wrapped__
+    first = again(PENDULUM, "M")
+    before = set(folder.iterdir())
+    monkeypatch.setattr(kept, "sentences", lambda: "changed")
+    monkeypatch.setattr("autograder.mutation.sentences.sentence", lambda *_: "Another one?")
+    derived.clear()
+    assert {m.sentence for m in again(PENDULUM, "M")} == {"Another one?"}
+    assert len(set(folder.iterdir()) - before) == 1
+    assert not derived
+    monkeypatch.undo()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(folder.parents[1]))
+    assert again(PENDULUM, "M") == first
 
 
 def test_a_folder_that_cannot_be_made_is_no_error(tmp_path, monkeypatch, derived):
@@ -143,7 +208,8 @@ def test_two_processes_at_once_leave_one_whole_entry(folder):
     outputs = {run.communicate(timeout=60)[0] for run in runs}
     assert outputs == {f"{len(Catalogue(PENDULUM, 'g_vec').mutants)}\n".encode()}
     (path,) = folder.iterdir()
-    json.loads(path.read_text(encoding="utf-8"))
+    digest, _, text = path.read_text(encoding="utf-8").partition("\n")
+    assert kept.signed(text) == f"{digest}\n{text}"
 
 
 X, Y = sp.symbols("x y", positive=True)

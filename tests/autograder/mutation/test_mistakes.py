@@ -11,8 +11,9 @@ from autograder.mechanisms import MECHANISMS, Coordinate, EnergyTerm, Mechanism,
 from autograder.mutation import operators
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.answers.answer import states
-from autograder.mutation.checks import check_of, mistakes_of
+from autograder.mutation.checks import check_of
 from autograder.mutation.composed import catalogue_of
+from autograder.mutation.mistakes import mistakes_of
 from autograder.mutation.sentences import GENERAL, OF_A_TERM, OF_COLUMNS, ROWS, THROUGHOUT
 from autograder.mutation.steps import STEPS
 from autograder.protocol import Reply, read, real

@@ -7,7 +7,7 @@ import pytest
 from autograder.cli import main
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.answers import ANSWERS
-from autograder.mutation.checks import mistakes_of
+from autograder.mutation.mistakes import mistakes_of
 from autograder.mutation.trial import nothing_to_ask
 
 OWN = """

@@ -1,0 +1,64 @@
+"""What people do wrong with friction, as formulas."""
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from autograder.mechanisms import FrictionTerm, Mechanism
+from autograder.mutation.mutant import Mutant
+from autograder.mutation.operators import Rewriting
+
+# Widths of what is put for a sign that jumps.
+WIDTHS = (1, sp.Rational(1, 10), sp.Rational(1, 20), sp.Rational(1, 100), sp.Rational(1, 1000))
+WORDS = {"viscous": "the viscous friction", "coulomb": "the Coulomb friction"}
+
+
+def rewritings(term: FrictionTerm, mechanism: Mechanism) -> Iterator[Rewriting]:
+    """The wrong forms of one term's torque."""
+    for name, times in (("dropped", 0), ("wrong sign", -1), ("doubled", 2), ("halved", sp.S.Half)):
+        yield Rewriting(name, sp.Tuple(times * term.torque))
+    i = mechanism.place(term)
+    q, v = mechanism.q[i], mechanism.qd[i]
+    if sp.sign(v) not in term.torque.atoms(sp.sign):
+        yield Rewriting("quadratic friction", sp.Tuple(term.torque.xreplace({v: v * sp.Abs(v)})))
+        return
+    for name, put in (
+        ("friction in one direction", sp.S.One),
+        ("absolute value for sign", sp.Abs(v)),
+        ("velocity for its sign", v),
+        ("sign of the coordinate", sp.sign(q)),
+        *(("smooth sign", sp.tanh(v / width)) for width in WIDTHS),
+        ("friction at rest", 2 * sp.Heaviside(v, 1) - 1),
+        ("friction at rest", 1 - 2 * sp.Heaviside(-v, 1)),
+    ):
+        yield Rewriting(name, sp.Tuple(term.torque.xreplace({sp.sign(v): put})))
+
+
+def mistakes(mechanism: Mechanism) -> list[tuple[Mutant, dict[int, sp.Expr]]]:
+    """Each with the torques of all terms, by place: made in one, in all of one kind, or in all."""
+    right = {k: sp.sympify(term.torque) for k, term in enumerate(mechanism.friction)}
+    found: list[tuple[Mutant, dict[int, sp.Expr]]] = []
+    alike: dict[tuple[str, str, int], dict[int, sp.Expr]] = {}
+    for k, term in enumerate(mechanism.friction):
+        for number, done in enumerate(rewritings(term, mechanism)):
+            (torque,) = done.expressions
+            found.append((Mutant(done.operator, term.name), {k: torque}))
+            words = WORDS.get(term.coefficient, "the friction")
+            for kind in (words, "the friction"):
+                alike.setdefault((done.operator, kind, number), {})[k] = torque
+    all_alike = [
+        (Mutant(operator, words), changes)
+        for (operator, words, _), changes in alike.items()
+        if len(changes) > 1
+    ]
+    kinds = sorted({term.coefficient for term in mechanism.friction})
+    swapped = {
+        term.symbol: other.symbol
+        for term in mechanism.friction
+        for other in mechanism.friction
+        if term.coordinate == other.coordinate and term != other
+    }
+    if len(kinds) == 2:
+        changes = {k: torque.xreplace(swapped) for k, torque in right.items()}
+        all_alike.append((Mutant("coefficients exchanged", "the friction"), changes))
+    return [(mutant, right | changes) for mutant, changes in (*all_alike, *found)]
