@@ -5,7 +5,7 @@ rewritten term contributes, less what the right one does.
 """
 
 from collections.abc import Sequence
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from functools import cached_property
 from types import SimpleNamespace
 
@@ -16,7 +16,7 @@ from autograder.mechanisms import EnergyTerm, Mechanism
 from autograder.mutation import kept
 from autograder.mutation.answers import ANSWERS, PARTS
 from autograder.mutation.mutant import Mutant
-from autograder.mutation.operators import astray, rewritings
+from autograder.mutation.operators import OF_ENERGIES, astray, rewritings
 from autograder.mutation.steps import STEPS, Right
 from autograder.mutation.tape import Tape
 from autograder.mutation.taping import taped
@@ -96,6 +96,8 @@ class Catalogue:
             return  # it shows in the part that follows from the energy, or is done to it above
         for k, (term, derived) in enumerate(self._derived):
             for rewriting in rewritings(sp.Tuple(term.energy), m):
+                if rewriting.operator in OF_ENERGIES:
+                    continue  # no M follows from it
                 yield k, rewriting, derived(rewriting.expressions[0], m), True
 
     @cached_property
@@ -129,22 +131,19 @@ class Catalogue:
         """Each mistake with what its numbers are made of: a step's name, or (rewriting, entry)."""
         plain: list = [(Mutant(name), name) for name in STEPS.get(self.answer.name, ())]
         others: list = []
-        alike: dict[tuple, list[int]] = {}
+        alike: dict[Mutant, list[int]] = {}
         entries = []
         for r, (k, done, _, in_energy) in enumerate(self._wrong):
-            name = self.terms[k].name
-            mutant = Mutant(done.operator, name, done.entry, done.put, done.instead_of, in_energy)
+            at = (done.entry, done.put, done.instead_of, in_energy)
+            mutant = Mutant(done.operator, self.terms[k].name, *at, detail=done.detail)
             (plain if done.operator in OF_AN_ENTRY else others).append((mutant, ([r], None)))
             if done.operator in OF_AN_ENTRY:
                 for entry, mask in self._entries():
-                    at = Mutant(done.operator, name, entry, done.put, done.instead_of)
-                    entries.append((at, ([r], mask)))
+                    entries.append((replace(mutant, entry=entry, in_energy=False), ([r], mask)))
             if done.operator not in OF_AN_ENTRY or done.put:
-                kind = (done.operator, done.entry, done.put, done.instead_of, in_energy)
-                alike.setdefault(kind, []).append(r)
-        for (operator, entry, put, instead_of, in_energy), all_of_them in alike.items():
+                alike.setdefault(replace(mutant, term=""), []).append(r)
+        for mutant, all_of_them in alike.items():
             if len({self._wrong[r][0] for r in all_of_them}) > 1:
-                mutant = Mutant(operator, "", entry, put, instead_of, in_energy)
                 others.append((mutant, (all_of_them, None)))
         return plain + entries + others
 

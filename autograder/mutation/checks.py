@@ -15,7 +15,6 @@ from autograder.mutation.answers.answer import states
 from autograder.mutation.answers.composition import Composition, Numbers
 from autograder.mutation.composed import catalogue_of
 from autograder.mutation.generated import Generated
-from autograder.mutation.mutant import Mutant
 from autograder.mutation.references import contribution, reference
 from autograder.mutation.sentences import sentence
 from autograder.mutation.sentences.notation import written
@@ -45,21 +44,13 @@ def mistakes_of(mechanism: Mechanism, answer: str) -> list[Mistake]:
     """Every mistake of an answer with its sentence."""
     return [
         Mistake(
-            " / ".join(filter(None, _places(m))),
+            m.name,
             partial(_one, mechanism, answer, k),
             sentence(m, mechanism, ANSWERS[answer]),
             whole=m.is_of_whole,
             combines=m.operator not in ("doubled", "halved"),
         )
         for k, m in enumerate(catalogue_of(mechanism, answer).mutants)
-    ]
-
-
-def _places(mutant: Mutant) -> list[str]:
-    return [
-        *(mutant.operator, mutant.term, mutant.entry, mutant.put, mutant.instead_of),
-        "in the energy" if mutant.in_energy else "",
-        f"in {mutant.source}" if mutant.source else "",
     ]
 
 

@@ -15,9 +15,10 @@ from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import UnfitError, each
 from autograder.mechanisms import Mechanism
 from autograder.mechanisms.units import spelled
+from autograder.mutation import velocities
 from autograder.mutation.answers.answer import Answer, Judged, in_other_units
 from autograder.mutation.answers.composition import Composition, Group, throughout
-from autograder.mutation.answers.coriolis import propagated, wrong_products
+from autograder.mutation.answers.coriolis import propagated
 from autograder.mutation.inertial_parameters import in_inertial_parameters, inertial_parameters
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.steps import times
@@ -28,7 +29,7 @@ TIMES = {"dropped": 0.0, "wrong sign": -1.0, "doubled": 2.0, "halved": 0.5}
 # What is no mistake in a column, as an entry of π is 1 or 0 there, or would not be linear in π.
 OF_A_NUMBER = (
     "parameter left out", "kind left out", "point mass", "mass for inertia", "parallel axis added",
-    "parallel axis taken off", "square lost",
+    "parallel axis taken off", "square lost", "square added",
 )  # fmt: skip
 
 
@@ -145,7 +146,9 @@ def _only(row: str, torque: np.ndarray) -> np.ndarray:
 
 
 def _of_columns(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group:
-    """Columns in another order, missing, of the wrong sign, or with their parameters in them."""
+    """Columns in another order, missing, of the wrong sign, with their parameters in them, or with what
+    belongs to another one.
+    """
     entries = inertial_parameters(mechanism)
     orders = _orders([pi.unit for pi in entries])
     rows: list[list[int]] = [list(range(mechanism.n)), *([i] for i in range(mechanism.n))]
@@ -155,6 +158,8 @@ def _of_columns(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group
         for k, pi in enumerate(entries)
         for row in rows
     ]
+
+    taken = list(itertools.permutations(range(len(entries)), 2))
 
     def numbers(q, qd, qdd, arms):
         Y = right(q, qd, qdd, arms)
@@ -171,11 +176,27 @@ def _of_columns(mechanism: Mechanism, right: Callable[..., np.ndarray]) -> Group
             wrong = Y.copy()
             wrong[:, row, column] *= factor
             found.append(wrong)
+        for source, target in taken:
+            wrong = Y.copy()
+            wrong[..., target] = Y[..., source]
+            found.append(wrong)
         return np.array(found)
 
     names = ("parameters inside", "joints exchanged", "sign of the whole")
-    mutants = [Mutant(name) for name in (*names, *len(orders) * ["columns in another order"])]
-    return Group([*mutants, *(mutant for mutant, *_ in changes)], numbers)
+    mutants = [Mutant(name) for name in names]
+    words = [pi.words for pi in entries]
+    mutants += [
+        Mutant("columns in another order", detail=", ".join(words[k] for k in order))
+        for order in orders
+    ]
+    mutants += [mutant for mutant, *_ in changes]
+    mutants += [
+        Mutant(
+            "column of another", f"the column of {entries[target].words}", put=entries[source].words
+        )
+        for source, target in taken
+    ]
+    return Group(mutants, numbers)
 
 
 def _row(rows: list[int]) -> str:
@@ -198,7 +219,7 @@ def _orders(units: list[str]) -> list[list[int]]:
 def _of_energies(linear: Mechanism, catalogue: Callable, parts: Callable) -> Iterator[tuple]:
     """Mistakes in g, in C, in M, or in M and in the C that follows from it, as torques."""
     g, inertia, own = (catalogue(name, linear) for name in ("g_vec", "M", "C"))
-    products = wrong_products(linear)
+    products = velocities.in_coriolis(linear)
 
     def of_gravity(q, qd, qdd, arms):
         M_qdd, C_qd, _ = parts(q, qd, qdd, arms)

@@ -101,4 +101,28 @@ ROWS = (
         "Your {where} has its rows in the wrong order. Which coordinate does the first row belong to?",
         "regressor",
     ),
+    Row(
+        "velocities squared",
+        "Your {where} has each velocity squared. How does the rate of an entry change if the joints "
+        "move twice as fast?",
+        "M_dot",
+    ),
+    Row(
+        "velocity squared",
+        "In your {where}, the velocity {put} is squared. How does the rate of an entry change if the "
+        "joints move twice as fast?",
+        "M_dot",
+    ),
+    Row(
+        "velocity of the wrong sign",
+        "In your {where}, the part with the velocity {put} has the wrong sign. How does M change as "
+        "that coordinate alone grows?",
+        "M_dot",
+    ),
+    Row(
+        "velocity dropped",
+        "In your {where}, the part with the velocity {put} is missing. How does M change as that "
+        "coordinate alone grows?",
+        "M_dot",
+    ),
 )

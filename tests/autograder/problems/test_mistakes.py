@@ -53,7 +53,7 @@ def test_every_mistake_has_a_row(check_id):
 @pytest.mark.parametrize("check_id", CHECKS)
 def test_the_mistakes_of_a_check_have_different_names(check_id):
     """A row finds its mistake by the name, and so does a reader of the class report."""
-    counts = Counter(mistake.name for mistake in CHECKS[check_id].mistakes)
+    counts = Counter(mistake.name for mistake in CHECKS[check_id].known_mistakes)
     assert max(counts.values(), default=1) == 1, counts.most_common(3)
 
 
