@@ -1,5 +1,6 @@
 """A mutant: what was done wrong, and where."""
 
+import re
 from dataclasses import dataclass, replace
 
 from autograder.mutation.steps import STEPS
@@ -45,8 +46,13 @@ class Mutant:
 
     @property
     def is_of_whole(self) -> bool:
-        """Whether it was done to the answer as a whole, so that no entry shows it by itself."""
+        """Whether it was done to the answer as a whole, so that no part shows it by itself."""
         return not self.source and self.operator in OF_THE_WHOLE
+
+    @property
+    def is_of_a_product(self) -> bool:
+        """Whether it shows in C q̇ by itself: a term, or a product of two velocities in a row."""
+        return not self.is_step and not re.fullmatch(r"C\d+", self.entry)
 
     def within(self, source: str) -> "Mutant":
         """The same mistake, seen in an answer that follows from `source`."""

@@ -198,6 +198,7 @@ STEPS: dict[str, dict[str, Step]] = {
         "rate of M": lambda right: right.M_dot,
         "half the rate of M": lambda right: right.M_dot / 2,
         "rate of M less 2C": lambda right: right.M_dot - 2 * right.C,
+        "2C less the rate of M": lambda right: 2 * right.C - right.M_dot,
         "M": lambda right: right.M,
         "zero": lambda right: np.zeros_like(right.C),
         "torque for C": lambda right: _diagonal(times(right.C, right.qd)),

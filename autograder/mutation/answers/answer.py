@@ -1,9 +1,9 @@
 """What an answer is: its function, how it follows from the energies, and how it is judged."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sp
@@ -126,9 +126,11 @@ def unit_of_inertia(mechanism: Mechanism, i: int, j: int) -> str:
     return ("kg·m²", "kg·m", "kg")[slides]
 
 
-def mixed(mechanism: Mechanism, turning: str, sliding: str) -> str:
-    """The unit of a vector or matrix, where its entries may have several."""
-    kinds = {c.unit for c in mechanism.coordinates}
-    if kinds == {"rad"}:
-        return turning
-    return sliding if kinds == {"m"} else f"{turning} or {sliding}"
+def by_coordinate(mechanism: Mechanism, turning: str, sliding: str) -> tuple[str, ...]:
+    """The units of a vector's entries."""
+    return tuple(turning if c.unit == "rad" else sliding for c in mechanism.coordinates)
+
+
+def criterion(text: str, units: Sequence[str], share: float, **more: Any) -> Criterion:
+    """One whose numbers have these units, row by row."""
+    return Criterion(text, " or ".join(dict.fromkeys(units)), share, units=tuple(units), **more)

@@ -9,7 +9,15 @@ from autograder.judging.criterion import TOLERANCE, Criterion
 from autograder.judging.quantities import array, each
 from autograder.mechanisms import Mechanism
 from autograder.mutation import velocities
-from autograder.mutation.answers.answer import Answer, Judged, in_motion, mixed, states
+from autograder.mutation.answers.answer import (
+    Answer,
+    Judged,
+    by_coordinate,
+    criterion,
+    in_motion,
+    states,
+    unit_of_inertia,
+)
 from autograder.mutation.answers.composition import Composition, Group
 from autograder.mutation.derivatives import coriolis
 from autograder.mutation.steps import Right
@@ -22,21 +30,18 @@ def _judged(mechanism: Mechanism) -> Judged:
         C, qd = _matrix(mechanism, call, value), call.args[1]
         return C @ qd, qd @ C @ qd, C + C.T
 
+    n = mechanism.n
     energy = "With your C the energy would change although nobody does work."
-    skew = (
+    skew = "Ṁ − 2C is not skew-symmetric with your C, as it is with the Christoffel form."
+    alone = (
         "Ṁ − 2C is not skew-symmetric with your C. A right C q̇ is not enough: how does the Christoffel "
         "form share the products of two velocities?"
     )
+    rates = [f"{unit_of_inertia(mechanism, i, j)}/s" for i, j in np.ndindex(n, n)]
     return steps, (
-        Criterion("vector C q̇", mixed(mechanism, "N·m", "N"), 0.5),
+        criterion("vector C q̇", by_coordinate(mechanism, "N·m", "N"), 0.5),
         Criterion("power q̇ᵀC q̇ = ½ q̇ᵀṀ q̇", "W", 0.2, otherwise=energy, is_property=True),
-        Criterion(
-            "sum C + Cᵀ = Ṁ",
-            mixed(mechanism, "kg·m²/s", "kg/s"),
-            0.3,
-            otherwise=skew,
-            is_property=True,
-        ),
+        criterion("sum C + Cᵀ = Ṁ", rates, 0.3, otherwise=skew, alone=alone, is_property=True),
     )
 
 

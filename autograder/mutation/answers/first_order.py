@@ -5,11 +5,16 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import each, vector
 from autograder.mechanisms import Mechanism
 from autograder.mutation import velocities
-from autograder.mutation.answers.answer import Answer, Judged, in_other_units, mixed
+from autograder.mutation.answers.answer import (
+    Answer,
+    Judged,
+    by_coordinate,
+    criterion,
+    in_other_units,
+)
 from autograder.mutation.answers.composition import Composition, Group, throughout
 from autograder.mutation.answers.coriolis import propagated
 from autograder.mutation.friction import torques, wrong_torques
@@ -30,8 +35,8 @@ def _judged(mechanism: Mechanism) -> Judged:
         return x[:n], x[n:]
 
     return halves, (
-        Criterion("velocities in ẋ", mixed(mechanism, "rad/s", "m/s"), 0.25),
-        Criterion("accelerations in ẋ", mixed(mechanism, "rad/s²", "m/s²"), 0.75),
+        criterion("velocities in ẋ", by_coordinate(mechanism, "rad/s", "m/s"), 0.25),
+        criterion("accelerations in ẋ", by_coordinate(mechanism, "rad/s²", "m/s²"), 0.75),
     )
 
 

@@ -11,12 +11,17 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import UnfitError, each
 from autograder.mechanisms import Mechanism
 from autograder.mechanisms.units import spelled
 from autograder.mutation import velocities
-from autograder.mutation.answers.answer import Answer, Judged, in_other_units
+from autograder.mutation.answers.answer import (
+    Answer,
+    Judged,
+    by_coordinate,
+    criterion,
+    in_other_units,
+)
 from autograder.mutation.answers.composition import Composition, Group, throughout
 from autograder.mutation.answers.coriolis import propagated
 from autograder.mutation.inertial_parameters import in_inertial_parameters, inertial_parameters
@@ -48,20 +53,20 @@ def _judged(mechanism: Mechanism) -> Judged:
         )
 
     return columns, tuple(
-        Criterion(f"column of {pi.words}", _unit(mechanism, pi.unit), 1 / len(entries))
+        criterion(f"column of {pi.words}", _units(mechanism, pi.unit), 1 / len(entries))
         for pi in entries
     )
 
 
-def _unit(mechanism: Mechanism, unit: str) -> str:
-    """Of a torque or force over this."""
+def _units(mechanism: Mechanism, unit: str) -> tuple[str, ...]:
+    """Of the torques and forces over this."""
     turning = {"kg": "m²/s²", "kg·m": "m/s²", "kg·m²": "rad/s²"}
     sliding = {"kg": "m/s²", "kg·m": "rad/s²", "kg·m²": "rad/(m·s²)"}
-    kinds = {
-        "rad": turning.get(unit) or spelled("N·m", per=unit),
-        "m": sliding.get(unit) or spelled("N", per=unit),
-    }
-    return " or ".join(dict.fromkeys(kinds[c.unit] for c in mechanism.coordinates))
+    return by_coordinate(
+        mechanism,
+        turning.get(unit) or spelled("N·m", per=unit),
+        sliding.get(unit) or spelled("N", per=unit),
+    )
 
 
 def _case(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]:

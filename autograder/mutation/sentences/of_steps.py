@@ -17,6 +17,8 @@ OF_STEPS = {
     "half the rate of M": "You return half of Ṁ. It makes Ṁ − 2C zero, but does it give the "
     "right C q̇?",
     "rate of M less 2C": "You return Ṁ − 2C. Which matrix multiplies q̇ in the equation of motion?",
+    "2C less the rate of M": "You return C less its transpose, which is 2C − Ṁ. Which matrix multiplies "
+    "q̇ in the equation of motion?",
     "M": "You return M, which multiplies q̈. C multiplies q̇.",
     "zero": "Your {where} is 0. What do you differentiate, and with respect to what?",
     "last derivative missing": "Your C leaves out −∂K/∂q and holds only the terms from "

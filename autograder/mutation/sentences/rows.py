@@ -125,4 +125,27 @@ ROWS = (
         "coordinate alone grows?",
         "M_dot",
     ),
+    Row(
+        "product dropped",
+        "Your Y lacks the product of velocities {put} in {where}. Which entries of C bring it there?",
+        "regressor",
+    ),
+    Row(
+        "product of the wrong sign",
+        "Your Y has the product of velocities {put} with the wrong sign in {where}. Which entries "
+        "of C bring it there?",
+        "regressor",
+    ),
+    Row(
+        "product halved",
+        "Your Y has half of the product of velocities {put} in {where}. How often does it come up when "
+        "C is multiplied by q̇?",
+        "regressor",
+    ),
+    Row(
+        "product doubled",
+        "Your Y counts the product of velocities {put} twice in {where}. How often does it come up when "
+        "C is multiplied by q̇?",
+        "regressor",
+    ),
 )

@@ -37,7 +37,8 @@ def test_a_wrong_answer_shows_its_mistake(row: Row):
     met = [row_of.met for row_of in verdict.rows]
     criterion = check.criteria[met.index(False)]
     if criterion.is_truth:
-        truths = ("True; the right answer is False", "False; the right answer is True")
+        truths = ("True; the right answer is False", "False; the right answer is True",
+                  f"a result for which “{criterion.text}” has the answer no")  # fmt: skip
         assert verdict.witness.returned.startswith(truths)
     else:
         assert criterion.unit in verdict.witness.off

@@ -327,7 +327,7 @@ TABLE["c6-identify"] += [
         ("sign of the velocity products", "wrong sign / C q̇"),
         ("no acceleration", "dropped / M q̈"),
         ("absolute acceleration of link 2", "absolute acceleration of link 2"),
-        ("l2 for l1", "wrong parameter / l2 / l1"),
+        ("l2 for l1", "wrong parameter / l2 / l1 / in M and g"),
         ("9.81", "gravity of Earth / 9.81 / g / in g_vec"),
         ("example arm", "numbers of the example"),
     )
