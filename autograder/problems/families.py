@@ -44,7 +44,7 @@ ASKED = {
 # Those in which gravity's pull is typed by the student.
 WITH_GRAVITY = ("p4-potential_energy", "p4-g_vec", "p5-energy_drift")
 SHOULDER = "change of P as link 1 turns from the x axis and link 2 keeps its direction"
-ALONE = (
+OTHERWISE = (
     "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the Christoffel form. A right "
     "C q̇ is not enough: how does that form share the products of velocities between the entries of a "
     "row?"
@@ -79,7 +79,7 @@ def on(own: Convention, check: Check) -> Check:
             return replace(changed, quantities=_singular(own), mistakes=mistakes)
         case "p2-C":
             first, power, skew = check.criteria
-            said = replace(skew, alone=ALONE)
+            said = replace(skew, alone=OTHERWISE)
             return replace(changed, quantities=steps(own.C), criteria=(first, power, said))
         case "p2-C_other":
             return replace(changed, quantities=partial(other, own.C))
