@@ -16,13 +16,15 @@ LEAST_SCALE = 0.05
 class Criterion:
     """One thing that is asked of an answer: in words, its unit, its share of the credit.
 
-    otherwise: what to say where it is not met and no known mistake matches. tolerance: the relative
+    otherwise: what to say where it is not met and no known mistake matches; alone: in its place where
+    all others are met. tolerance: the relative
     error that rounding, or the method that is asked for, explains. matching: the error within which
     an answer shows a known mistake, where that must be less, as wrong answers lie close together;
     by default the same. is_property: true of the answer as a whole, as skew-symmetry is; what breaks
     it is looked for among the mistakes that are shown already, and not in its own numbers, which many
     answers share. is_truth: the numbers are 1 for True and 0 for False, and have no unit. entries: what
-    each of its numbers is called, "M12", where that says more than a place in an array.
+    each of its numbers is called, "M12", where that says more than a place in an array. units: that of
+    each of its numbers, row by row, where they differ.
 
     ValueError where the share is not in (0, 1], or a truth value has a unit.
     """
@@ -31,17 +33,23 @@ class Criterion:
     unit: str = ""
     share: float = 1.0
     otherwise: str = ""
+    alone: str = ""
     tolerance: float = TOLERANCE
     is_property: bool = False
     matching: float | None = None
     is_truth: bool = False
     entries: tuple[str, ...] = ()
+    units: tuple[str, ...] = ()
 
     def __post_init__(self):
         if not 0 < self.share <= 1:
             raise ValueError(f"criterion {self.text!r}: share is {self.share}, must be in (0, 1]")
         if self.is_truth and self.unit:
             raise ValueError(f"criterion {self.text!r}: a truth value has no unit {self.unit!r}")
+
+    def unit_of(self, place: int, count: int) -> str:
+        """The unit of one of its numbers, by its place in a row of them all."""
+        return self.units[place] if len(self.units) == count else self.unit
 
     def met(self, errors: np.ndarray) -> bool:
         """Whether no case's relative error is more than may be."""

@@ -124,7 +124,8 @@ def sentences(
         said += [mistake.sentence for mistake in shown]
         if not shown:
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
-            found = findings.of_numbers(criterion, right, theirs, parts) or criterion.otherwise
+            found = findings.of_numbers(criterion, right, theirs, parts)
+            found = found or (met.count(False) == 1 and criterion.alone) or criterion.otherwise
             said.append(found or ("" if any(said) else elsewhere(k)))
     return tuple(dict.fromkeys(filter(None, said)))
 

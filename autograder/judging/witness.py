@@ -25,10 +25,13 @@ def witness(
     if criterion.is_truth:
         asked = f" ({what})" if what else ""
         said = f"{bool(given[at])}; the right answer is {bool(right[at])}{asked}"
+        if not call.truth:  # it is the check that asks, of what came back
+            said = f"a result for which “{criterion.text}” has the answer {_yes_or_no(given[at])}"
         return Witness(shown_call(call), said, "", joints)
     off, size = abs(float(given[at] - right[at])), abs(float(right[at]))
     share = f" ({_percent(off / size)} of the right value)" if size > 0 else ""
-    unit = f" {criterion.unit}".rstrip()
+    place = int(np.ravel_multi_index(at, np.shape(right))) if at else 0
+    unit = f" {criterion.unit_of(place, np.size(right))}".rstrip()
     entry = "" if np.size(right) == 1 else f" in entry {', '.join(map(str, at))}"
     if len(criterion.entries) == np.size(right):
         entry, what = "", what.replace(criterion.text, criterion.entries[int(*at)])
@@ -39,6 +42,10 @@ def witness(
         f"{off:.3g}{unit}{share}",
         joints,
     )
+
+
+def _yes_or_no(truth: float) -> str:
+    return "yes" if truth else "no"
 
 
 def shown_call(call: Call) -> str:

@@ -1,7 +1,7 @@
 """Derives all mistakes of one answer for one mechanism: wrong terms, wrong entries, wrong steps."""
 
 from collections.abc import Iterator
-from dataclasses import astuple
+from dataclasses import astuple, replace
 
 import numpy as np
 import sympy as sp
@@ -12,7 +12,7 @@ from autograder.mutation.distinct import CASES, each_once
 from autograder.mutation.formulas import symbols
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.numbers import Made, Numbers
-from autograder.mutation.operators import Rewriting, astray, rewritings
+from autograder.mutation.operators import OF_ENERGIES, Rewriting, astray, rewritings
 from autograder.mutation.steps import STEPS
 from autograder.mutation.taping import taped
 from autograder.mutation.whole import expressions
@@ -71,6 +71,8 @@ class Deriving:
             return  # it shows in the part that follows from the energy, or is done to it above
         for k, (term, derived) in enumerate(self._derived):
             for rewriting in rewritings(sp.Tuple(term.energy), m):
+                if rewriting.operator in OF_ENERGIES:
+                    continue  # no M follows from it
                 yield k, rewriting, derived(rewriting.expressions[0], m), True
 
     @property
@@ -82,22 +84,19 @@ class Deriving:
         """Each mistake with what its numbers are made of: a step's name, or (rewriting, entry)."""
         plain: list = [(Mutant(name), name) for name in STEPS.get(self.answer.name, ())]
         others: list = []
-        alike: dict[tuple, list[int]] = {}
+        alike: dict[Mutant, list[int]] = {}
         entries = []
         for r, (k, done, _, in_energy) in enumerate(self._wrong):
-            name = self.terms[k].name
-            mutant = Mutant(done.operator, name, done.entry, done.put, done.instead_of, in_energy)
+            at = (done.entry, done.put, done.instead_of, in_energy)
+            mutant = Mutant(done.operator, self.terms[k].name, *at, detail=done.detail)
             (plain if done.operator in OF_AN_ENTRY else others).append((mutant, ([r], None)))
             if done.operator in OF_AN_ENTRY:
                 for entry, mask in self._entries():
-                    at = Mutant(done.operator, name, entry, done.put, done.instead_of)
-                    entries.append((at, ([r], mask)))
+                    entries.append((replace(mutant, entry=entry, in_energy=False), ([r], mask)))
             if done.operator not in OF_AN_ENTRY or done.put:
-                kind = (done.operator, done.entry, done.put, done.instead_of, in_energy)
-                alike.setdefault(kind, []).append(r)
-        for (operator, entry, put, instead_of, in_energy), all_of_them in alike.items():
+                alike.setdefault(replace(mutant, term=""), []).append(r)
+        for mutant, all_of_them in alike.items():
             if len({self._wrong[r][0] for r in all_of_them}) > 1:
-                mutant = Mutant(operator, "", entry, put, instead_of, in_energy)
                 others.append((mutant, (all_of_them, None)))
         return plain + entries + others
 

@@ -11,7 +11,6 @@ from autograder.mutation import kept
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.calls import Model, of_calls
 from autograder.mutation.composed import catalogue_of
-from autograder.mutation.mutant import Mutant
 from autograder.mutation.references import contributions
 from autograder.protocol import Call
 
@@ -50,21 +49,13 @@ def mistakes_of(mechanism: Outline, answer: str) -> list[Mistake]:
     parts = ("sentences", kept.sentences(), *kept.definition(mechanism), answer)
     return [
         Mistake(
-            " / ".join(filter(None, _places(m))),
+            m.name,
             _Wrong(mechanism, answer, k),
             said,
-            whole=m.is_of_whole,
+            whole=m.is_of_whole or (answer == "C" and not m.is_of_a_product),
             combines=m.operator not in ("doubled", "halved"),
         )
         for k, (m, said) in enumerate(zip(mutants, kept.entry(parts, made, read), strict=True))
-    ]
-
-
-def _places(mutant: Mutant) -> list[str]:
-    return [
-        *(mutant.operator, mutant.term, mutant.entry, mutant.put, mutant.instead_of),
-        "in the energy" if mutant.in_energy else "",
-        f"in {mutant.source}" if mutant.source else "",
     ]
 
 

@@ -1,5 +1,6 @@
 """A mutant: what was done wrong, and where."""
 
+import re
 from dataclasses import dataclass, replace
 
 from autograder.mutation.steps import STEPS
@@ -11,6 +12,7 @@ class Mutant:
 
     in_energy: whether it was done to the energy, from which the answer was then derived. source: the
     answer in which it was made, where another one follows from that; "" for the one that is asked for.
+    detail: what tells it from others that are like it in all of this, as the width of a tanh.
     """
 
     operator: str
@@ -20,6 +22,22 @@ class Mutant:
     instead_of: str = ""
     in_energy: bool = False
     source: str = ""
+    detail: str = ""
+
+    @property
+    def name(self) -> str:
+        """By which a teacher's own sentence finds it; no two of an answer have the same."""
+        return " / ".join(
+            filter(
+                None,
+                (
+                    *(self.operator, self.term, self.entry, self.put, self.instead_of),
+                    "in the energy" if self.in_energy else "",
+                    f"in {self.source}" if self.source else "",
+                    self.detail,
+                ),
+            )
+        )
 
     @property
     def is_step(self) -> bool:
@@ -28,15 +46,20 @@ class Mutant:
 
     @property
     def is_of_whole(self) -> bool:
-        """Whether it was done to the answer as a whole, so that no entry shows it by itself."""
-        return self.is_step and self.operator in OF_THE_WHOLE
+        """Whether it was done to the answer as a whole, so that no part shows it by itself."""
+        return not self.source and self.operator in OF_THE_WHOLE
+
+    @property
+    def is_of_a_product(self) -> bool:
+        """Whether it shows in C q̇ by itself: a term, or a product of two velocities in a row."""
+        return not self.is_step and not re.fullmatch(r"C\d+", self.entry)
 
     def within(self, source: str) -> "Mutant":
         """The same mistake, seen in an answer that follows from `source`."""
         return replace(self, source=source)
 
 
-# Steps that are the whole's: what is half, or zero, in one entry alone has another reason there.
+# What is done to the whole: what is half, or zero, in one entry alone has another reason there.
 OF_THE_WHOLE = (
     "half of the whole",
     "twice the whole",
@@ -44,5 +67,6 @@ OF_THE_WHOLE = (
     "zero",
     "inverse",
     "joints exchanged",
+    "columns in another order",
 )
 STEP_NAMES = {name for steps in STEPS.values() for name in steps}

@@ -37,6 +37,12 @@ class Right:
     def K(self) -> np.ndarray:
         return np.einsum("...i,...ij,...j->...", self.qd, self.M, self.qd) / 2
 
+    @property
+    def K_of_single_velocities(self) -> np.ndarray:
+        """K with q̇_i where its square belongs."""
+        single = self.qd - self.qd**2
+        return self.K + np.einsum("...ii,...i->...", self.M, single) / 2
+
     def christoffel(self, first=0.5, second=0.5, third=0.5) -> np.ndarray:
         """h_ijk with these weights on ∂M_ij/∂q_k, ∂M_ik/∂q_j and −∂M_jk/∂q_i."""
         D = self.slopes
@@ -176,6 +182,9 @@ STEPS: dict[str, dict[str, Step]] = {
         "sum of the velocities": lambda right: (
             np.sum(right.slopes, axis=-1) * np.sum(right.qd, axis=-1)[..., None, None]
         ),
+        "velocities squared": lambda right: np.einsum(
+            "...ijk,...k->...ij", right.slopes, right.qd**2
+        ),
         "chain rule forgotten": lambda right: np.sum(right.slopes, axis=-1),
         "zero": lambda right: np.zeros_like(right.M),
         "C": lambda right: right.C,
@@ -220,6 +229,12 @@ STEPS: dict[str, dict[str, Step]] = {
         "velocities exchanged": lambda right: np.einsum(
             "...ijk,...k->...ij", right.christoffel(), right.qd[..., ::-1]
         ),
+        "velocities squared": lambda right: np.einsum(
+            "...ijk,...k->...ij", right.christoffel(), right.qd**2
+        ),
+        "products of velocities": lambda right: right.C * right.qd[..., np.newaxis, :],
+        "products with the row": lambda right: right.C * right.qd[..., :, np.newaxis],
+        "2C less the rate of M": lambda right: 2 * right.C - right.M_dot,
         "second kind": lambda right: _inverse(right.M) @ right.C,
         "gravity for C": lambda right: _diagonal(right.g_vec),
         "momentum for C": lambda right: _diagonal(times(right.M, right.qd)),
@@ -252,6 +267,7 @@ STEPS: dict[str, dict[str, Step]] = {
         "diagonal of M alone": lambda right: (
             np.einsum("...ii,...i->...", right.M, right.qd**2) / 2 - right.P
         ),
+        "velocities of K not squared": lambda right: right.K_of_single_velocities - right.P,
     },
     "energy_drift": {
         "sign of the whole": lambda run: -drift(run.E),
@@ -265,6 +281,7 @@ STEPS: dict[str, dict[str, Step]] = {
         "diagonal of M alone": lambda run: drift(
             np.einsum("...ii,...i->...", run.M, run.qd**2) / 2 + run.P
         ),
+        "velocities of K not squared": lambda run: drift(run.K_of_single_velocities + run.P),
         "M of the start": lambda run: drift(replace(run, M=run.M[..., :1, :, :]).K + run.P),
         "C in the energy": lambda run: drift(run.E + replace(run, M=run.C).K),
         "C for M": lambda run: drift(replace(run, M=run.C).K + run.P),

@@ -4,12 +4,22 @@ A tape is kept on disk and read again without SymPy. It holds numbers alone and 
 of the tables below, so nothing that is read from a file can run as a program.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-UNARY = {
+
+def _sign(x: np.ndarray, out: np.ndarray) -> None:
+    np.sign(x.real, out=out)
+
+
+def _absolute(x: np.ndarray, out: np.ndarray) -> None:
+    """|x|, and of a complex step from x one in its direction: the size of x would have no slope."""
+    np.multiply(x, np.sign(x.real), out=out)
+
+
+UNARY: dict[str, Callable] = {
     "negative": np.negative,
     "reciprocal": np.reciprocal,
     "square": np.square,
@@ -25,10 +35,10 @@ UNARY = {
     "tanh": np.tanh,
     "exp": np.exp,
     "log": np.log,
-    "sign": np.sign,
-    "absolute": np.absolute,
+    "sign": _sign,
+    "absolute": _absolute,
 }
-BINARY = {
+BINARY: dict[str, Callable] = {
     "add": np.add,
     "multiply": np.multiply,
     "power": np.power,

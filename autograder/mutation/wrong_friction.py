@@ -27,28 +27,32 @@ def rewritings(term: FrictionTerm, mechanism: Mechanism) -> Iterator[Rewriting]:
         ("absolute value for sign", sp.Abs(v)),
         ("velocity for its sign", v),
         ("sign of the coordinate", sp.sign(q)),
-        *(("smooth sign", sp.tanh(v / width)) for width in WIDTHS),
-        ("friction at rest", 2 * sp.Heaviside(v, 1) - 1),
-        ("friction at rest", 1 - 2 * sp.Heaviside(-v, 1)),
     ):
         yield Rewriting(name, sp.Tuple(term.torque.xreplace({sp.sign(v): put})))
+    for name, detail, put in (
+        *(("smooth sign", f"width {float(w):g}", sp.tanh(v / w)) for w in WIDTHS),
+        ("friction at rest", "as if forwards", 2 * sp.Heaviside(v, 1) - 1),
+        ("friction at rest", "as if backwards", 1 - 2 * sp.Heaviside(-v, 1)),
+    ):
+        torque = term.torque.xreplace({sp.sign(v): put})
+        yield Rewriting(name, sp.Tuple(torque), detail=detail)
 
 
 def mistakes(mechanism: Mechanism) -> list[tuple[Mutant, dict[int, sp.Expr]]]:
     """Each with the torques of all terms, by place: made in one, in all of one kind, or in all."""
     right = {k: sp.sympify(term.torque) for k, term in enumerate(mechanism.friction)}
     found: list[tuple[Mutant, dict[int, sp.Expr]]] = []
-    alike: dict[tuple[str, str, int], dict[int, sp.Expr]] = {}
+    alike: dict[tuple[str, str, str], dict[int, sp.Expr]] = {}
     for k, term in enumerate(mechanism.friction):
-        for number, done in enumerate(rewritings(term, mechanism)):
+        for done in rewritings(term, mechanism):
             (torque,) = done.expressions
-            found.append((Mutant(done.operator, term.name), {k: torque}))
+            found.append((Mutant(done.operator, term.name, detail=done.detail), {k: torque}))
             words = WORDS.get(term.coefficient, "the friction")
             for kind in (words, "the friction"):
-                alike.setdefault((done.operator, kind, number), {})[k] = torque
+                alike.setdefault((done.operator, kind, done.detail), {})[k] = torque
     all_alike = [
-        (Mutant(operator, words), changes)
-        for (operator, words, _), changes in alike.items()
+        (Mutant(operator, words, detail=detail), changes)
+        for (operator, words, detail), changes in alike.items()
         if len(changes) > 1
     ]
     kinds = sorted({term.coefficient for term in mechanism.friction})

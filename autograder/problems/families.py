@@ -79,7 +79,7 @@ def on(own: Convention, check: Check) -> Check:
             return replace(changed, quantities=_singular(own), mistakes=mistakes)
         case "p2-C":
             first, power, skew = check.criteria
-            said = replace(skew, otherwise=OTHERWISE)
+            said = replace(skew, alone=OTHERWISE)
             return replace(changed, quantities=steps(own.C), criteria=(first, power, said))
         case "p2-C_other":
             return replace(changed, quantities=partial(other, own.C))

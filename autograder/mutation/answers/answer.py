@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -138,9 +138,11 @@ def unit_of_inertia(mechanism: Outline, i: int, j: int) -> str:
     return ("kg·m²", "kg·m", "kg")[slides]
 
 
-def mixed(mechanism: Outline, turning: str, sliding: str) -> str:
-    """The unit of a vector or matrix, where its entries may have several."""
-    kinds = {c.unit for c in mechanism.coordinates}
-    if kinds == {"rad"}:
-        return turning
-    return sliding if kinds == {"m"} else f"{turning} or {sliding}"
+def by_coordinate(mechanism: Outline, turning: str, sliding: str) -> tuple[str, ...]:
+    """The units of a vector's entries."""
+    return tuple(turning if c.unit == "rad" else sliding for c in mechanism.coordinates)
+
+
+def criterion(text: str, units: Sequence[str], share: float, **more: Any) -> Criterion:
+    """One whose numbers have these units, row by row."""
+    return Criterion(text, " or ".join(dict.fromkeys(units)), share, units=tuple(units), **more)

@@ -33,7 +33,15 @@ def throughout(
         for i in _everywhere(inertia, kind)
         for j in _everywhere(g, kind) or _everywhere(g, _as_angle(*kind))
     ]
-    mutants = [replace(inertia[i], term="", in_energy=False) for i, _ in pairs]
+    mutants = [
+        replace(
+            inertia[i],
+            term="",
+            in_energy=False,
+            detail="in M and P" if g[j].in_energy else "in M and g",
+        )
+        for i, j in pairs
+    ]
     return mutants, [i for i, _ in pairs], [j for _, j in pairs]
 
 

@@ -2,23 +2,27 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import combinations_with_replacement
 
 import numpy as np
 
 from autograder.judging.criterion import TOLERANCE, Criterion
 from autograder.judging.quantities import array, each
 from autograder.mechanisms.outline import Outline
-from autograder.mutation.answers.answer import Answer, Judged, in_motion, mixed, states
+from autograder.mutation import velocities
+from autograder.mutation.answers.answer import (
+    Answer,
+    Judged,
+    by_coordinate,
+    criterion,
+    in_motion,
+    states,
+    unit_of_inertia,
+)
 from autograder.mutation.answers.composition import Composition, Group
 from autograder.mutation.derivatives import coriolis
-from autograder.mutation.mutant import Mutant
 from autograder.mutation.shared import shared
 from autograder.mutation.steps import Right
 from autograder.mutation.whole import slopes, whole
-
-# How often a product of two velocities is held, by what is wrong with it.
-TIMES = {"dropped": 0.0, "of the wrong sign": -1.0, "halved": 0.5, "doubled": 2.0}
 
 
 def _judged(mechanism: Outline) -> Judged:
@@ -27,21 +31,18 @@ def _judged(mechanism: Outline) -> Judged:
         C, qd = _matrix(mechanism, call, value), call.args[1]
         return C @ qd, qd @ C @ qd, C + C.T
 
+    n = mechanism.n
     energy = "With your C the energy would change although nobody does work."
-    skew = (
+    skew = "Ṁ − 2C is not skew-symmetric with your C, as it is with the Christoffel form."
+    alone = (
         "Ṁ − 2C is not skew-symmetric with your C. A right C q̇ is not enough: how does the Christoffel "
         "form share the products of two velocities?"
     )
+    rates = [f"{unit_of_inertia(mechanism, i, j)}/s" for i, j in np.ndindex(n, n)]
     return steps, (
-        Criterion("vector C q̇", mixed(mechanism, "N·m", "N"), 0.5),
+        criterion("vector C q̇", by_coordinate(mechanism, "N·m", "N"), 0.5),
         Criterion("power q̇ᵀC q̇ = ½ q̇ᵀṀ q̇", "W", 0.2, otherwise=energy, is_property=True),
-        Criterion(
-            "sum C + Cᵀ = Ṁ",
-            mixed(mechanism, "kg·m²/s", "kg/s"),
-            0.3,
-            otherwise=skew,
-            is_property=True,
-        ),
+        criterion("sum C + Cᵀ = Ṁ", rates, 0.3, otherwise=skew, alone=alone, is_property=True),
     )
 
 
@@ -70,8 +71,11 @@ def of_wrong_inertia(
     def groups(catalogue) -> Iterator[Group]:
         own, inertia = catalogue(name), catalogue("M")
         yield Group(own.mutants, own.numbers)
-        if name == "C":
-            yield wrong_products(mechanism)
+        yield (
+            velocities.in_coriolis(mechanism)
+            if name == "C"
+            else velocities.in_inertia_rate(mechanism)
+        )
         terms, wrong = propagated(mechanism, inertia)
         yield Group(
             [inertia.mutants[k].within("M") for k in terms],
@@ -98,31 +102,6 @@ def propagated(mechanism: Outline, inertia) -> tuple[list[int], Callable[..., Ri
         return replace(known, M=wrong(q), slopes=slopes(wrong, q))
 
     return terms, numbers
-
-
-def wrong_products(mechanism: Outline) -> Group:
-    """A product of two velocities in a row of C q̇, or a velocity in an entry of C, not there once."""
-    n, right = mechanism.n, whole(mechanism)
-    names = [c.rate for c in mechanism.coordinates]
-    mutants, weights = [], []
-    for words, times in TIMES.items():
-        for i in range(n):
-            for j, k in combinations_with_replacement(range(n), 2):
-                product = f"{names[j]}²" if j == k else f"{names[j]} {names[k]}"
-                mutants.append(Mutant(f"product {words}", entry=f"row {i + 1}", put=product))
-                weights.append(np.ones((n, n, n)))
-                weights[-1][i, [j, k], [k, j]] = times
-        for i, j, k in np.ndindex(n, n, n) if n > 1 else ():
-            entry = f"C{i + 1}{j + 1}"
-            mutants.append(Mutant(f"velocity {words}", entry=entry, put=names[k]))
-            weights.append(np.ones((n, n, n)))
-            weights[-1][i, j, k] = times
-
-    def numbers(q, qd, arms):
-        h = right(q, qd, arms).christoffel()
-        return np.einsum("mijk,cijk,ck->mcij", np.array(weights), h, qd, optimize=True)
-
-    return Group(mutants, numbers)
 
 
 CORIOLIS = Answer(

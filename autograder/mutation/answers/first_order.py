@@ -6,12 +6,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import each, vector
 from autograder.mechanisms.outline import Outline
-from autograder.mutation.answers.answer import Answer, Judged, in_other_units, mixed
+from autograder.mutation import velocities
+from autograder.mutation.answers.answer import (
+    Answer,
+    Judged,
+    by_coordinate,
+    criterion,
+    in_other_units,
+)
 from autograder.mutation.answers.composition import Composition, Group, throughout
-from autograder.mutation.answers.coriolis import propagated, wrong_products
+from autograder.mutation.answers.coriolis import propagated
 from autograder.mutation.friction import torques, wrong_torques
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.shared import shared
@@ -34,8 +40,8 @@ def _judged(mechanism: Outline) -> Judged:
         return x[:n], x[n:]
 
     return halves, (
-        Criterion("velocities in ẋ", mixed(mechanism, "rad/s", "m/s"), 0.25),
-        Criterion("accelerations in ẋ", mixed(mechanism, "rad/s²", "m/s²"), 0.75),
+        criterion("velocities in ẋ", by_coordinate(mechanism, "rad/s", "m/s"), 0.25),
+        criterion("accelerations in ẋ", by_coordinate(mechanism, "rad/s²", "m/s²"), 0.75),
     )
 
 
@@ -125,19 +131,26 @@ def _of_torques(at: Callable[..., Driven]) -> Group:
 
 
 def _readings(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
-    """x is read in another order or in other units, or ẋ written in that order."""
-    names = ("state read as q̇ and q", "state interleaved", "states interleaved")
+    """x is read, or ẋ written, in another order, or x in other units."""
+    names = ("state read as q̇ and q", "state interleaved", "states interleaved",
+             "rate interleaved")  # fmt: skip
     converted = list(in_other_units(mechanism, np.zeros((1, mechanism.n))))
 
     def numbers(q, qd, u, arms):
         x = np.concatenate([q, qd], axis=-1)
         apart = right(x[:, 0::2], x[:, 1::2], u, arms)
-        woven = np.empty_like(apart)
-        woven[:, 0::2], woven[:, 1::2] = np.split(apart, 2, axis=-1)
+        in_order = right(q, qd, u, arms)
         others = [right(at, qd, u, arms) for at in in_other_units(mechanism, q).values()]
-        return np.array([right(qd, q, u, arms), apart, woven, *others])
+        return np.array([right(qd, q, u, arms), apart, _woven(apart), _woven(in_order), *others])
 
     return Group([Mutant(name) for name in (*names, *converted)], numbers)
+
+
+def _woven(rate: np.ndarray) -> np.ndarray:
+    """Each acceleration beside its velocity."""
+    woven = np.empty_like(rate)
+    woven[:, 0::2], woven[:, 1::2] = np.split(rate, 2, axis=-1)
+    return woven
 
 
 def _of_friction(mechanism: Outline, at: Callable[..., Driven]) -> Group:
@@ -154,7 +167,7 @@ def _of_friction(mechanism: Outline, at: Callable[..., Driven]) -> Group:
 def _of_parts(mechanism: Outline, at: Callable[..., Driven], catalogue) -> Iterator[Group]:
     """A mistake in g, in C, in M alone, or in M and in the C that follows from it."""
     g, inertia = catalogue("g_vec"), catalogue("M")
-    own, products = catalogue("C"), wrong_products(mechanism)
+    own, products = catalogue("C"), velocities.in_coriolis(mechanism)
 
     def of_gravity(q, qd, u, arms):
         driven = at(q, qd, u, arms)

@@ -8,7 +8,7 @@ import numpy as np
 
 from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import each, vector
-from autograder.mutation.answers.answer import Answer, Judged, at_rest
+from autograder.mutation.answers.answer import Answer, Judged, at_rest, by_coordinate
 from autograder.mutation.derivatives import gradient
 
 if TYPE_CHECKING:
@@ -26,9 +26,16 @@ def _judged(mechanism: Mechanism) -> Judged:
         g = vector(value, n)
         return (np.array([g[judged[0]], *g[zero]]), *(g[[i]] for i in judged[1:]))
 
-    units = ["N·m" if c.unit == "rad" else "N" for c in mechanism.coordinates]
+    units = by_coordinate(mechanism, "N·m", "N")
+    of = [[judged[0], *zero], *([i] for i in judged[1:])]
     return parts, tuple(
-        Criterion(f"g{i + 1}" if n > 1 else "g", units[i], 1 / len(judged)) for i in judged
+        Criterion(
+            f"g{i + 1}" if n > 1 else "g",
+            units[i],
+            1 / len(judged),
+            units=tuple(units[j] for j in places),
+        )
+        for i, places in zip(judged, of, strict=True)
     )
 
 

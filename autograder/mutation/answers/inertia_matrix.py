@@ -43,14 +43,17 @@ def symmetric(mechanism: Mechanism, head: str, entries: list, per: str) -> Judge
         tuple(dict.fromkeys((f"{head}{i + 1}{j + 1}", f"{head}{j + 1}{i + 1}"))) for i, j in pairs
     ]
     beside = tuple(f"{head}{i + 1}{j + 1}" for i, j in zero)
+    units = [unit_of_inertia(mechanism, i, j) + per for i, j in pairs]
+    beside_units = tuple(unit_of_inertia(mechanism, i, j) + per for i, j in zero)
     return parts, tuple(
         Criterion(
             " and ".join(own) if n > 1 else head,
-            unit_of_inertia(mechanism, i, j) + per,
+            unit,
             1 / len(pairs),
             entries=own if k else own + beside,
+            units=() if k else len(own) * (unit,) + beside_units,
         )
-        for k, (own, (i, j)) in enumerate(zip(names, pairs, strict=True))
+        for k, (own, unit) in enumerate(zip(names, units, strict=True))
     )
 
 

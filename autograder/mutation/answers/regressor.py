@@ -14,13 +14,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from autograder.judging.criterion import Criterion
 from autograder.judging.quantities import UnfitError, each
 from autograder.mechanisms.outline import Outline, Parameter
 from autograder.mechanisms.units import spelled
-from autograder.mutation.answers.answer import Answer, Judged, in_other_units
+from autograder.mutation import velocities
+from autograder.mutation.answers.answer import (
+    Answer,
+    Judged,
+    by_coordinate,
+    criterion,
+    in_other_units,
+)
 from autograder.mutation.answers.composition import Composition, Group, throughout
-from autograder.mutation.answers.coriolis import propagated, wrong_products
+from autograder.mutation.answers.coriolis import propagated
 from autograder.mutation.formulas import Numbers, formulas
 from autograder.mutation.in_pi import in_pi
 from autograder.mutation.mutant import Mutant
@@ -37,7 +43,7 @@ TIMES = {"dropped": 0.0, "wrong sign": -1.0, "doubled": 2.0, "halved": 0.5}
 # What is no mistake in a column, as an entry of π is 1 or 0 there, or would not be linear in π.
 OF_A_NUMBER = (
     "parameter left out", "kind left out", "point mass", "mass for inertia", "parallel axis added",
-    "parallel axis taken off", "square lost",
+    "parallel axis taken off", "square lost", "square added",
 )  # fmt: skip
 
 
@@ -56,20 +62,20 @@ def _judged(mechanism: Mechanism) -> Judged:
         )
 
     return columns, tuple(
-        Criterion(f"column of {pi.doc}", _unit(mechanism, pi.unit), 1 / len(entries))
+        criterion(f"column of {pi.doc}", _units(mechanism, pi.unit), 1 / len(entries))
         for pi in entries
     )
 
 
-def _unit(mechanism: Outline, unit: str) -> str:
-    """Of a torque or force over this."""
+def _units(mechanism: Outline, unit: str) -> tuple[str, ...]:
+    """Of the torques and forces over this."""
     turning = {"kg": "m²/s²", "kg·m": "m/s²", "kg·m²": "rad/s²"}
     sliding = {"kg": "m/s²", "kg·m": "rad/s²", "kg·m²": "rad/(m·s²)"}
-    kinds = {
-        "rad": turning.get(unit) or spelled("N·m", per=unit),
-        "m": sliding.get(unit) or spelled("N", per=unit),
-    }
-    return " or ".join(dict.fromkeys(kinds[c.unit] for c in mechanism.coordinates))
+    return by_coordinate(
+        mechanism,
+        turning.get(unit) or spelled("N·m", per=unit),
+        sliding.get(unit) or spelled("N", per=unit),
+    )
 
 
 def _case(mechanism: Mechanism, rng: np.random.Generator, k: int) -> list[tuple]:
@@ -154,7 +160,9 @@ def _only(row: str, torque: np.ndarray) -> np.ndarray:
 
 
 def _of_columns(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
-    """Columns in another order, missing, of the wrong sign, or with their parameters in them."""
+    """Columns in another order, missing, of the wrong sign, with their parameters in them, or with what
+    belongs to another one.
+    """
     entries, values = _pi(mechanism), _values(mechanism)
     orders = _orders([pi.unit for pi in entries])
     rows: list[list[int]] = [list(range(mechanism.n)), *([i] for i in range(mechanism.n))]
@@ -165,6 +173,8 @@ def _of_columns(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
         for row in rows
     ]
 
+    taken = list(itertools.permutations(range(len(entries)), 2))
+
     def numbers(q, qd, qdd, arms):
         Y = right(q, qd, qdd, arms)
         pi = values(q, qd, arms).T
@@ -174,11 +184,27 @@ def _of_columns(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
             wrong = Y.copy()
             wrong[:, row, column] *= factor
             found.append(wrong)
+        for source, target in taken:
+            wrong = Y.copy()
+            wrong[..., target] = Y[..., source]
+            found.append(wrong)
         return np.array(found)
 
     names = ("parameters inside", "joints exchanged", "sign of the whole")
-    mutants = [Mutant(name) for name in (*names, *len(orders) * ["columns in another order"])]
-    return Group([*mutants, *(mutant for mutant, *_ in changes)], numbers)
+    mutants = [Mutant(name) for name in names]
+    words = [pi.doc for pi in entries]
+    mutants += [
+        Mutant("columns in another order", detail=", ".join(words[k] for k in order))
+        for order in orders
+    ]
+    mutants += [mutant for mutant, *_ in changes]
+    mutants += [
+        Mutant(
+            "column of another", f"the column of {entries[target].doc}", put=entries[source].doc
+        )
+        for source, target in taken
+    ]
+    return Group(mutants, numbers)
 
 
 def _pi(mechanism: Outline) -> list[Parameter]:
@@ -217,7 +243,7 @@ def _orders(units: list[str]) -> list[list[int]]:
 def _of_energies(linear: Outline, catalogue: Callable, parts: Callable) -> Iterator[tuple]:
     """Mistakes in g, in C, in M, or in M and in the C that follows from it, as torques."""
     g, inertia, own = (catalogue(name, linear) for name in ("g_vec", "M", "C"))
-    products = wrong_products(linear)
+    products = velocities.in_coriolis(linear)
 
     def of_gravity(q, qd, qdd, arms):
         M_qdd, C_qd, _ = parts(q, qd, qdd, arms)

@@ -17,6 +17,8 @@ OF_STEPS = {
     "half the rate of M": "You return half of Ṁ. It makes Ṁ − 2C zero, but does it give the "
     "right C q̇?",
     "rate of M less 2C": "You return Ṁ − 2C. Which matrix multiplies q̇ in the equation of motion?",
+    "2C less the rate of M": "You return C less its transpose, which is 2C − Ṁ. Which matrix multiplies "
+    "q̇ in the equation of motion?",
     "M": "You return M, which multiplies q̈. C multiplies q̇.",
     "zero": "Your {where} is 0. What do you differentiate, and with respect to what?",
     "last derivative missing": "Your C leaves out −∂K/∂q and holds only the terms from "
@@ -51,6 +53,14 @@ OF_STEPS = {
     "symmetric?",
     "velocities exchanged": "You swapped the velocities in your {where}. Which velocity goes "
     "with the derivative by which coordinate?",
+    "velocities squared": "Your {where} has each velocity squared. How many of the two velocities "
+    "in a product of C q̇ come from the q̇ beside C?",
+    "products of velocities": "The entries of your C hold products of two velocities, as C q̇ does. "
+    "How many velocities are left for C itself?",
+    "products with the row": "The entries of your C hold products of two velocities. C multiplies "
+    "q̇: how many velocities are left for C itself?",
+    "velocities of K not squared": "Your kinetic energy has velocities alone where their squares "
+    "belong. How does it change if everything moves twice as fast?",
     "sum of the velocities": "You multiply each derivative of M by the sum of the velocities. "
     "In the chain rule, which velocity goes with which derivative?",
     "chain rule forgotten": "Your {where} holds derivatives by the coordinates, and no "
@@ -117,6 +127,8 @@ OF_STEPS = {
     "drift?",
     "share for the drift": "You divide by the energy at the start. What happens to this ratio "
     "if you measure heights from elsewhere?",
+    "column of another": "In your {where}, {term} holds what belongs in that of {put}. Which entry "
+    "of π multiplies it?",
     "columns in another order": "Your columns are right, but they stand in another order than "
     "the entries of π. Which entry belongs to each column?",
     "parameters inside": "Your columns hold the parameters that they belong to. Y may hold only "
@@ -131,6 +143,8 @@ OF_STEPS = {
     "order are the entries of x?",
     "states interleaved": "You read x, and write ẋ, as if each velocity stood beside its "
     "coordinate. In which order are the entries of x?",
+    "rate interleaved": "You write ẋ as if each acceleration stood beside its velocity. In which "
+    "order are the entries of x?",
     "M not inverted": "You multiply by M. In the equation of motion M multiplies q̈: how do you get q̈ "
     "alone?",
     "torque for acceleration": "The second half of your ẋ is a torque or force. What resists it?",

@@ -56,6 +56,18 @@ AT_A_PLACE = {
     "come out {right}?",
     "astray": "Your {where} holds {term}, as {put} does. Does it belong there too?",
     "moved": "Your {where} holds {term}, and {put} lacks it. Which coordinate moves it?",
+    "velocity not squared": "In your {where}, {term} grows with the speed itself. How does an energy "
+    "of motion change if everything moves twice as fast?",
+    "velocity missing": "In your {where}, {term} has one velocity, without {instead_of} beside it. "
+    "How does an energy of motion change if everything moves twice as fast?",
+    "square added": "In your {where}, the units of {term} do not come out {right}. Look at the "
+    "power of {put}.",
+    "double angle": "In your {where}, {term} takes twice {instead_of} for its angle. How often does "
+    "it come back to the same value in one turn?",
+    "wave power": "In your {where}, {term} has a sine or cosine to the wrong power. What becomes of "
+    "it if its angle grows by half a turn?",
+    "wave without its sign": "In your {where}, {term} has the size of a sine or cosine, without its "
+    "sign. At which angles is that sine or cosine negative?",
 }
 
 OF_FRICTION = {
@@ -96,6 +108,14 @@ OF_VELOCITIES = {
     "should be. Which derivatives of M does it come with?",
     "velocity doubled": "In your {where}, the part with the velocity {put} counts twice. Which "
     "derivatives of M does it come with?",
+}
+
+# One velocity too many, in an entry of C or of Ṁ.
+OF_VELOCITIES |= {
+    "velocity squared": "In your {where}, the velocity {put} counts with its square. C multiplies "
+    "q̇: how many velocities are left for an entry of C?",
+    "velocity too many": "Your {where} has one velocity too many. C multiplies q̇: how many velocities "
+    "are left for an entry of C?",
 }
 
 # Of a mistake that is made in all terms alike.
@@ -139,6 +159,17 @@ THROUGHOUT = {
     "moved": "Your {where} holds what belongs in {put}, and {put} lacks it. Which coordinate "
     "moves what?",
     "parameter left out": "Your {where} lacks {instead_of}. Do its units come out {right}?",
+    "velocity not squared": "Your {where} has velocities alone where their squares belong. How does the "
+    "kinetic energy change if everything moves twice as fast?",
+    "velocity missing": "In your {where}, {instead_of} is missing from products of two velocities. How "
+    "does the kinetic energy change if everything moves twice as fast?",
+    "square added": "The units of your {where} do not come out {right}. Look at the power of {put}.",
+    "double angle": "Your {where} takes twice {instead_of} for an angle. How often does it come back to "
+    "the same value in one turn?",
+    "wave power": "Your {where} has sines or cosines to the wrong power. What becomes of it if an angle "
+    "grows by half a turn?",
+    "wave without its sign": "Your {where} has the sizes of sines and cosines, without their signs. At "
+    "which angles is each of them negative?",
     "small angle": "Your {where} is right for small angles only. Where did you put something "
     "simpler in place of a sine or a cosine?",
     "radians converted": "You convert the angles to radians. They are in radians already.",

@@ -101,4 +101,51 @@ ROWS = (
         "Your {where} has its rows in the wrong order. Which coordinate does the first row belong to?",
         "regressor",
     ),
+    Row(
+        "velocities squared",
+        "Your {where} has each velocity squared. How does the rate of an entry change if the joints "
+        "move twice as fast?",
+        "M_dot",
+    ),
+    Row(
+        "velocity squared",
+        "In your {where}, the velocity {put} is squared. How does the rate of an entry change if the "
+        "joints move twice as fast?",
+        "M_dot",
+    ),
+    Row(
+        "velocity of the wrong sign",
+        "In your {where}, the part with the velocity {put} has the wrong sign. How does M change as "
+        "that coordinate alone grows?",
+        "M_dot",
+    ),
+    Row(
+        "velocity dropped",
+        "In your {where}, the part with the velocity {put} is missing. How does M change as that "
+        "coordinate alone grows?",
+        "M_dot",
+    ),
+    Row(
+        "product dropped",
+        "Your Y lacks the product of velocities {put} in {where}. Which entries of C bring it there?",
+        "regressor",
+    ),
+    Row(
+        "product of the wrong sign",
+        "Your Y has the product of velocities {put} with the wrong sign in {where}. Which entries "
+        "of C bring it there?",
+        "regressor",
+    ),
+    Row(
+        "product halved",
+        "Your Y has half of the product of velocities {put} in {where}. How often does it come up when "
+        "C is multiplied by q̇?",
+        "regressor",
+    ),
+    Row(
+        "product doubled",
+        "Your Y counts the product of velocities {put} twice in {where}. How often does it come up when "
+        "C is multiplied by q̇?",
+        "regressor",
+    ),
 )

@@ -49,6 +49,17 @@ def _columns(*order):
     return lambda q, qd, qdd, arm: regressor(q, qd, qdd, arm)[..., order]
 
 
+def _plus_column_of(column):
+    """The right Y with what belongs in a column also in that of m1, which is empty."""
+
+    def wrong(*state):
+        Y = regressor(*state)
+        Y[..., M1] = Y[..., column]
+        return Y
+
+    return wrong
+
+
 class _State:
     """The angles, velocities and accelerations by name, of one state or of many."""
 
@@ -195,11 +206,11 @@ REGRESSOR_SAID = {
         "Every entry of your Y has the wrong sign. On which side of the equation of motion do "
         "the torques u stand?"
     ),
-    "columns in another order": ORDER,
+    "columns in another order / *": ORDER,
     "joints exchanged": (
         "You swapped the rows of the two joints. Which joint feels the weight of link 1?"
     ),
-    "wrong parameter / l2 / l1": (
+    "wrong parameter / l2 / l1 / in M and g": (
         "You use ℓ2 where link 2 begins. Which length leads from the shoulder to the elbow?"
     ),
     "parameter left out / g / in g_vec": (
@@ -260,11 +271,20 @@ REGRESSOR = (
         "unknowns: which entry of π holds it already?",
         whole=True,
     ),
-    Mistake("each link reversed", _columns(J1, MC1, M1, J2, MC2, M2), ORDER),
-    Mistake("inertia first", _columns(J1, M1, MC1, J2, M2, MC2), ORDER),
-    Mistake("inertia before first moment", _columns(M1, J1, MC1, M2, J2, MC2), ORDER),
-    Mistake("first moment first", _columns(MC1, M1, J1, MC2, M2, J2), ORDER),
-    Mistake("link 2 first", _columns(M2, MC2, J2, M1, MC1, J1), ORDER),
+    Mistake("each link reversed", _columns(J1, MC1, M1, J2, MC2, M2), ORDER, whole=True),
+    Mistake("inertia first", _columns(J1, M1, MC1, J2, M2, MC2), ORDER, whole=True),
+    Mistake("inertia before first moment", _columns(M1, J1, MC1, M2, J2, MC2), ORDER, whole=True),
+    Mistake("first moment first", _columns(MC1, M1, J1, MC2, M2, J2), ORDER, whole=True),
+    Mistake("link 2 first", _columns(M2, MC2, J2, M1, MC1, J1), ORDER, whole=True),
+    *(
+        Mistake(
+            f"the column of {name} in that of m1",
+            _plus_column_of(column),
+            "Your column of m1 holds what belongs in another one. Put all of m1 into the shoulder, so "
+            "that ℓc1 = 0: does joint 1 feel it?",
+        )
+        for column, name in ((MC1, "m1 lc1"), (J1, "J1"), (M2, "m2"), (MC2, "m2 lc2"), (J2, "J2"))
+    ),
     Mistake(
         "reshaped for transposed",
         lambda q, qd, qdd, arm: np.reshape(regressor(q, qd, qdd, arm).T, (2, 6)),

@@ -191,6 +191,10 @@ CHECKS = (
                 0.3,
                 otherwise=(
                     "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the "
+                    "Christoffel form."
+                ),
+                alone=(
+                    "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the "
                     "Christoffel form. A right C q̇ is not enough: how does that form share the "
                     "product q̇1 q̇2 between the entries of a row?"
                 ),

@@ -149,8 +149,8 @@ RATE_SAID = {
         "Your Coulomb friction has the sign of the angle. Does friction depend on where a joint "
         "is, or on how it moves?"
     ),
-    "smooth sign / the Coulomb friction": SMOOTH_SIGN,
-    "friction at rest / the Coulomb friction": AT_REST,
+    "smooth sign / the Coulomb friction / *": SMOOTH_SIGN,
+    "friction at rest / the Coulomb friction / *": AT_REST,
     "coefficients exchanged / the friction": (
         "You swapped the two friction coefficients. Which of them is in N·m, and which in "
         "N·m·s/rad?"

@@ -67,7 +67,7 @@ def test_another_process_derives_nothing(folder):
 
 def test_an_entry_follows_from_all_that_derives_and_from_no_sentence():
     names = {path.name for path in kept.sources()}
-    assert {"operators.py", "steps.py", "coriolis.py", "mechanism.py", "derivation.py"} <= names
+    assert {"of_waves.py", "steps.py", "coriolis.py", "mechanism.py", "derivation.py"} <= names
     assert "of_terms.py" not in names
 
 

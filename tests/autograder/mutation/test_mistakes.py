@@ -47,6 +47,8 @@ ASKED = [
     if m.name in ALL or (i + k) % OTHERS == 0
 ]
 ASKED += [(SLIDER, answer) for answer in ("M", "g_vec", "C")]
+# Where several mistakes differ in a detail: two lengths beside an inertia, friction of two joints.
+ASKED += [(MECHANISMS["planar-2r-beside"], "M"), (MECHANISMS["furuta"], "f")]
 EVERY = pytest.mark.parametrize(
     ("mechanism", "answer"), ASKED, ids=[f"{m.name}-{a}" for m, a in ASKED]
 )
@@ -60,8 +62,10 @@ def judged(check, function, seed=0, count=VISIBLE_CASES):
 
 
 @EVERY
-def test_no_two_mistakes_have_the_same_numbers(mechanism, answer):
+def test_no_two_mistakes_have_the_same_numbers_or_one_name(mechanism, answer):
     """To a fresh draw, so that what was taken for two is two."""
+    names = [mistake.name for mistake in mistakes_of(mechanism, answer)]
+    assert len(set(names)) == len(names)
     asked = ANSWERS[answer]
     calls = [call.args for call in asked.calls(mechanism, np.random.default_rng(11), 1)]
     catalogue = catalogue_of(mechanism, answer)
