@@ -95,7 +95,7 @@ WRONG = {
     "p2-M_dot": (0, "velocities exchanged"),
     "p2-C": (0, "C times ones"),
     "p2-C_other": (0, "first entry dropped"),
-    "p2-christoffel": (0, "M_dot for C"),
+    "p2-christoffel": (0, "rate of M"),
     "p3-lagrangian": (0, "½ of K missing", "sine for cosine / the weight of the body"),
     "p3-M": (0, "parallel axis added / the rotation of the body / m / I"),
     "p3-C": (0, "point-mass centrifugal term"),
