@@ -237,7 +237,8 @@ ADDED = {
 
 def _numbers(q, qd, arm) -> Right:
     slopes = np.multiply.outer(right.h(q, arm) * PATTERN, [0.0, 1.0])
-    return Right(right.M(q, arm), slopes, qd, right.g_vec(q, arm), right.potential_energy(q, arm))
+    P = np.array(right.potential_energy(q, arm))
+    return Right(right.M(q, arm), slopes, qd, right.g_vec(q, arm), P)
 
 
 def _other(step):

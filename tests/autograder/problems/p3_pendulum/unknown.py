@@ -34,10 +34,6 @@ TRACED = {
     ],
     "p3-lagrangian": [
         (
-            f"1.2 * {KINETIC} - {POTENTIAL}",
-            f"In your kinetic part of L, every value is 20 % too large. {FACTOR}",
-        ),
-        (
             f"{KINETIC} - 0.7 * {POTENTIAL}",
             f"In your potential part of L, every value is 30 % too small. {FACTOR}",
         ),
