@@ -27,7 +27,7 @@ def namespace_of(check_id: str, body: str) -> dict:
 
 def judged_in(namespace: dict, check_id: str, seed: int = 0, count: int = HIDDEN_CASES) -> Verdict:
     """The verdict on the function in this namespace, however slow the machine is."""
-    return _run(CHECKS[check_id], namespace, seed, count)
+    return verdict_of(CHECKS[check_id], namespace, seed, count)
 
 
 def judged(check_id: str, body: str, seed: int = 0, count: int = HIDDEN_CASES) -> Verdict:
@@ -37,10 +37,11 @@ def judged(check_id: str, body: str, seed: int = 0, count: int = HIDDEN_CASES) -
 
 def judged_by(check: Check, body: str, seed: int = 0, count: int = HIDDEN_CASES) -> Verdict:
     """As `judged`, by a check of one's own."""
-    return _run(check, namespace_of(check.id, body), seed, count)
+    return verdict_of(check, namespace_of(check.id, body), seed, count)
 
 
-def _run(check, namespace, seed, count):
+def verdict_of(check: Check, namespace: dict, seed: int = 0, count: int = HIDDEN_CASES) -> Verdict:
+    """As `judged_in`, by a check of one's own."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(calls, "CALL_SECONDS", 60.0)
         return check.run(

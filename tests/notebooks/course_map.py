@@ -213,8 +213,9 @@ def _problem(path, prepared_by, to):
     module = path.stem.replace("-", "_")
     of_problem = [
         f"tests/autograder/problems/{module}/test_checks.py",
+        f"tests/autograder/problems/{module}/right.py",
         f"tests/autograder/problems/{module}/table.py",
-        f"tests/autograder/problems/{module}/test_wrong_answers.py",
+        f"tests/autograder/problems/{module}/unknown.py",
         f"tests/submissions/{module}.py",
     ]
     tests = [test for test in of_problem if (ROOT / test).exists()]

@@ -21,15 +21,28 @@ M1, MC1, J1, M2, MC2, J2 = range(6)
 
 
 def _with(**of):
-    """The right Y of an arm, of which some parameters are what these functions of it give."""
+    """The right Y of an arm, of which some parameters are others of it (by name) or numbers."""
     return lambda q, qd, qdd, arm: regressor(
-        q, qd, qdd, changed(arm, **{name: value(arm) for name, value in of.items()})
+        q,
+        qd,
+        qdd,
+        changed(arm, **{k: getattr(arm, v) if isinstance(v, str) else v for k, v in of.items()}),
     )
 
 
-def _at(q=1.0, qd=1.0, qdd=1.0):
-    """The right Y of another state: angles, velocities and accelerations times these numbers."""
-    return lambda q_, qd_, qdd_, arm: regressor(q * q_, qd * qd_, qdd * qdd_, arm)
+def _parts(gravity=1.0, velocity=1.0, acceleration=1.0, weighed_at=lambda q1, q2: (q1, q2)):
+    """The right Y with its three parts times these numbers, gravity at other angles."""
+
+    def wrong(q, qd, qdd, arm):
+        weightless, still = changed(arm, g=0.0), 0.0 * qd
+        at = np.stack(weighed_at(q[..., 0], q[..., 1]), axis=-1)
+        return (
+            gravity * regressor(at, still, still, arm)
+            + velocity * regressor(q, qd, still, weightless)
+            + acceleration * regressor(q, still, qdd, weightless)
+        )
+
+    return wrong
 
 
 def _plus(entries):
@@ -61,34 +74,11 @@ def _plus_column_of(column):
 
 
 class _State:
-    """The angles, velocities and accelerations by name, of one state or of many."""
+    """The accelerations by name, and cosines, of one state or of many."""
 
     def __init__(self, q, qd, qdd):
-        self.q1, self.q2, self.qd1, self.qd2 = q[..., 0], q[..., 1], qd[..., 0], qd[..., 1]
-        self.qdd1, self.qdd2 = qdd[..., 0], qdd[..., 1]
-        self.c1, self.c2, self.s2 = np.cos(self.q1), np.cos(self.q2), np.sin(self.q2)
-        self.c12, self.spin_2 = np.cos(self.q1 + self.q2), self.qdd1 + self.qdd2
-
-
-def _gravity_as(of_1, of_2):
-    """Gravity that varies with these functions of the state, for cos q1 and for cos(q1 + q2)."""
-    return _plus(
-        lambda s, arm: {
-            (0, MC1): arm.g * (of_1(s) - s.c1),
-            (0, M2): arm.l1 * arm.g * (of_1(s) - s.c1),
-            (0, MC2): arm.g * (of_2(s) - s.c12),
-            (1, MC2): arm.g * (of_2(s) - s.c12),
-        }
-    )
-
-
-def _coupling(joint_1, joint_2):
-    """More of ℓ1 in the column of m2 ℓc2, for each joint a function of the state."""
-    return _plus(lambda s, arm: {(0, MC2): arm.l1 * joint_1(s), (1, MC2): arm.l1 * joint_2(s)})
-
-
-def _nothing(s):
-    return 0.0
+        self.qdd1, self.spin_2 = qdd[..., 0], qdd[..., 0] + qdd[..., 1]
+        self.c1, self.c2 = np.cos(q[..., 0]), np.cos(q[..., 1])
 
 
 NO_GRAVITY = (
@@ -222,7 +212,7 @@ REGRESSOR_SAID = {
     "angle in degrees": sentences.IN_DEGREES,
 }
 _absolute_acceleration = _plus(lambda s, arm: {(0, J2): -s.qdd1, (1, J2): -s.qdd1})
-_coupling_once = _coupling(lambda s: -s.c2 * s.qdd1, _nothing)
+_coupling_once = _plus(lambda s, arm: {(0, MC2): -arm.l1 * s.c2 * s.qdd1})
 # This one also follows from the arm, but there what is halved is never one of two mistakes.
 REGRESSOR = (
     Mistake("coupling without the factor 2", _coupling_once, COUPLING_ONCE),
@@ -292,7 +282,7 @@ REGRESSOR = (
     ),
     Mistake(
         "lc1 for l1",
-        _with(l1=lambda arm: arm.lc1),
+        _with(l1="lc1"),
         "You let link 2 begin at the centre of mass of link 1. Where on link 1 is the elbow?",
     ),
 )
@@ -308,82 +298,72 @@ def solved(W, u) -> np.ndarray:
     return np.linalg.lstsq(W, np.ravel(u), rcond=1e-10)[0]
 
 
-def _base(q, qd, qdd, arm):
-    """Y of the base parameters, (K, 2, 4)."""
-    return regressor(q, qd, qdd, arm)[..., BASE_COLUMNS]
+def _fit(solve, Y=regressor):
+    """An estimate from Y of the base parameters, (K, 2, 4), and the torques, (K, 2)."""
+    return lambda q, qd, qdd, u, arm: solve(
+        Y(q, qd, qdd, arm)[..., BASE_COLUMNS], np.reshape(u, (-1, 2))
+    )
 
 
-def fit(q, qd, qdd, u, arm) -> np.ndarray:
-    """The least-squares estimate of the base parameters, (4,)."""
-    return solved(stacked(_base(q, qd, qdd, arm)), u)
+def _least_squares(Y, u) -> np.ndarray:
+    return solved(stacked(Y), u)
 
 
-def _fit_with(Y):
-    """The fit with a wrong regressor."""
-    return lambda q, qd, qdd, u, arm: solved(stacked(Y(q, qd, qdd, arm)[..., BASE_COLUMNS]), u)
+fit = _fit(_least_squares)  # the right answer, (4,)
 
 
-def _fit_of(rows):
+def _of(rows):
     """The fit with some of the samples or of the joints only."""
-
-    def wrong(q, qd, qdd, u, arm):
-        return solved(stacked(_base(q, qd, qdd, arm)[rows]), np.reshape(u, (-1, 2))[rows])
-
-    return wrong
+    return _fit(lambda Y, u: _least_squares(Y[rows], u[rows]))
 
 
 def _ridge(weight):
-    def wrong(q, qd, qdd, u, arm):
-        W = stacked(_base(q, qd, qdd, arm))
+    def solve(Y, u):
+        W = stacked(Y)
         return np.linalg.solve(W.T @ W + weight * np.eye(4), W.T @ np.ravel(u))
 
-    return wrong
+    return _fit(solve)
 
 
 def _with_offset(offsets):
     """The fit with further columns, one for each column of offsets, (2, k), at every sample."""
-
-    def wrong(q, qd, qdd, u, arm):
-        W = stacked(_base(q, qd, qdd, arm))
-        return solved(np.hstack([W, np.tile(offsets, (len(q), 1))]), u)[:4]
-
-    return wrong
+    return _fit(lambda Y, u: solved(np.hstack([stacked(Y), np.tile(offsets, (len(u), 1))]), u)[:4])
 
 
-def _joint_after_joint(q, qd, qdd, u, arm):
+@_fit
+def _joint_after_joint(Y, u):
     """Link 2 from the torques of joint 2, then the rest from those of joint 1."""
-    Y = _base(q, qd, qdd, arm)
     of_link_2 = solved(Y[:, 1, 2:], u[:, 1])
     return np.concatenate([solved(Y[:, 0, :2], u[:, 0] - Y[:, 0, 2:] @ of_link_2), of_link_2])
 
 
-def _mean_of_joints(q, qd, qdd, u, arm):
-    Y = _base(q, qd, qdd, arm)
+@_fit
+def _mean_of_joints(Y, u):
     return (solved(Y[:, 0], u[:, 0]) + solved(Y[:, 1], u[:, 1])) / 2
 
 
-def _mean_of_samples(q, qd, qdd, u, arm):
-    Y = _base(q, qd, qdd, arm)
+@_fit
+def _mean_of_samples(Y, u):
     return np.mean([np.linalg.pinv(Yk) @ uk for Yk, uk in zip(Y, u, strict=True)], axis=0)
 
 
-def _scaled(q, qd, qdd, u, arm):
-    W = stacked(_base(q, qd, qdd, arm))
-    return solved(W / np.linalg.norm(W, axis=0), u)
+@_fit
+def _scaled(Y, u):
+    return _least_squares(Y / np.linalg.norm(stacked(Y), axis=0), u)
 
 
-def _total(q, qd, qdd, u, arm):
-    together = np.column_stack([stacked(_base(q, qd, qdd, arm)), np.ravel(u)])
-    last = np.linalg.svd(together)[2][-1]
-    return -last[:4] / last[4]
+@_fit
+def _total(Y, u):
+    *others, last = np.linalg.svd(np.column_stack([stacked(Y), np.ravel(u)]))[2][-1]
+    return -np.array(others) / last
 
 
 def _shortest_pi(q, qd, qdd, u, arm):
-    return solved(stacked(regressor(q, qd, qdd, arm)), u)[[*BASE_COLUMNS]]
+    return _least_squares(regressor(q, qd, qdd, arm), u)[[*BASE_COLUMNS]]
 
 
 def _reordered(*order):
-    return lambda q, qd, qdd, u, arm: fit(q, qd, qdd, u, arm)[[*order]]
+    return _fit(lambda Y, u: _least_squares(Y, u)[[*order]])
 
 
 ONE_SAMPLE = (
@@ -411,13 +391,13 @@ ESTIMATE_ORDER = (
 IDENTIFY = (
     Mistake(
         "joint 1 only",
-        _fit_of((slice(None), 0)),
+        _of((slice(None), 0)),
         "Your fit uses only the torques of joint 1. Without noise they are enough. With noise, "
         "what do the equations of joint 2 still tell you?",
     ),
     Mistake(
         "joint 2 only",
-        _fit_of((slice(None), 1)),
+        _of((slice(None), 1)),
         "Your fit uses only the torques of joint 2. Which of the four numbers can that joint feel?",
     ),
     Mistake(
@@ -434,18 +414,18 @@ IDENTIFY = (
     ),
     Mistake(
         "first sample",
-        _fit_of(slice(0, 1)),
+        _of(slice(0, 1)),
         ONE_SAMPLE,
     ),
-    Mistake("last sample", _fit_of(slice(-1, None)), ONE_SAMPLE),
+    Mistake("last sample", _of(slice(-1, None)), ONE_SAMPLE),
     Mistake(
         "last sample forgotten",
-        _fit_of(slice(None, -1)),
+        _of(slice(None, -1)),
         "You leave the last sample out of your fit. Where does your loop end?",
     ),
     Mistake(
         "first sample forgotten",
-        _fit_of(slice(1, None)),
+        _of(slice(1, None)),
         "You leave the first sample out of your fit. At which index does an array begin?",
     ),
     Mistake(
@@ -456,12 +436,12 @@ IDENTIFY = (
     ),
     Mistake(
         "torques joint by joint",
-        lambda q, qd, qdd, u, arm: solved(stacked(_base(q, qd, qdd, arm)), u.T),
+        _fit(lambda Y, u: _least_squares(Y, u.T)),
         STACKING,
     ),
     Mistake(
         "rows joint by joint",
-        lambda q, qd, qdd, u, arm: solved(stacked(_base(q, qd, qdd, arm).swapaxes(0, 1)), u),
+        _fit(lambda Y, u: _least_squares(Y.swapaxes(0, 1), u)),
         STACKING,
     ),
     *(Mistake(f"ridge {w:g}", _ridge(w), REGULARISED) for w in (1.0, 0.1, 0.01, 1e-3)),
@@ -490,7 +470,7 @@ IDENTIFY = (
     Mistake("link 2 first", _reordered(2, 3, 0, 1), ESTIMATE_ORDER),
     Mistake(
         "sign",
-        lambda q, qd, qdd, u, arm: -fit(q, qd, qdd, u, arm),
+        _fit(lambda Y, u: -_least_squares(Y, u)),
         "All four numbers have the wrong sign: your arm has negative masses. On which sides of the "
         "equation do Y π and u stand?",
     ),
@@ -508,39 +488,30 @@ STANDS_ON = (
     "or look at what you changed in it here."
 )
 FITTED = {
-    "gravity missing": _with(g=lambda arm: 0.0),
-    "sign of gravity": _with(g=lambda arm: -arm.g),
-    "sine for cosine in gravity": _gravity_as(
-        lambda s: np.sin(s.q1), lambda s: np.sin(s.q1 + s.q2)
-    ),
-    "absolute second angle in gravity": _gravity_as(lambda s: s.c1, lambda s: s.c2),
+    "gravity missing": _parts(gravity=0.0),
+    "sign of gravity": _parts(gravity=-1.0),
+    "sine for cosine in gravity": _parts(weighed_at=lambda q1, q2: (q1 - np.pi / 2, q2)),
+    "absolute second angle in gravity": _parts(weighed_at=lambda q1, q2: (q1, q2 - q1)),
     "coupling without the factor 2": _coupling_once,
-    "velocity products left out": _at(qd=0.0),
-    "no acceleration": _at(qdd=0.0),
-    "sign of the velocity products": _coupling(
-        lambda s: 2 * s.s2 * (2 * s.qd1 * s.qd2 + s.qd2**2), lambda s: -2 * s.s2 * s.qd1**2
-    ),
+    "velocity products left out": _parts(velocity=0.0),
+    "no acceleration": _parts(acceleration=0.0),
+    "sign of the velocity products": _parts(velocity=-1.0),
     "absolute acceleration of link 2": _absolute_acceleration,
-    "l2 for l1": _with(l1=lambda arm: arm.l2),
-    "9.81": _with(g=lambda arm: 9.81),
-    "example arm": _with(l1=lambda arm: EXAMPLE.l1, g=lambda arm: EXAMPLE.g),
+    "l2 for l1": _with(l1="l2"),
+    "9.81": _with(g=9.81),
+    "example arm": _with(l1=EXAMPLE.l1, g=EXAMPLE.g),
 }
-IDENTIFY += tuple(Mistake(f"fit: {name}", _fit_with(Y), STANDS_ON) for name, Y in FITTED.items())
+IDENTIFY += tuple(
+    Mistake(f"fit: {name}", _fit(_least_squares, Y), STANDS_ON) for name, Y in FITTED.items()
+)
 
 
-def rank(q, qd, qdd, arm) -> int:
-    """The numerical rank of the stacked regressor."""
-    return int(np.linalg.matrix_rank(stacked(regressor(q, qd, qdd, arm))))
+def _rank_with(Y=regressor, rows=slice(None)):
+    """The numerical rank of a stacked regressor, of some of the samples or of the joints."""
+    return lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(stacked(Y(q, qd, qdd, arm)[rows])))
 
 
-def _rank_with(Y):
-    return lambda q, qd, qdd, arm: int(np.linalg.matrix_rank(stacked(Y(q, qd, qdd, arm))))
-
-
-def _rank_of(rows):
-    return lambda q, qd, qdd, arm: int(
-        np.linalg.matrix_rank(stacked(regressor(q, qd, qdd, arm)[rows]))
-    )
+rank = _rank_with()  # the right answer
 
 
 def _always(count):
@@ -600,15 +571,15 @@ RANK = (
         "You count the columns that are not zero. Can you make one of them from the others?",
     ),
     # Also that of the sum of the samples, and of all of them side by side: two rows, one rank.
-    Mistake("first sample", _rank_of(slice(0, 1)), ONE_STATE),
+    Mistake("first sample", _rank_with(rows=slice(0, 1)), ONE_STATE),
     Mistake(
         "joint 1 only",
-        _rank_of((slice(None), 0)),
+        _rank_with(rows=(slice(None), 0)),
         "You count only what joint 1 shows. Does the torque of joint 2 show anything more?",
     ),
     Mistake(
         "joint 2 only",
-        _rank_of((slice(None), 1)),
+        _rank_with(rows=(slice(None), 1)),
         "You count only what joint 2 shows. What can joint 2 feel of link 1?",
     ),
     Mistake(
@@ -625,18 +596,18 @@ RANK = (
     ),
     Mistake(
         "gravity ignored",
-        _rank_with(_with(g=lambda arm: 0.0)),
+        _rank_with(_parts(gravity=0.0)),
         "You count what a motion would show without gravity. Which g does arm have?",
     ),
     Mistake(
         "9.81",
-        _rank_with(_with(g=lambda arm: 9.81)),
+        _rank_with(_with(g=9.81)),
         "You count what a motion would show on Earth. The check also takes the arm into orbit, "
         "where g is 0: which parameter of arm gives g?",
     ),
     Mistake(
         "no acceleration",
-        _rank_with(_at(qdd=0.0)),
+        _rank_with(_parts(acceleration=0.0)),
         "Your regressor does not see the accelerations here. Which arguments do you pass to it?",
     ),
     Mistake(

@@ -22,8 +22,13 @@ def _links(matrix):
     )
 
 
+def _of(links):
+    """The right model with some of the links only: none gives zeros."""
+    return lambda jacobians, inertias: _right(jacobians[links], inertias[links])
+
+
 def _right(jacobians, inertias):
-    return _links(lambda J, I: J.T @ I @ J)(jacobians, inertias)
+    return np.einsum("lai,lab,lbj->ij", jacobians, inertias, jacobians)
 
 
 def _without_coupling(I):
@@ -66,39 +71,15 @@ INERTIA_FROM_LINKS = (
         "You use the inverse of each spatial inertia. Which of the two, the inertia or its "
         "inverse, turns a velocity into a momentum?",
     ),
-    Mistake(
-        "half",
-        lambda jacobians, inertias: _right(jacobians, inertias) / 2,
-        HALF,
-    ),
-    Mistake(
-        "last link only",
-        lambda jacobians, inertias: jacobians[-1].T @ inertias[-1] @ jacobians[-1],
-        sentences.LAST_LINK_ONLY,
-    ),
+    Mistake("half", lambda jacobians, inertias: _right(jacobians, inertias) / 2, HALF),
+    Mistake("last link only", _of(slice(-1, None)), sentences.LAST_LINK_ONLY),
     Mistake(
         "first link only",
-        lambda jacobians, inertias: jacobians[0].T @ inertias[0] @ jacobians[0],
+        _of(slice(0, 1)),
         "Your result holds only the first link. Is your return inside the loop?",
     ),
-    Mistake(
-        "last link left out",
-        lambda jacobians, inertias: (
-            _right(jacobians[:-1], inertias[:-1])
-            if len(jacobians) > 1
-            else 0.0 * _right(jacobians, inertias)
-        ),
-        sentences.LAST_LINK_LEFT_OUT,
-    ),
-    Mistake(
-        "first link left out",
-        lambda jacobians, inertias: (
-            _right(jacobians[1:], inertias[1:])
-            if len(jacobians) > 1
-            else 0.0 * _right(jacobians, inertias)
-        ),
-        sentences.FIRST_LINK_LEFT_OUT,
-    ),
+    Mistake("last link left out", _of(slice(None, -1)), sentences.LAST_LINK_LEFT_OUT),
+    Mistake("first link left out", _of(slice(1, None)), sentences.FIRST_LINK_LEFT_OUT),
     Mistake(
         "mean for sum",
         lambda jacobians, inertias: _right(jacobians, inertias) / len(jacobians),

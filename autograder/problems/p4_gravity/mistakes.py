@@ -155,9 +155,9 @@ def _from_jacobians(jacobians_v, masses, g0) -> np.ndarray:
     return -np.einsum("l,lin,i->n", masses, jacobians_v, g0)
 
 
-def _along(axis, strength):
-    """As if gravity pointed against this axis: 1 for y, 2 for z."""
-    return lambda jacobians_v, masses, g0: strength(g0) * masses @ jacobians_v[:, axis]
+def _gravity(change):
+    """The right formula with another g0."""
+    return lambda jacobians_v, masses, g0: _from_jacobians(jacobians_v, masses, change(g0))
 
 
 def _masses(change):
@@ -165,11 +165,9 @@ def _masses(change):
     return lambda jacobians_v, masses, g0: _from_jacobians(jacobians_v, change(masses), g0)
 
 
-def _component(axis):
-    """One component of gravity alone."""
-    return lambda jacobians_v, masses, g0: _from_jacobians(
-        jacobians_v, masses, g0 * (np.arange(3) == axis)
-    )
+def _but_for(place, kept=0.0, others=1.0):
+    """The masses times these numbers: the one at this place, and the others."""
+    return _masses(lambda m: m * np.where(np.arange(len(m)) == place % len(m), kept, others))
 
 
 def _reshaped(jacobians_v, masses, g0):
@@ -177,6 +175,7 @@ def _reshaped(jacobians_v, masses, g0):
     return -masses @ (jacobians_v.reshape(L, n, 3) @ g0)
 
 
+_, Y, Z = np.eye(3)
 LENGTH_OF_G0 = (
     "You use only the length of g0 and let gravity point straight along one axis. What does the "
     "direction of the vector g0 tell you?"
@@ -194,76 +193,48 @@ LOADS = (
     "links have their mass there?"
 )
 
+# What stands for g0, with the sentence.
+STRENGTHS = {
+    "length of g0 against y": (lambda g0: -np.linalg.norm(g0) * Y, LENGTH_OF_G0),
+    "length of g0 against z": (lambda g0: -np.linalg.norm(g0) * Z, LENGTH_OF_G0),
+    "length of g0 along y": (lambda g0: np.linalg.norm(g0) * Y, LENGTH_OF_G0),
+    "length of g0 along z": (lambda g0: np.linalg.norm(g0) * Z, LENGTH_OF_G0),
+    "y component alone": (lambda g0: g0 * Y, ONE_COMPONENT),
+    "z component alone": (lambda g0: g0 * Z, ONE_COMPONENT),
+    "9.81 against y": (lambda g0: -9.81 * Y, EARTH),
+    "9.81 against z": (lambda g0: -9.81 * Z, EARTH),
+    "9.81 along g0": (lambda g0: 9.81 * g0 / np.linalg.norm(g0), EARTH),
+    "direction of g0 alone": (
+        lambda g0: g0 / np.linalg.norm(g0),
+        "You use only the direction of g0. How strong is gravity?",
+    ),
+}
+
 FROM_JACOBIANS = (
     Mistake(
         "sign of gravity",
-        lambda jacobians_v, masses, g0: -_from_jacobians(jacobians_v, masses, g0),
+        _gravity(lambda g0: -g0),
         "Your gravity torque has the wrong sign. g0 points down: does P grow or fall when a "
         "centre of mass moves along g0?",
     ),
-    Mistake(
-        "length of g0 against y",
-        _along(1, np.linalg.norm),
-        LENGTH_OF_G0,
-    ),
-    Mistake("length of g0 against z", _along(2, np.linalg.norm), LENGTH_OF_G0),
-    Mistake("length of g0 along y", _along(1, lambda g0: -np.linalg.norm(g0)), LENGTH_OF_G0),
-    Mistake("length of g0 along z", _along(2, lambda g0: -np.linalg.norm(g0)), LENGTH_OF_G0),
-    Mistake("y component alone", _component(1), ONE_COMPONENT),
-    Mistake("z component alone", _component(2), ONE_COMPONENT),
-    Mistake("9.81 against y", _along(1, lambda g0: 9.81), EARTH),
-    Mistake("9.81 against z", _along(2, lambda g0: 9.81), EARTH),
-    Mistake(
-        "9.81 along g0",
-        lambda jacobians_v, masses, g0: _from_jacobians(
-            jacobians_v, masses, 9.81 * g0 / np.linalg.norm(g0)
-        ),
-        EARTH,
-    ),
-    Mistake(
-        "direction of g0 alone",
-        lambda jacobians_v, masses, g0: _from_jacobians(
-            jacobians_v, masses, g0 / np.linalg.norm(g0)
-        ),
-        "You use only the direction of g0. How strong is gravity?",
-    ),
+    *(Mistake(name, _gravity(g0), sentence) for name, (g0, sentence) in STRENGTHS.items()),
     Mistake(
         "masses ignored",
         _masses(np.ones_like),
         "You leave out the masses. What turns the acceleration g0 into a force on a link?",
     ),
     Mistake("masses added up from the base", _masses(np.cumsum), LOADS),
-    Mistake(
-        "masses added up from the hand",
-        _masses(lambda masses: np.cumsum(masses[::-1])[::-1]),
-        LOADS,
-    ),
+    Mistake("masses added up from the hand", _masses(lambda m: np.cumsum(m[::-1])[::-1]), LOADS),
     Mistake(
         "total mass at every link",
-        _masses(lambda masses: np.full_like(masses, masses.sum())),
+        _masses(lambda m: np.full_like(m, m.sum())),
         "You put the mass of the whole robot at every centre of mass. Which mass belongs to which "
         "Jacobian?",
     ),
-    Mistake(
-        "first link left out",
-        _masses(lambda masses: masses * (np.arange(len(masses)) > 0)),
-        sentences.FIRST_LINK_LEFT_OUT,
-    ),
-    Mistake(
-        "last link left out",
-        _masses(lambda masses: masses * (np.arange(len(masses)) < len(masses) - 1)),
-        sentences.LAST_LINK_LEFT_OUT,
-    ),
-    Mistake(
-        "last link alone",
-        _masses(lambda masses: masses * (np.arange(len(masses)) == len(masses) - 1)),
-        sentences.LAST_LINK_ONLY,
-    ),
-    Mistake(
-        "reshaped for transposed",
-        _reshaped,
-        sentences.RESHAPED,
-    ),
+    Mistake("first link left out", _but_for(0), sentences.FIRST_LINK_LEFT_OUT),
+    Mistake("last link left out", _but_for(-1), sentences.LAST_LINK_LEFT_OUT),
+    Mistake("last link alone", _but_for(-1, kept=1.0, others=0.0), sentences.LAST_LINK_ONLY),
+    Mistake("reshaped for transposed", _reshaped, sentences.RESHAPED),
 )
 
 

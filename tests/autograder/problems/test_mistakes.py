@@ -2,24 +2,16 @@
 
 import fnmatch
 from collections import Counter
-from importlib import import_module
 
 import pytest
 
 from autograder.judging.verdict import State
-from autograder.problems import CHECKS, MODULES
+from autograder.problems import CHECKS
 from tests.autograder.every_mutant import assert_each_is_found
 from tests.autograder.problems.row import Row, names_in, verdict_on
+from tests.autograder.problems.tables import ROWS
 from tests.autograder.verdicts import sentences
 
-FOLDERS = [module.__package__.rpartition(".")[2] for module in MODULES]
-TABLES = {name: import_module(f"tests.autograder.problems.{name}.table").TABLE for name in FOLDERS}
-ROWS = [
-    Row(check_id, *row)
-    for table in TABLES.values()
-    for check_id, rows in table.items()
-    for row in rows
-]
 GENERATED = [check_id for check_id, check in CHECKS.items() if check.catalogue]
 FEW = 15
 

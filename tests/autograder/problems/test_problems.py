@@ -5,14 +5,18 @@ What only one problem can say (its hints, the sentences on its wrong answers) is
 
 import re
 from dataclasses import dataclass
+from importlib import import_module
+from types import SimpleNamespace
 
 import nbformat
+import numpy as np
 import pytest
 
 from autograder.judging.verdict import State
 from autograder.notebook.recognise import grade_id
 from autograder.problems import CHECKS, READ
 from tests.autograder.course_problems import NAMES, ROOT, problem
+from tests.autograder.verdicts import sentences
 from tests.submissions.answers import cell_of
 
 IMAGE = re.compile(r"!\[(.*?)\]\((.*?)\)", re.DOTALL)
@@ -22,22 +26,114 @@ RUBRIC = re.compile(r"^\| points \| for \|\n\|[-|]+\|\n((?:\|.*\n?)+)", re.MULTI
 @dataclass(frozen=True)
 class Own:
     """What the notebook must agree with: its grade_id and points of the answer that a person reads,
-    the points of all cells, and phrases of the answers that no student may be given.
+    the points of all cells, all grade_ids, and phrases of the answers that no student may be given.
     """
 
     read: str
     points: int
     total: int
+    ids: str
     phrases: tuple[str, ...] = ()
 
 
 OWN = {
-    "c6-regressor": Own("c6-discussion", 5, 15, ("moved into",)),
-    "p1-inertia": Own("p1-proof", 4, 15),
-    "p2-energy-skew": Own("p2-proof", 5, 17, ("np.sin(q[1])", "Exchanging")),
-    "p3-pendulum": Own("p3-derivation", 5, 15),
-    "p4-gravity": Own("p4-check", 5, 15, ("one up, one down",)),
-    "p5-state-space": Own("p5-discussion", 5, 20),
+    "c6-regressor": Own(
+        "c6-discussion",
+        5,
+        15,
+        "c6-setup answer-regressor c6-regressor c6-columns answer-rank_of_excitation "
+        "c6-rank_of_excitation c6-motions answer-identify c6-identify c6-scatter c6-second-difference "
+        "c6-five-columns c6-discussion",
+        ("moved into",),
+    ),
+    "p1-inertia": Own(
+        "p1-proof",
+        4,
+        15,
+        "p1-setup answer-inertia_from_links p1-inertia_from_links answer-M p1-M p1-look p1-cholesky "
+        "answer-is_spd p1-is_spd answer-singular_arm p1-singular_arm p1-proof",
+    ),
+    "p2-energy-skew": Own(
+        "p2-proof",
+        5,
+        17,
+        "p2-setup answer-M_dot p2-M_dot p2-difference answer-C p2-C p2-ones answer-C_other p2-C_other "
+        "p2-forms answer-christoffel p2-christoffel p2-symbolic p2-proof",
+        ("np.sin(q[1])", "Exchanging"),
+    ),
+    "p3-pendulum": Own(
+        "p3-derivation",
+        5,
+        15,
+        "p3-setup answer-lagrangian p3-lagrangian p3-euler-lagrange answer-M p3-M answer-C p3-C "
+        "answer-g_vec p3-g_vec answer-inertia_about_pivot p3-inertia_about_pivot "
+        "answer-small_angle_frequency p3-small_angle_frequency p3-swing-plot p3-derivation",
+    ),
+    "p4-gravity": Own(
+        "p4-check",
+        5,
+        15,
+        "p4-setup answer-potential_energy p4-potential_energy answer-g_vec p4-g_vec p4-slope "
+        "answer-gravity_from_jacobians p4-gravity_from_jacobians p4-jacobians answer-equilibria "
+        "p4-equilibria p4-energies p4-check",
+        ("one up, one down",),
+    ),
+    "p5-state-space": Own(
+        "p5-discussion",
+        5,
+        20,
+        "p5-setup answer-f p5-f answer-rk4_step p5-rk4_step p5-order answer-simulate p5-simulate "
+        "answer-energy_drift p5-energy_drift p5-drift-plot p5-friction p5-discussion",
+    ),
+}
+# What submissions get: the credit of each check where it is not all, and the mistakes that are named.
+WRONG = {
+    "p1-inertia_from_links": (0, "I not used"),
+    "p1-M": (0, "wrong parameter / l2 / lc2"),
+    "p1-is_spd": (0, "always True"),
+    "p1-singular_arm": (0, "link 1 resists"),
+    "p2-M_dot": (0, "velocities exchanged"),
+    "p2-C": (0, "C times ones"),
+    "p2-C_other": (0, "first entry dropped"),
+    "p2-christoffel": (0, "rate of M"),
+    "p3-lagrangian": (0, "½ of K missing", "sine for cosine / the weight of the body"),
+    "p3-M": (0, "parallel axis added / the rotation of the body / m / I"),
+    "p3-C": (0, "point-mass centrifugal term"),
+    "p3-g_vec": (0, "cosine for sine / the weight of the body"),
+    "p3-inertia_about_pivot": (0, "inertia about the centre of mass"),
+    "p3-small_angle_frequency": (0, "point mass"),
+    "p4-potential_energy": (0, "sign of the whole"),
+    "p4-g_vec": (0, "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2"),
+    "p4-gravity_from_jacobians": (0, "sign of gravity"),
+    "p4-equilibria": (0, "from the vertical"),
+    "p5-f": (0, "halves of ẋ swapped"),
+    "p5-rk4_step": (0, "division by six missing", "change for state"),
+    "p5-simulate": (0, "start repeated"),
+    "p5-energy_drift": (0, "sign of the whole"),
+    "c6-regressor": (0, "wrong sign / g(q)", "absolute acceleration of link 2", "J1 at joint 2"),
+    "c6-rank_of_excitation": (0, "number of columns"),
+    "c6-identify": (0,),
+}
+PARTLY_RIGHT = {
+    "p1-inertia_from_links": (0.5, "last link only"),
+    "p1-M": (0.75, "dropped / the rotation of link 2 / M12"),
+    "p1-is_spd": (0.5, "one triangle read"),
+    "p1-singular_arm": (0.5, "massless link"),
+    "p2-M_dot": (0.55, "halved / the coupling of the two links / Ṁ11"),
+    "p2-C": (0.7, "products in the later column"),
+    "p2-C_other": (0.5, "C itself"),
+    "p3-lagrangian": (0.5, "energy for L"),
+    "p3-g_vec": (0, "sign of the whole"),
+    "p4-potential_energy": (0.5, "dropped / the weight of link 2 at the elbow"),
+    "p4-g_vec": (0.5, "dropped / the weight of link 2 beyond the elbow / g1"),
+    "p4-equilibria": (0.5, "stretched only"),
+    "p5-f": (0.25, "wrong sign / the viscous friction"),
+    "p5-rk4_step": (0.25, "Euler"),
+    "p5-simulate": (0.4, "Euler"),
+    "p5-energy_drift": (0.35, "P missing"),
+    "c6-regressor": (0.75, "coupling without the factor 2"),
+    "c6-rank_of_excitation": (0.35, "joint 1 only"),
+    "c6-identify": (0, "fit: coupling without the factor 2"),
 }
 
 
@@ -80,9 +176,26 @@ def test_no_outputs_are_stored(given, version):
         assert cell.execution_count is None
 
 
-def test_grade_ids_are_unique(given):
+def test_grade_ids_stay(given):
     ids = [name for name in map(grade_id, given.source.cells) if name]
+    assert ids == OWN[given.name].ids.split()
     assert len(ids) == len(set(ids))
+
+
+def test_the_example_is_the_one_that_the_mistakes_know(given):
+    """p2 and p3 know of none."""
+    folder = given.name.replace("-", "_")
+    known = getattr(import_module(f"autograder.problems.{folder}.mistakes"), "EXAMPLE", None)
+    assert bool(known) == (given.name[:2] not in ("p2", "p3"))
+    if known:
+        namespace = {}
+        exec(cell_of(given.source, f"{given.name[:2]}-setup").source, namespace)
+        shown = [vars(x) for x in namespace.values() if isinstance(x, SimpleNamespace)]
+        assert any(
+            one.keys() == vars(known).keys()
+            and all(np.array_equal(one[name], value) for name, value in vars(known).items())
+            for one in shown
+        )
 
 
 def test_points_are_those_of_the_grade_cells(given):
@@ -166,17 +279,38 @@ def test_a_right_submission_is_right_however_its_cells_are_dressed(given):
     assert graded.notes == ()
 
 
-def test_a_wrong_submission_is_wrong_everywhere(given):
+def assert_said(given, kind, expected):
+    """Beside what is said where a criterion knows no mistake."""
+    for check_id, verdict in given.graded(kind).verdicts.items():
+        credit, *names = expected.get(check_id, (1,))
+        assert verdict.credit == pytest.approx(credit), check_id
+        otherwise = [criterion.otherwise for criterion in CHECKS[check_id].criteria]
+        said = tuple(one for one in verdict.diagnosis if one not in otherwise)
+        assert said == sentences(check_id, *names)
+        assert verdict.diagnosis or credit == 1
+
+
+def test_a_wrong_submission_is_wrong_everywhere_and_told_why(given):
     graded = given.graded("wrong")
     assert graded.verdicts.keys() == given.submissions.POINTS.keys()
     assert given.states("wrong") == {State.INCORRECT}
-    assert {verdict.credit for verdict in graded.verdicts.values()} == {0}
+    assert_said(given, "wrong", WRONG)
     assert graded.notes == ()
 
 
-def test_a_partly_right_submission_gets_a_part(given):
+def test_a_partly_right_submission_gets_a_part_and_is_told_why(given):
     graded = given.graded("partly_right")
     assert graded.verdicts.keys() == given.submissions.POINTS.keys()
     credits = [verdict.credit for verdict in graded.verdicts.values()]
     assert 0 < sum(credits) < len(credits)
+    assert_said(given, "partly_right", PARTLY_RIGHT)
     assert graded.notes == ()
+
+
+# Of powers, products and angles; in words there are none.
+FORMULA = re.compile(r"cos\(|sin\(|\*|\bpi\b|q̈1 \+")
+
+
+@pytest.mark.parametrize("check_id", CHECKS)
+def test_no_hint_gives_the_formula(check_id):
+    assert [hint for hint in CHECKS[check_id].hints if FORMULA.search(hint)] == []

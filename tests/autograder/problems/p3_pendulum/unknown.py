@@ -1,0 +1,73 @@
+"""Wrong answers about the pendulum that are no known mistake, and what is no answer."""
+
+from tests.autograder.problems.p3_pendulum.table import KINETIC, MGL, POTENTIAL
+
+FACTOR = "Which factor belongs to all terms?"
+ONE_EXAMPLE = (
+    "the values do not depend on pend at all. Did you write the numbers of one example into the "
+    "function?"
+)
+TRACED = {
+    "p3-M": [
+        (
+            "1.1 * pend.I",
+            f"In your inertia about the pivot, every value is 10 % too large. {FACTOR}",
+        ),
+        ("q[0]", f"In your inertia about the pivot, {ONE_EXAMPLE}"),
+    ],
+    "p3-g_vec": [
+        (
+            f"{MGL} * np.sin(q) * 1.0001",
+            "In your gravity torque, every value is 0.01 % too large. Is a constant rounded?",
+        ),
+        (
+            f"-{MGL} * np.sin(q) * 1.003",
+            f"In your gravity torque, every value is −1.003 times the right one. {FACTOR}",
+        ),
+        ("q[0] ** 4", f"In your gravity torque, {ONE_EXAMPLE}"),
+    ],
+    "p3-inertia_about_pivot": [
+        (
+            "I_com + 0.9 * m * lc**2",
+            "In your inertia moved to the pivot, the inertia of a point mass comes out 10 % too small.",
+        ),
+    ],
+    "p3-lagrangian": [
+        (
+            f"{KINETIC} - 0.7 * {POTENTIAL}",
+            f"In your potential part of L, every value is 30 % too small. {FACTOR}",
+        ),
+    ],
+    "p3-small_angle_frequency": [
+        ("1.0", f"In your angular frequency of small swings, {ONE_EXAMPLE}"),
+    ],
+}
+UNEXPLAINED = {
+    "p3-C": ["0.3 + q"],
+    # The terms of L are asked for by numbers that come one by one.
+    "p3-lagrangian": [f"{KINETIC} - {POTENTIAL} * sp.cos(q / 3)"],
+}
+NEARLY = {"p3-C": ["1e-4 * qd"], "p3-lagrangian": [f"({KINETIC} - {POTENTIAL}) * 1.0001"]}
+NUMBERS = "it must return numbers."
+EXPRESSION = "it must return a SymPy expression of its arguments."
+USE_SYMPY = (
+    "Its arguments are SymPy's symbols, and the functions of NumPy and of math take only numbers. "
+    "Use SymPy's own, such as sp.cos."
+)
+UNFIT = {
+    "p3-g_vec": [
+        ("'m g lc sin q'", f"returned the text 'm g lc sin q'; {NUMBERS}"),
+        ("np.array([True])", f"returned an array of True and False; {NUMBERS}"),
+        ("bool(abs(q[0]) < 9)", f"returned True; {NUMBERS}"),
+        ("np.sin", f"returned the function sin itself; {NUMBERS}"),
+        ("sp.Eq(sp.Symbol('u'), 1)", f"returned the equation Eq(u, 1); {NUMBERS}"),
+    ],
+    "p3-lagrangian": [
+        ("'K - P'", f"returned the text 'K - P'; {EXPRESSION}"),
+        ("sp.Eq(q, 1)", f"returned the equation Eq(q, 1); {EXPRESSION}"),
+        ("np.array([True])", f"returned True; {EXPRESSION}"),
+        ("sp.Symbol('x') * q", f"returned an expression that still contains x; {EXPRESSION}"),
+        ("m * np.cos(q)", USE_SYMPY),
+        ("import math\nreturn m * math.cos(q)", USE_SYMPY),
+    ],
+}

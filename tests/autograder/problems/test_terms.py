@@ -1,0 +1,66 @@
+"""The terms of the checks, on which an error is projected: their sum, and that each is found."""
+
+import numpy as np
+import pytest
+
+from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
+from autograder.problems import CHECKS
+from autograder.protocol import Reply, real
+
+WITH_TERMS = [id for id, check in CHECKS.items() if check.terms]
+# Of these they are what an error may look like, not the parts of the right answer.
+NOT_ITS_PARTS = ("p2-M_dot", "p2-C_other", "p3-M")
+
+
+def terms_of(check):
+    return check.terms() if callable(check.terms) else check.terms
+
+
+def numbers(check, model, call):
+    """What a reference or a term gives for a call."""
+    args = [*map(real, call.args)]
+    if check.name == "christoffel":
+        return np.array([model(*args)(point) for point in call.at], float)
+    if call.at:
+        return np.array([model(*point.values()) for point in call.at], float)
+    return np.asarray(model(*args), float)
+
+
+@pytest.mark.parametrize("check_id", [id for id in WITH_TERMS if id not in NOT_ITS_PARTS])
+def test_the_terms_add_up_to_the_right_answer(check_id):
+    """But for what is no term, as q̇ in ẋ."""
+    check = CHECKS[check_id]
+    for call in check.calls(np.random.default_rng(3), VISIBLE_CASES):
+        right = numbers(check, check.reference, call)
+        parts = [numbers(check, term.model, call) for term in terms_of(check)]
+        total, right = np.squeeze(sum(parts)), np.squeeze(right)
+        where = total != 0
+        assert np.any(where)
+        np.testing.assert_allclose(total[where], right[where], rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("check_id", WITH_TERMS)
+def test_each_term_is_found_where_it_is_too_large(check_id):
+    """By its name; or by a factor of all, where a criterion sees that term alone."""
+    check = CHECKS[check_id]
+    general = {criterion.otherwise for criterion in check.criteria}
+    for term in terms_of(check):
+
+        def ask(calls, term=term):
+            return [
+                Reply(
+                    value=numbers(check, check.reference, c) + 0.37 * numbers(check, term.model, c)
+                )
+                for c in calls
+            ]
+
+        verdict = check.run(ask, np.random.default_rng(1), HIDDEN_CASES)
+        explained = [sentence for sentence in verdict.diagnosis if sentence not in general]
+        unmet = [row for row in verdict.rows if not row.met]
+        assert explained
+        assert len(unmet) == len(verdict.diagnosis)
+        for sentence in explained:
+            assert any(
+                f"{who} 37 % too large" in sentence
+                for who in (f"{term.name} comes out", "every value is")
+            )
