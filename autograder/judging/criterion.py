@@ -22,7 +22,8 @@ class Criterion:
     by default the same. is_property: true of the answer as a whole, as skew-symmetry is; what breaks
     it is looked for among the mistakes that are shown already, and not in its own numbers, which many
     answers share. is_truth: the numbers are 1 for True and 0 for False, and have no unit. entries: what
-    each of its numbers is called, "M12", where that says more than a place in an array.
+    each of its numbers is called, "M12", where that says more than a place in an array. is_bound:
+    numbers beyond the expected one are right as well, so that an error is no share of it.
 
     ValueError where the share is not in (0, 1], or a truth value has a unit.
     """
@@ -36,6 +37,7 @@ class Criterion:
     matching: float | None = None
     is_truth: bool = False
     entries: tuple[str, ...] = ()
+    is_bound: bool = False
 
     def __post_init__(self):
         if not 0 < self.share <= 1:
@@ -54,10 +56,15 @@ class Criterion:
 
 def relative_errors(expected: list, given: list) -> np.ndarray:
     """The largest error of each case over the scale of its expected value."""
+    error = _largest([g - e for e, g in zip(expected, given, strict=True)])
+    return error / scales(expected)
+
+
+def scales(expected: list) -> np.ndarray:
+    """What each case's error is measured by; 1 where all that is expected is 0."""
     size = _largest(expected)
     scale = np.maximum(size, LEAST_SCALE * np.max(size))
-    error = _largest([g - e for e, g in zip(expected, given, strict=True)])
-    return error / np.where(scale > 0, scale, 1.0)
+    return np.where(scale > 0, scale, 1.0)
 
 
 def _largest(values: list) -> np.ndarray:

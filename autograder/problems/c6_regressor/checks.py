@@ -189,6 +189,7 @@ CHECKS = (
     Check(
         id="c6-regressor",
         signature="regressor(q, qd, qdd, arm)",
+        returns="Y",
         reference=planar_2r.regressor,
         calls=_regressor_calls,
         quantities=_columns,
@@ -265,6 +266,7 @@ CHECKS = (
     Check(
         id="c6-identify",
         signature="identify(q, qd, qdd, u, arm)",
+        returns="beta",
         reference=mistakes.fit,
         calls=_identify_calls,
         quantities=_estimates,

@@ -172,6 +172,7 @@ CHECKS = (
     Check(
         id="p1-inertia_from_links",
         signature="inertia_from_links(jacobians, inertias)",
+        returns="M",
         reference=lambda jacobians, inertias: np.einsum(
             "lai,lab,lbj->ij", jacobians, inertias, jacobians
         ),

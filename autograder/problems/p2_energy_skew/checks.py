@@ -248,6 +248,7 @@ CHECKS = (
     Check(
         id="p2-christoffel",
         signature="christoffel(M, q, qd)",
+        returns="C",
         reference=_christoffel,
         calls=_symbolic_calls,
         quantities=_symbolic,

@@ -152,6 +152,7 @@ CHECKS = (
     Check(
         id="p4-g_vec",
         signature="g_vec(q, arm)",
+        returns="g",
         reference=planar_2r.g_vec,
         calls=_torque_calls,
         quantities=_torques,
@@ -175,6 +176,7 @@ CHECKS = (
     Check(
         id="p4-gravity_from_jacobians",
         signature="gravity_from_jacobians(jacobians_v, masses, g0)",
+        returns="g",
         reference=_from_jacobians,
         calls=_jacobian_calls,
         quantities=_generalised_torque,

@@ -252,6 +252,7 @@ CHECKS = (
     Check(
         id="p5-simulate",
         signature="simulate(f, x0, u, t)",
+        returns="x",
         reference=exact_run,
         calls=_run_calls,
         quantities=_run_parts,
