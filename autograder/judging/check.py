@@ -303,7 +303,8 @@ class Check:
         largest = max(float(np.max(np.abs(case[k]), initial=0.0)) for case in expected)
         # A quantity formed from several values is not what the function returned.
         what = "" if len(self.criteria) == 1 else criterion.text
-        if what and not criterion.entries and wrong_places(criterion, expected, given, k) == {at}:
+        named = criterion.entries or criterion.is_truth
+        if what and not named and wrong_places(criterion, expected, given, k) == {at}:
             what += ", of which no other entry is wrong"
         what = ", ".join(filter(None, [what, when]))
         return witness(calls[worst], right, theirs, criterion, largest, where, what, self.pose)

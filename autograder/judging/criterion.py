@@ -1,8 +1,11 @@
 """What is asked of an answer, and whether its numbers meet it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+
+from autograder.judging.quantities import Numbers
 
 # An answer is right to rounding. Single precision through a few operations leaves 4e-6 of the scale
 # below; a wrong formula shows at 1e-4 or more.
@@ -13,17 +16,35 @@ LEAST_SCALE = 0.05
 
 
 @dataclass(frozen=True)
+class Answered:
+    """A wrong answer: the right quantities and the given ones, and which criteria are met."""
+
+    expected: Numbers
+    given: Numbers
+    met: list[bool]
+
+
+@dataclass(frozen=True)
+class Said:
+    """A sentence on a criterion that is not met, and of which answers it is true."""
+
+    text: str
+    holds: Callable[[Answered], bool] = lambda answered: True
+
+
+@dataclass(frozen=True)
 class Criterion:
     """One thing that is asked of an answer: in words, its unit, its share of the credit.
 
-    otherwise: what to say where it is not met and no known mistake matches. tolerance: the relative
-    error that rounding, or the method that is asked for, explains. matching: the error within which
-    an answer shows a known mistake, where that must be less, as wrong answers lie close together;
-    by default the same. is_property: true of the answer as a whole, as skew-symmetry is; what breaks
-    it is looked for among the mistakes that are shown already, and not in its own numbers, which many
-    answers share. is_truth: the numbers are 1 for True and 0 for False, and have no unit. entries: what
-    each of its numbers is called, "M12", where that says more than a place in an array. is_bound:
-    numbers beyond the expected one are right as well, so that an error is no share of it.
+    otherwise: what to say where it is not met and no known mistake matches; of several, the first
+    that holds. tolerance: the relative error that rounding, or the method that is asked for,
+    explains. matching: the error within which an answer shows a known mistake, where that must be
+    less, as wrong answers lie close together; by default the same. is_property: true of the answer
+    as a whole, as skew-symmetry is; what breaks it is looked for among the mistakes that are shown
+    already, and not in its own numbers, which many answers share. is_truth: the numbers are 1 for
+    True and 0 for False, and have no unit. entries: what each of its numbers is called, "M12", where
+    that says more than a place in an array. is_bound: numbers beyond the expected one are right as
+    well, so that an error is no share of it.
 
     ValueError where the share is not in (0, 1], or a truth value has a unit.
     """
@@ -31,7 +52,7 @@ class Criterion:
     text: str
     unit: str = ""
     share: float = 1.0
-    otherwise: str = ""
+    otherwise: str | tuple[Said, ...] = ""
     tolerance: float = TOLERANCE
     is_property: bool = False
     matching: float | None = None
@@ -44,6 +65,15 @@ class Criterion:
             raise ValueError(f"criterion {self.text!r}: share is {self.share}, must be in (0, 1]")
         if self.is_truth and self.unit:
             raise ValueError(f"criterion {self.text!r}: a truth value has no unit {self.unit!r}")
+
+    @property
+    def said(self) -> tuple[Said, ...]:
+        """All that `otherwise` may be."""
+        return (Said(self.otherwise),) if isinstance(self.otherwise, str) else self.otherwise
+
+    def unmet(self, answered: Answered) -> str:
+        """What to say of an answer that does not meet it; "" for nothing."""
+        return next((own.text for own in self.said if own.holds(answered)), "")
 
     def met(self, errors: np.ndarray) -> bool:
         """Whether no case's relative error is more than may be."""

@@ -119,7 +119,7 @@ def test_what_is_missing_is_told_apart_though_another_configuration_is_there():
         (
             "p4-g_vec",
             of_links(),
-            "returned one number; it must return one entry for each joint. Is it P?",
+            "returned one number, as P is; it must return one entry for each joint.",
         ),
         ("p4-gravity_from_jacobians", SUM.format("-m * Jv @ g0"), "raised ValueError: matmul"),
         ("p4-equilibria", "[]", "it must return one row (q1, q2) for each configuration."),
