@@ -19,6 +19,7 @@ from autograder.judging.at_points import AtPoints
 from autograder.judging.criterion import Criterion, relative_errors
 from autograder.judging.diagnosis import Catalogue, Mistake, OfCalls, Wrong, sentences
 from autograder.judging.faults import NUMBERS, describe_fault, describe_second_fault
+from autograder.judging.places import NOWHERE, place
 from autograder.judging.quantities import (
     Numbers,
     Quantities,
@@ -30,7 +31,7 @@ from autograder.judging.quantities import (
 from autograder.judging.stacked import Layout, layouts, rows, stacked, unlike
 from autograder.judging.terms import Term
 from autograder.judging.verdict import Row, State, Verdict, Witness
-from autograder.judging.witness import witness
+from autograder.judging.witness import witness, worst_entry, wrong_places
 from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol, read, real, shortened
 
 VISIBLE_CASES = 6
@@ -76,6 +77,7 @@ class Check:
     terms: tuple[Term, ...] | Callable[[], tuple[Term, ...]] = ()
     hints: tuple[str, ...] = ()
     pose: Callable[[Call], list] | None = None
+    returns: str = ""
 
     def __post_init__(self):
         if not self.criteria:
@@ -141,8 +143,9 @@ class Check:
             given = self._given(calls, replies, describe_fault)
         except _NoNumbersError as error:
             return self._error(str(error))
+        values = [reply.value for reply in replies]
         if not any(reply.again for reply in replies):
-            return self.judge(calls, expected, given, changed=changed, ask=ask)
+            return self.judge(calls, expected, given, changed=changed, ask=ask, values=values)
         second = [reply.again or reply for reply in replies]
         try:
             again = self._given(calls, second, describe_second_fault)
@@ -150,7 +153,8 @@ class Check:
             return self._error(
                 f"{changes.remark(self.name, changed, True)} On the second call, {error}"
             )
-        return self.judge(calls, expected, given, again, changed, ask)
+        values_later = [reply.value for reply in second]
+        return self.judge(calls, expected, given, again, changed, ask, values, values_later)
 
     def _given(
         self,
@@ -170,13 +174,15 @@ class Check:
 
     def judge(
         self, calls: list[Call], expected: Numbers, given: Numbers, again: Numbers | None = None,
-        changed: tuple[str, ...] = (), ask: Ask | None = None,
+        changed: tuple[str, ...] = (), ask: Ask | None = None, values: list | None = None,
+        values_later: list | None = None,
     ) -> Verdict:  # fmt: skip
         """The verdict on quantities given, case by case, against those expected.
 
         again: the quantities of second calls, where a first one changed its arguments; a criterion is
         met where both are right. changed: the names of these arguments. ask: by which more may be found
-        out of an answer that no mistake explains.
+        out of an answer that no mistake explains. values, values_later: what the first and the second
+        calls gave, from which the quantities were formed.
         """
         right = met = self._met(self._errors(expected, given))
         if again is not None:
@@ -189,9 +195,9 @@ class Check:
             return Verdict(self.id, State.CORRECT, 1.0, rows, remark=remark)
         said: tuple[str, ...] = ()
         if again is not None and all(right):  # only what it does to its arguments is wrong
-            worst = self._witness(calls, expected, again, met, changes.SECOND)
+            worst = self._witness(calls, expected, again, met, values_later, changes.SECOND)
         else:
-            worst = self._witness(calls, expected, given, right)
+            worst = self._witness(calls, expected, given, right, values)
             said = self._diagnosis(calls, expected, given, right, ask)
         return Verdict(
             self.id,
@@ -285,17 +291,24 @@ class Check:
         return probes, self._quantities_of(self.reference, calls), theirs
 
     def _witness(
-        self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool], when: str = ""
-    ) -> Witness:
+        self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool],
+        values: list | None, when: str = "",
+    ) -> Witness:  # fmt: skip
         k = met.index(False)
         criterion = self.criteria[k]
         worst = int(np.argmax(self._errors(expected, given)[k]))
+        right, theirs = expected[worst][k], given[worst][k]
+        name = self.returns or self.name
+        at = worst_entry(right, theirs)
+        where = place(name, self.quantities, calls, values, worst, k, at) if values else NOWHERE
+        largest = max(float(np.max(np.abs(case[k]), initial=0.0)) for case in expected)
         # A quantity formed from several values is not what the function returned.
         what = "" if len(self.criteria) == 1 else criterion.text
+        named = criterion.entries or criterion.is_truth
+        if what and not named and wrong_places(criterion, expected, given, k) == {at}:
+            what += ", of which no other entry is wrong"
         what = ", ".join(filter(None, [what, when]))
-        return witness(
-            calls[worst], expected[worst][k], given[worst][k], criterion, what, self.pose
-        )
+        return witness(calls[worst], right, theirs, criterion, largest, where, what, self.pose)
 
     def _not_attempted(self) -> Verdict:
         return Verdict(

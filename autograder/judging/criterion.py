@@ -1,8 +1,11 @@
 """What is asked of an answer, and whether its numbers meet it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+
+from autograder.judging.quantities import Numbers
 
 # An answer is right to rounding. Single precision through a few operations leaves 4e-6 of the scale
 # below; a wrong formula shows at 1e-4 or more.
@@ -13,18 +16,36 @@ LEAST_SCALE = 0.05
 
 
 @dataclass(frozen=True)
+class Answered:
+    """A wrong answer: the right quantities and the given ones, and which criteria are met."""
+
+    expected: Numbers
+    given: Numbers
+    met: list[bool]
+
+
+@dataclass(frozen=True)
+class Said:
+    """A sentence on a criterion that is not met, and of which answers it is true."""
+
+    text: str
+    holds: Callable[[Answered], bool] = lambda answered: True
+
+
+@dataclass(frozen=True)
 class Criterion:
     """One thing that is asked of an answer: in words, its unit, its share of the credit.
 
-    otherwise: what to say where it is not met and no known mistake matches; alone: in its place where
-    all others are met. tolerance: the relative
-    error that rounding, or the method that is asked for, explains. matching: the error within which
-    an answer shows a known mistake, where that must be less, as wrong answers lie close together;
-    by default the same. is_property: true of the answer as a whole, as skew-symmetry is; what breaks
-    it is looked for among the mistakes that are shown already, and not in its own numbers, which many
-    answers share. is_truth: the numbers are 1 for True and 0 for False, and have no unit. entries: what
-    each of its numbers is called, "M12", where that says more than a place in an array. units: that of
-    each of its numbers, row by row, where they differ.
+    otherwise: what to say where it is not met and no known mistake matches; of several, the first
+    that holds. tolerance: the relative error that rounding, or the method that is asked for,
+    explains. matching: the error within which an answer shows a known mistake, where that must be
+    less, as wrong answers lie close together; by default the same. is_property: true of the answer
+    as a whole, as skew-symmetry is; what breaks it is looked for among the mistakes that are shown
+    already, and not in its own numbers, which many answers share. is_truth: the numbers are 1 for
+    True and 0 for False, and have no unit. entries: what each of its numbers is called, "M12", where
+    that says more than a place in an array. units: that of each of its numbers, row by row, where they
+    differ. is_bound: numbers beyond the expected one are right as well, so that an error is no share of
+    it.
 
     ValueError where the share is not in (0, 1], or a truth value has a unit.
     """
@@ -32,14 +53,14 @@ class Criterion:
     text: str
     unit: str = ""
     share: float = 1.0
-    otherwise: str = ""
-    alone: str = ""
+    otherwise: str | tuple[Said, ...] = ""
     tolerance: float = TOLERANCE
     is_property: bool = False
     matching: float | None = None
     is_truth: bool = False
     entries: tuple[str, ...] = ()
     units: tuple[str, ...] = ()
+    is_bound: bool = False
 
     def __post_init__(self):
         if not 0 < self.share <= 1:
@@ -50,6 +71,15 @@ class Criterion:
     def unit_of(self, place: int, count: int) -> str:
         """The unit of one of its numbers, by its place in a row of them all."""
         return self.units[place] if len(self.units) == count else self.unit
+
+    @property
+    def said(self) -> tuple[Said, ...]:
+        """All that `otherwise` may be."""
+        return (Said(self.otherwise),) if isinstance(self.otherwise, str) else self.otherwise
+
+    def unmet(self, answered: Answered) -> str:
+        """What to say of an answer that does not meet it; "" for nothing."""
+        return next((own.text for own in self.said if own.holds(answered)), "")
 
     def met(self, errors: np.ndarray) -> bool:
         """Whether no case's relative error is more than may be."""
@@ -62,10 +92,15 @@ class Criterion:
 
 def relative_errors(expected: list, given: list) -> np.ndarray:
     """The largest error of each case over the scale of its expected value."""
+    error = _largest([g - e for e, g in zip(expected, given, strict=True)])
+    return error / scales(expected)
+
+
+def scales(expected: list) -> np.ndarray:
+    """What each case's error is measured by; 1 where all that is expected is 0."""
     size = _largest(expected)
     scale = np.maximum(size, LEAST_SCALE * np.max(size))
-    error = _largest([g - e for e, g in zip(expected, given, strict=True)])
-    return error / np.where(scale > 0, scale, 1.0)
+    return np.where(scale > 0, scale, 1.0)
 
 
 def _largest(values: list) -> np.ndarray:

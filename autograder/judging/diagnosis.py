@@ -11,7 +11,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from autograder.judging import findings
-from autograder.judging.criterion import TOLERANCE, Criterion
+from autograder.judging.criterion import TOLERANCE, Answered, Criterion
 from autograder.judging.quantities import Numbers
 from autograder.judging.stacked import Layout, layouts, rows
 from autograder.judging.terms import Term
@@ -102,10 +102,12 @@ def sentences(
     """
     said: list[str] = []
     layout = layouts(given, expected)
-    order = _likeliest_first(
-        criteria, layout, rows(layout, expected), rows(layout, given), met, wrong
+    given_rows = rows(layout, given)
+    order, spoils = _likeliest_first(
+        criteria, layout, rows(layout, expected), given_rows, met, wrong
     )
     likely = [i for i in order if not wrong.mistakes[i].whole]
+    borne_out = _borne_out(rows(layout, expected), given_rows, wrong)
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
@@ -113,11 +115,16 @@ def sentences(
         kept = likely
         if criterion.is_property:
             kept = [i for i in likely if wrong.mistakes[i].sentence in said]
+        if criterion.is_truth:
+            kept = [i for i in kept if borne_out[i]]
+        # Two mistakes may cancel each other in what is right; one alone cannot.
+        alone = criterion.is_truth | ~spoils[kept]
         known = [wrong.mistakes[i] for i in kept]
         row = layout[k].row
         shown = _shown(
-            layout[k], row(right), row(theirs), known, wrong.rows[k][kept], criterion.allows(False)
-        )
+            layout[k], row(right), row(theirs), known, wrong.rows[k][kept], alone,
+            criterion.allows(False),
+        )  # fmt: skip
         # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.
         if len(shown) > 1 and _is_one_number(theirs) and not _is_one_number(right):
             shown = ()
@@ -125,7 +132,7 @@ def sentences(
         if not shown:
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
             found = findings.of_numbers(criterion, right, theirs, parts)
-            found = found or (met.count(False) == 1 and criterion.alone) or criterion.otherwise
+            found = found or criterion.unmet(Answered(expected, given, met))
             said.append(found or ("" if any(said) else elsewhere(k)))
     return tuple(dict.fromkeys(filter(None, said)))
 
@@ -143,8 +150,9 @@ def _likeliest_first(
     given: list[np.ndarray],
     met: list[bool],
     wrong: Wrong,
-) -> np.ndarray:
-    """The places of the mistakes, those last that are less likely where several explain a criterion.
+) -> tuple[np.ndarray, np.ndarray]:
+    """The places of the mistakes, those last that are less likely where several explain a criterion; and
+    which mistakes spoil what is right in the answer.
 
     Less likely is one that spoils what is right in the answer; that explains fewer criteria; that shows
     in others what the answer does not.
@@ -156,7 +164,18 @@ def _likeliest_first(
         spoils |= met[k] & ~right
         same += shows
         unseen += ~(right | shows)
-    return np.lexsort((unseen, -same, spoils))
+    return np.lexsort((unseen, -same, spoils)), spoils > 0
+
+
+def _borne_out(expected: list[np.ndarray], given: list[np.ndarray], wrong: Wrong) -> np.ndarray:
+    """Which mistakes' errors the answer has all of, where numbers are counts or truths.
+
+    Of so few different numbers those of one criterion may be a mistake's by chance.
+    """
+    found = np.ones(len(wrong.mistakes), dtype=bool)
+    for right, theirs, own in zip(expected, given, wrong.rows, strict=True):
+        found &= np.all((own == right) | (own == theirs), axis=1)
+    return found
 
 
 def mistakes_shown(
@@ -166,7 +185,8 @@ def mistakes_shown(
     layout = Layout.of(given, expected)
     wrong = np.array([layout.row(known.values) for known in mistakes])
     known = [one.of for one in mistakes]
-    return _shown(layout, layout.row(expected), layout.row(given), known, wrong, tolerance)
+    every = np.ones(len(known), dtype=bool)
+    return _shown(layout, layout.row(expected), layout.row(given), known, wrong, every, tolerance)
 
 
 def _shown(
@@ -175,13 +195,15 @@ def _shown(
     given: np.ndarray,
     mistakes: list[Mistake],
     wrong: np.ndarray,
+    alone: np.ndarray,
     tolerance: float,
 ) -> tuple[Mistake, ...]:
+    """alone: which of them may be the only one."""
     if not mistakes:
         return ()
     off = ~layout.same(expected, wrong, tolerance)
-    if (alone := np.flatnonzero(off & layout.same(wrong, given, tolerance))).size:
-        return (mistakes[alone[0]],)
+    if (one := np.flatnonzero(off & alone & layout.same(wrong, given, tolerance))).size:
+        return (mistakes[one[0]],)
     combines = np.array([mistake.combines for mistake in mistakes])
     places = np.flatnonzero(off & combines & np.all(np.isfinite(wrong), axis=1))
     errors = wrong[places] - expected

@@ -30,13 +30,15 @@ class Witness:
     """The worst case: the call, what came back, and how far off that was, with the unit. A truth
     value is right or wrong, so its `off` is empty.
 
-    pose: the arm's joints in that call, one (x, y) in m each, where drawing it helps.
+    pose: the arm's joints in that call, one (x, y) in m each, where drawing it helps. where: the entry
+    of what came back, "M[0, 1]", where it is one.
     """
 
     call: str
     returned: str
     off: str
     pose: tuple[tuple[float, float], ...] = ()
+    where: str = ""
 
 
 @dataclass(frozen=True)
@@ -97,4 +99,4 @@ def worst_case(witness: Witness) -> str:
         return f"Worst case: {witness.call or 'your function'} gave {witness.returned}."
     if witness.call:
         return f"Worst case: {witness.call} gave {witness.returned}, off by {witness.off}."
-    return f"Worst case: off by {witness.off}."
+    return f"Worst case: {f'{witness.where} is ' if witness.where else ''}off by {witness.off}."

@@ -5,22 +5,51 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from autograder.judging.criterion import Criterion
+from autograder.judging.criterion import LEAST_SCALE, Criterion, scales
+from autograder.judging.places import Place
+from autograder.judging.quantities import Numbers
 from autograder.judging.verdict import Witness
 from autograder.protocol import Call, Expressions, Function, Symbol
 
 LONGEST_ARRAY = 12  # entries; a longer one is shown by its shape
 
 
+def worst_entry(right: np.ndarray, given: np.ndarray) -> tuple[int, ...]:
+    """The index of the number that is furthest off."""
+    at = np.unravel_index(np.argmax(np.abs(given - right)), np.shape(right))
+    return tuple(int(i) for i in at)
+
+
+def wrong_places(
+    criterion: Criterion, expected: Numbers, given: Numbers, k: int
+) -> set[tuple[int, ...]]:
+    """The indices that are off in any case, of criterion k; none where it is of one number, or where
+    cases differ in their shapes, as then an index means another thing in each.
+    """
+    right, theirs = (
+        [case[k] for case in numbers if np.size(case[k])] for numbers in (expected, given)
+    )
+    if len({np.shape(value) for value in (*right, *theirs)}) != 1 or np.size(right[0]) == 1:
+        return set()
+    scale = scales(right)
+    off = [
+        np.abs(t - r) > criterion.tolerance * s
+        for r, t, s in zip(right, theirs, scale, strict=True)
+    ]
+    return {tuple(int(i) for i in at) for at in np.argwhere(np.any(off, axis=0))}
+
+
 def witness(
     call: Call, right: np.ndarray, given: np.ndarray, criterion: Criterion,
-    what: str = "", pose: Callable[[Call], list] | None = None,
+    largest: float, place: Place, what: str = "", pose: Callable[[Call], list] | None = None,
 ) -> Witness:  # fmt: skip
     """The entry of one case that is furthest off. what: of which quantity, where it is not plain.
 
-    pose: gives the joints of the arm in this call, one (x, y) in m each, to be drawn.
+    largest: the size of the criterion's largest right number, in all cases. place: where the entry
+    stands in what came back. pose: gives the joints of the arm in this call, one (x, y) in m each, to
+    be drawn.
     """
-    at = np.unravel_index(np.argmax(np.abs(given - right)), np.shape(right))
+    at = worst_entry(right, given)
     joints = tuple((float(x), float(y)) for x, y in pose(call)) if pose else ()
     if criterion.is_truth:
         asked = f" ({what})" if what else ""
@@ -29,23 +58,35 @@ def witness(
             said = f"a result for which “{criterion.text}” has the answer {_yes_or_no(given[at])}"
         return Witness(shown_call(call), said, "", joints)
     off, size = abs(float(given[at] - right[at])), abs(float(right[at]))
-    share = f" ({_percent(off / size)} of the right value)" if size > 0 else ""
-    place = int(np.ravel_multi_index(at, np.shape(right))) if at else 0
-    unit = f" {criterion.unit_of(place, np.size(right))}".rstrip()
-    entry = "" if np.size(right) == 1 else f" in entry {', '.join(map(str, at))}"
+    shares = has_share(size, largest, criterion)
+    share = f" ({_percent(off / size)} of the right value)" if shares else ""
+    flat = int(np.ravel_multi_index(at, np.shape(right))) if at else 0
+    unit = f" {criterion.unit_of(flat, np.size(right))}".rstrip()
     if len(criterion.entries) == np.size(right):
-        entry, what = "", what.replace(criterion.text, criterion.entries[int(*at)])
-    of = f" ({what})" if what else ""
+        what = what.replace(criterion.text, criterion.entries[int(*at)])
+    where = str(place)
+    entry = f" at {where}" if place.is_entry else ""
+    made_of = f"made of {where}" if where and not entry else ""
+    of = ", ".join(filter(None, [what, made_of]))
     return Witness(
         shown_call(call),
-        f"{float(given[at]):.4g}{unit}{entry}{of}",
+        f"{float(given[at]):.4g}{unit}{entry}{f' ({of})' if of else ''}",
         f"{off:.3g}{unit}{share}",
         joints,
+        where if entry else "",
     )
 
 
 def _yes_or_no(truth: float) -> str:
     return "yes" if truth else "no"
+
+
+def has_share(size: float, largest: float, criterion: Criterion) -> bool:
+    """Whether an error is rightly told as a share of a right number of this size.
+
+    Not near zero, where any error is many times the value; and not where other numbers are right too.
+    """
+    return size > 0 and size >= LEAST_SCALE * largest and not criterion.is_bound
 
 
 def shown_call(call: Call) -> str:

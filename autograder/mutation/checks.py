@@ -19,6 +19,7 @@ def check_of(mechanism: Mechanism, answer: str) -> Check:
     return Check(
         id=f"{mechanism.name}-{answer}",
         signature=asked.signature,
+        returns=asked.returned,
         reference=reference(mechanism, answer),
         calls=partial(asked.calls, mechanism),
         quantities=quantities,

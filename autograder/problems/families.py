@@ -27,7 +27,7 @@ from autograder.problems.material.family_gravity import mistaken as mistaken_pul
 from autograder.problems.material.family_gravity import other_pulls
 from autograder.problems.material.family_hints import HINTS
 from autograder.problems.p1_inertia.checks import arm_and_q, singular
-from autograder.problems.p2_energy_skew.checks import other, steps
+from autograder.problems.p2_energy_skew.checks import not_skew, other, steps
 from autograder.protocol import Call
 
 PROBLEMS = ("p1", "p2", "p4", "p5")
@@ -44,11 +44,6 @@ ASKED = {
 # Those in which gravity's pull is typed by the student.
 WITH_GRAVITY = ("p4-potential_energy", "p4-g_vec", "p5-energy_drift")
 SHOULDER = "change of P as link 1 turns from the x axis and link 2 keeps its direction"
-OTHERWISE = (
-    "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the Christoffel form. A right "
-    "C q̇ is not enough: how does that form share the products of velocities between the entries of a "
-    "row?"
-)
 
 
 @lru_cache(maxsize=256)
@@ -79,7 +74,7 @@ def on(own: Convention, check: Check) -> Check:
             return replace(changed, quantities=_singular(own), mistakes=mistakes)
         case "p2-C":
             first, power, skew = check.criteria
-            said = replace(skew, alone=OTHERWISE)
+            said = replace(skew, otherwise=not_skew("the products of velocities"))
             return replace(changed, quantities=steps(own.C), criteria=(first, power, said))
         case "p2-C_other":
             return replace(changed, quantities=partial(other, own.C))

@@ -63,6 +63,11 @@ class Answer:
         """How sentences call it: g for g_vec."""
         return HEADS.get(self.name, self.name)
 
+    @property
+    def returned(self) -> str:
+        """How a place in what it returns is written: `Y[0, 5]`, `g[1]`."""
+        return {"regressor": "Y", "g_vec": "g"}.get(self.name, self.name)
+
     def terms(self, mechanism: Mechanism) -> Iterator[tuple[EnergyTerm, Derived]]:
         """The terms of the energies that it follows from, with what derives it from them."""
         for energies, derived in (

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from autograder.judging.criterion import TOLERANCE, Criterion
+from autograder.judging.criterion import TOLERANCE, Criterion, Said
 from autograder.judging.quantities import array, each
 from autograder.mechanisms.outline import Outline
 from autograder.mutation import velocities
@@ -34,15 +34,16 @@ def _judged(mechanism: Outline) -> Judged:
     n = mechanism.n
     energy = "With your C the energy would change although nobody does work."
     skew = "Ṁ − 2C is not skew-symmetric with your C, as it is with the Christoffel form."
-    alone = (
+    enough = Said(
         "Ṁ − 2C is not skew-symmetric with your C. A right C q̇ is not enough: how does the Christoffel "
-        "form share the products of two velocities?"
+        "form share the products of two velocities?",
+        lambda answered: answered.met[0],
     )
     rates = [f"{unit_of_inertia(mechanism, i, j)}/s" for i, j in np.ndindex(n, n)]
     return steps, (
         criterion("vector C q̇", by_coordinate(mechanism, "N·m", "N"), 0.5),
         Criterion("power q̇ᵀC q̇ = ½ q̇ᵀṀ q̇", "W", 0.2, otherwise=energy, is_property=True),
-        criterion("sum C + Cᵀ = Ṁ", rates, 0.3, otherwise=skew, alone=alone, is_property=True),
+        criterion("sum C + Cᵀ = Ṁ", rates, 0.3, otherwise=(enough, Said(skew)), is_property=True),
     )
 
 

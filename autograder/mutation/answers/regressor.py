@@ -199,9 +199,7 @@ def _of_columns(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
     ]
     mutants += [mutant for mutant, *_ in changes]
     mutants += [
-        Mutant(
-            "column of another", f"the column of {entries[target].doc}", put=entries[source].doc
-        )
+        Mutant("column of another", f"the column of {entries[target].doc}", put=entries[source].doc)
         for source, target in taken
     ]
     return Group(mutants, numbers)

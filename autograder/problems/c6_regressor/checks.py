@@ -3,11 +3,13 @@
 π has six entries, for each link (m, m ℓc, J), J about the link's own joint. ℓ1 and g are known.
 """
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
+from autograder.judging.criterion import Answered, Said
 from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
@@ -180,6 +182,15 @@ def _ranks(calls, values):
     return found
 
 
+def _counts(answered: Answered) -> list[float]:
+    return [float(part[()]) for case in answered.given for part in case if np.size(part)]
+
+
+ALWAYS = Said(
+    "Your number is the same for every motion. How much less than a rich motion does an arm at rest "
+    "show?",
+    lambda answered: len(set(_counts(answered))) == 1,
+)
 NOT_LEAST_SQUARES = (
     "With noise, your estimate is not the one of least squares: you can still make the sum of the "
     "squares of all 2K residuals smaller."
@@ -189,6 +200,7 @@ CHECKS = (
     Check(
         id="c6-regressor",
         signature="regressor(q, qd, qdd, arm)",
+        returns="Y",
         reference=planar_2r.regressor,
         calls=_regressor_calls,
         quantities=_columns,
@@ -229,8 +241,11 @@ CHECKS = (
                 "",
                 0.35,
                 otherwise=(
-                    "Your rank of a rich motion is wrong. Print the singular values of W, divided "
-                    "by the largest: there is a wide gap. Which of them do you count?"
+                    ALWAYS,
+                    Said(
+                        "Your rank of a rich motion is wrong. Print the singular values of W, divided "
+                        "by the largest: there is a wide gap. Which of them do you count?"
+                    ),
                 ),
             ),
             Criterion(
@@ -238,8 +253,11 @@ CHECKS = (
                 "",
                 0.35,
                 otherwise=(
-                    "Your rank is wrong when a joint rests. Print W for such a motion: which "
-                    "columns vanish, and which are multiples of each other?"
+                    ALWAYS,
+                    Said(
+                        "Your rank is wrong when a joint rests. Print W for such a motion: which "
+                        "columns vanish, and which are multiples of each other?"
+                    ),
                 ),
             ),
             Criterion(
@@ -247,12 +265,16 @@ CHECKS = (
                 "",
                 0.3,
                 otherwise=(
-                    "Your rank is wrong when there are few samples, or when one of them is "
-                    "repeated. How many different rows does W have then?"
+                    ALWAYS,
+                    Said(
+                        "Your rank is wrong when there are few samples, or when one of them is "
+                        "repeated. How many different rows does W have then?"
+                    ),
                 ),
             ),
         ),
-        mistakes=mistakes.RANK,
+        # Counts are so few that those of one criterion may be a mistake's by chance.
+        mistakes=tuple(replace(mistake, whole=True) for mistake in mistakes.RANK),
         hints=(
             "Each sample gives a Y with two rows. Put the rows of all samples under each other: the "
             "matrix W has 2K rows and 6 columns. How many of its columns are independent?",
@@ -265,6 +287,7 @@ CHECKS = (
     Check(
         id="c6-identify",
         signature="identify(q, qd, qdd, u, arm)",
+        returns="beta",
         reference=mistakes.fit,
         calls=_identify_calls,
         quantities=_estimates,

@@ -81,7 +81,9 @@ def mistaken(own: Convention) -> tuple[Mistake, ...]:
         _held("link 1 up only", own, [(against, along), (against, against)], AGAINST),
         _held("link 1 down only", own, [(along, along), (along, against)], ALONG),
         *(
-            Mistake(f"in degrees from {least}", partial(_in_degrees, own, least), DEGREES)
+            Mistake(
+                f"in degrees from {least}", partial(_in_degrees, own, least), DEGREES, whole=True
+            )
             for least in (-179, -90, 0)
         ),
     )
@@ -120,4 +122,4 @@ def _in_degrees(own: Convention, least: float, arm) -> np.ndarray:
 
 
 def _held(name: str, own: Convention, directions: list, sentence: str) -> Mistake:
-    return Mistake(name, lambda arm: own.angles_at(np.array(directions)), sentence)
+    return Mistake(name, lambda arm: own.angles_at(np.array(directions)), sentence, whole=True)

@@ -1,10 +1,12 @@
 """p1-inertia: the inertia matrix, from links and in closed form; when it is positive definite."""
 
+from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
+from autograder.judging.criterion import Answered, Said
 from autograder.judging.quantities import UnfitError, array, each, one_number
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
@@ -87,7 +89,7 @@ def _entries(call, value):
 # Of which criteria a matrix speaks. Each criterion sees some to accept and some to refuse, so that no
 # answer that is always the same meets one.
 SPEAKS_OF = {
-    Kind.DEFINITE: (0, 1, 2),
+    Kind.DEFINITE: (0, 1, 2, 3),
     Kind.INDEFINITE: (0,),
     Kind.NEGATIVE_DIAGONAL: (0, 3),
     Kind.SEMIDEFINITE: (1,),
@@ -115,6 +117,53 @@ def _verdicts(calls, values):
         found.append(tuple(answer if k in SPEAKS_OF[kind] else NOTHING for k in range(4)))
     return found
 
+
+def _said_of(answer: bool, *kinds: Kind) -> Callable[[Answered], bool]:
+    """Whether this is said of any matrix of these kinds."""
+
+    def holds(answered: Answered) -> bool:
+        said = [next(float(part[()]) for part in case if np.size(part)) for case in answered.given]
+        return any(
+            MATRICES[place % len(MATRICES)][0] in kinds and own == answer
+            for place, own in enumerate(said)
+        )
+
+    return holds
+
+
+REFUSED = Said(
+    "You refuse a matrix that is symmetric and positive definite. What do you ask of it that need "
+    "not be so?",
+    _said_of(False, Kind.DEFINITE),
+)
+NEGATIVE = Said(
+    "You accept a symmetric matrix that has a negative eigenvalue. For which velocity is its energy "
+    "negative?",
+    _said_of(True, Kind.INDEFINITE, Kind.NEGATIVE_DIAGONAL),
+)
+SEMIDEFINITE = Said(
+    "You accept a matrix whose smallest eigenvalue is zero, exactly or but for rounding. Is the energy "
+    "of every velocity positive?",
+    _said_of(True, Kind.SEMIDEFINITE),
+)
+SKEWED = Said(
+    "You accept a matrix that is not symmetric. Which entries must be equal, and where do you compare "
+    "them?",
+    _said_of(True, Kind.SKEWED),
+)
+LAST_DIGIT = Said(
+    next(m.sentence for m in mistakes.IS_SPD if m.name == "exact symmetry"),
+    lambda answered: (
+        _said_of(False, Kind.ROUNDED)(answered)
+        and not _said_of(True, Kind.ROUNDED)(answered)
+        and not REFUSED.holds(answered)
+    ),
+)
+ROUNDED = Said(
+    "You refuse a matrix that is positive definite, and symmetric but for the last digit. What do you "
+    "ask of it that need not be so?",
+    _said_of(False, Kind.ROUNDED),
+)
 
 PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2")
 
@@ -153,7 +202,8 @@ def arm_and_q(value):
 
 
 def _why_singular(arm, q):
-    """Whether M(q) is singular, and three times 1; where it is not, a 0 for each reason, in turn.
+    """Whether M(q) is singular, and three times 1; where it is not, a 0 for each reason, in turn, and
+    four for an arm that has a negative parameter, whose M need not be positive definite.
 
     det M = a b − k², with a the inertia of link 1 and of m2 at the elbow, b that of link 2 about the
     elbow. Relative to a b it does not depend on units, and is 1 − k²/(a b).
@@ -163,10 +213,25 @@ def _why_singular(arm, q):
     k2 = (arm.m2 * arm.l1 * arm.lc2 * np.cos(q[1])) ** 2
     if abs(ab - k2) <= ROUNDING * max(abs(ab), k2):
         return np.ones(4)
+    if min(vars(arm).values()) < 0:
+        return np.zeros(4)
     if arm.I2 != 0:
         return np.array([0.0, 0.0, 1.0, 1.0])
     return np.array([0.0, 1.0, first == 0, abs(np.sin(q[1])) < 1e-6])
 
+
+NOT_SINGULAR = (
+    Said(
+        "Your M is not singular, and at least one of your parameters is negative, which none may be. "
+        "Which of them may be zero?",
+        lambda answered: not np.any(answered.given[0][0]),
+    ),
+)
+NOT_ALLOWED = Said(
+    "Your M is singular, but with parameters that are not allowed. None may be negative; which of them "
+    "must not be zero either?",
+    lambda answered: answered.met[0],
+)
 
 INERTIA = Generated("planar-2r", "M", mistakes.INERTIA_SAID, mistakes.EXAMPLE)
 
@@ -174,6 +239,7 @@ CHECKS = (
     Check(
         id="p1-inertia_from_links",
         signature="inertia_from_links(jacobians, inertias)",
+        returns="M",
         reference=lambda jacobians, inertias: np.einsum(
             "lai,lab,lbj->ij", jacobians, inertias, jacobians
         ),
@@ -228,10 +294,27 @@ CHECKS = (
         calls=_matrix_calls,
         quantities=_verdicts,
         criteria=(
-            Criterion("positive definite told from indefinite", share=0.3, is_truth=True),
-            Criterion("semidefinite refused", share=0.2, is_truth=True),
-            Criterion("non-symmetric refused", share=0.3, is_truth=True),
-            Criterion("symmetric up to rounding accepted", share=0.2, is_truth=True),
+            Criterion(
+                "positive definite told from indefinite",
+                share=0.3,
+                otherwise=(NEGATIVE, REFUSED),
+                is_truth=True,
+            ),
+            Criterion(
+                "semidefinite refused",
+                share=0.2,
+                otherwise=(SEMIDEFINITE, REFUSED),
+                is_truth=True,
+            ),
+            Criterion(
+                "non-symmetric refused", share=0.3, otherwise=(SKEWED, REFUSED), is_truth=True
+            ),
+            Criterion(
+                "symmetric up to rounding accepted",
+                share=0.2,
+                otherwise=(LAST_DIGIT, REFUSED, ROUNDED, NEGATIVE),
+                is_truth=True,
+            ),
         ),
         mistakes=mistakes.IS_SPD,
         hints=(
@@ -253,8 +336,13 @@ CHECKS = (
         calls=lambda rng, count: [Call("singular_arm", (), parts=True)],
         quantities=_singular_and_allowed,
         criteria=(
-            Criterion("is M(q) singular?", share=0.5, is_truth=True),
-            Criterion("is it singular with allowed parameters?", share=0.5, is_truth=True),
+            Criterion("is M(q) singular?", share=0.5, otherwise=NOT_SINGULAR, is_truth=True),
+            Criterion(
+                "is it singular with allowed parameters?",
+                share=0.5,
+                otherwise=(*NOT_SINGULAR, NOT_ALLOWED),
+                is_truth=True,
+            ),
         ),
         mistakes=mistakes.SINGULAR_ARM,
         hints=(

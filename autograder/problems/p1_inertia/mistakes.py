@@ -284,7 +284,7 @@ IS_SPD = (
     ),
     Mistake(
         "determinant of a symmetric matrix",
-        _symmetric_and(lambda A: np.linalg.det(A) > 0),
+        _symmetric_and(lambda A: np.linalg.det(A) > ROUNDING),
         "You accept symmetric matrices with two negative eigenvalues: their determinant is "
         "positive too. What else must be positive?",
     ),
@@ -302,7 +302,7 @@ IS_SPD = (
     ),
     Mistake(
         "eigenvalues of one sign",
-        _symmetric_and(lambda A: abs(np.sum(np.sign(np.linalg.eigvalsh(A)))) == len(A)),
+        _symmetric_and(lambda A: least_eigenvalue(A) > ROUNDING or least_eigenvalue(-A) > ROUNDING),
         "You accept matrices whose eigenvalues are all negative. What sign does a kinetic energy "
         "have?",
     ),
@@ -335,16 +335,19 @@ IS_SPD = (
         "answer reversed",
         lambda A: not (is_symmetric(A) and least_eigenvalue(A) > ROUNDING),
         "You swapped True and False. What should your function say of the identity?",
+        whole=True,
     ),
     Mistake(
         "always True",
         lambda A: True,
         "Your function accepts every matrix. What should it say of −1 times the identity?",
+        whole=True,
     ),
     Mistake(
         "always False",
         lambda A: False,
         "Your function refuses every matrix. What should it say of the identity?",
+        whole=True,
     ),
 )
 

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
-from autograder.judging.criterion import TOLERANCE, relative_errors
+from autograder.judging.criterion import TOLERANCE, Said, relative_errors
 from autograder.judging.quantities import array, each
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
@@ -142,6 +142,18 @@ def _symbolic(call, value):
     return C @ qd, C
 
 
+def not_skew(products: str) -> tuple[Said, ...]:
+    """That Ṁ − 2C is not skew-symmetric, and of a right C q̇, that it is not enough."""
+    first = (
+        "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the Christoffel form."
+    )
+    asked = f"how does that form share {products} between the entries of a row?"
+    return (
+        Said(f"{first} A right C q̇ is not enough: {asked}", lambda answered: answered.met[0]),
+        Said(f"{first} First look at your C q̇, then: {asked}"),
+    )
+
+
 CHECKS = (
     Check(
         id="p2-M_dot",
@@ -189,15 +201,7 @@ CHECKS = (
                 "sum C + Cᵀ = Ṁ, so that Ṁ − 2C is skew-symmetric",
                 "kg·m²/s",
                 0.3,
-                otherwise=(
-                    "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the "
-                    "Christoffel form."
-                ),
-                alone=(
-                    "With your C the matrix Ṁ − 2C is not skew-symmetric, as it is with the "
-                    "Christoffel form. A right C q̇ is not enough: how does that form share the "
-                    "product q̇1 q̇2 between the entries of a row?"
-                ),
+                otherwise=not_skew("the product q̇1 q̇2"),
                 is_property=True,
             ),
         ),
@@ -236,6 +240,7 @@ CHECKS = (
                     "C_other + C_otherᵀ clearly differs from Ṁ."
                 ),
                 is_property=True,
+                is_bound=True,
             ),
         ),
         mistakes=mistakes.OTHER,
@@ -252,6 +257,7 @@ CHECKS = (
     Check(
         id="p2-christoffel",
         signature="christoffel(M, q, qd)",
+        returns="C",
         reference=_christoffel,
         calls=_symbolic_calls,
         quantities=_symbolic,

@@ -182,14 +182,16 @@ OF_ANY_C = {
     ),
 }
 
+HALF_OF_THE_PRODUCT = (
+    "The term with q̇1 q̇2 in your C q̇ is half of what it should be. In how many places of the sum over "
+    "j and k does this product appear?"
+)
 CORIOLIS_SAID = (
     _of_wrong_arms("C")
     | OF_ANY_C
     | {
-        "dropped / the coupling of the two links / C11": (
-            "The term with q̇1 q̇2 in your C q̇ is half of what it should be. In how many places of "
-            "the sum over j and k does this product appear?"
-        ),
+        "dropped / the coupling of the two links / C11": HALF_OF_THE_PRODUCT,
+        "product halved / row 1 / qd1 qd2": HALF_OF_THE_PRODUCT,
         "product dropped / row 1 / qd1 qd2": (
             "The term with q̇1 q̇2 is missing from the first row of your C q̇. What happens when "
             "both joints turn at once?"

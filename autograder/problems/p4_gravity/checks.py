@@ -1,10 +1,12 @@
 """p4-gravity: potential energy, its gradient, the same from Jacobians, and where it vanishes."""
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
 
 from autograder.judging.check import Check, Criterion
+from autograder.judging.criterion import Answered, Said
 from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
@@ -15,6 +17,8 @@ from autograder.protocol import Call
 FOUR = np.array([(-pi / 2, 0), (-pi / 2, pi), (pi / 2, 0), (pi / 2, pi)])
 # Torques of so many configurations are kept, the largest first.
 MOST_TORQUES = 8
+# Within this, rad or as a share of the torque, a configuration is a rounded equilibrium.
+NEAR = 0.02
 
 
 def _energy_calls(rng, count):
@@ -46,7 +50,7 @@ def _torque_calls(rng, count):
 @each
 def _torques(call, value):
     if np.size(value) == 1:
-        raise UnfitError("one number; it must return one entry for each joint. Is it P?")
+        raise UnfitError("one number, as P is; it must return one entry for each joint")
     return tuple(vector(value, 2))
 
 
@@ -116,6 +120,17 @@ def _directions(q):
     return np.stack([q[..., 0], q[..., 0] + q[..., 1]], axis=-1)
 
 
+def _furthest(answered: Answered, k: int) -> float:
+    """The largest torque, as a share, of criterion 0; the largest turn to an equilibrium, rad, of 1."""
+    return max(float(np.max(case[k])) for case in answered.given)
+
+
+ROUNDED = Said(
+    "Your configurations are the four equilibria, but not exactly. Where do you round an angle?",
+    lambda answered: max(_furthest(answered, 0), _furthest(answered, 1)) <= NEAR,
+)
+
+
 def _pose(call):
     q, arm = call.args
     return planar_2r.joints(q, arm)
@@ -123,6 +138,12 @@ def _pose(call):
 
 POTENTIAL = Generated("planar-2r", "potential_energy", mistakes.POTENTIAL_SAID, mistakes.EXAMPLE)
 GRAVITY = Generated("planar-2r", "g_vec", mistakes.GRAVITY_SAID, mistakes.EXAMPLE)
+
+# What is said of all configurations is not said where there is another one, that is no equilibrium.
+OF_ALL = (
+    "stretched only", "stable only", "one value of the inverse cosine", "link 1 up only",
+    "link 1 down only", "in degrees",
+)  # fmt: skip
 
 CHECKS = (
     Check(
@@ -152,6 +173,7 @@ CHECKS = (
     Check(
         id="p4-g_vec",
         signature="g_vec(q, arm)",
+        returns="g",
         reference=planar_2r.g_vec,
         calls=_torque_calls,
         quantities=_torques,
@@ -175,6 +197,7 @@ CHECKS = (
     Check(
         id="p4-gravity_from_jacobians",
         signature="gravity_from_jacobians(jacobians_v, masses, g0)",
+        returns="g",
         reference=_from_jacobians,
         calls=_jacobian_calls,
         quantities=_generalised_torque,
@@ -206,19 +229,33 @@ CHECKS = (
                 "",
                 0.5,
                 otherwise=(
-                    "At least one of your configurations still needs a torque against gravity. "
-                    "Put each of them into your g_vec."
+                    ROUNDED,
+                    Said(
+                        "At least one of your configurations still needs a torque against gravity. "
+                        "Put each of them into your g_vec."
+                    ),
                 ),
             ),
             Criterion(
                 "turn from each of the four equilibria to the nearest of yours",
                 "rad",
                 0.5,
-                otherwise="At least one equilibrium is missing. Each of the two torques gives a "
-                "condition: how many angles within one turn meet it?",
+                otherwise=(
+                    ROUNDED,
+                    Said(
+                        "At least one equilibrium is missing. Each of the two torques gives a "
+                        "condition: how many angles within one turn meet it?",
+                        lambda answered: _furthest(answered, 1) > NEAR,
+                    ),
+                    Said(
+                        "At least one of your equilibria is not exact. Where do you round an angle?"
+                    ),
+                ),
             ),
         ),
-        mistakes=mistakes.EQUILIBRIA,
+        mistakes=tuple(
+            replace(mistake, whole=mistake.name in OF_ALL) for mistake in mistakes.EQUILIBRIA
+        ),
         hints=(
             "Begin with joint 2: when is its torque zero? Say it first in words, with the direction "
             "of link 2.",

@@ -9,7 +9,7 @@ method of order 4 or more passes, and any tight adaptive solver, while one of or
 import numpy as np
 
 from autograder.judging.check import Check, Criterion
-from autograder.judging.criterion import TOLERANCE
+from autograder.judging.criterion import TOLERANCE, Answered, Said
 from autograder.judging.quantities import UnfitError, each, vector
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
@@ -164,6 +164,11 @@ def _energy_share(call, states):
     return kept if arrived else 0 * kept
 
 
+def _ends_astray(answered: Answered) -> bool:
+    """Whether a free run's energy was put to 0, as `_energy_share` does where it ends elsewhere."""
+    return any(np.size(case[4]) and not np.any(case[4]) for case in answered.given)
+
+
 def _drift_calls(rng, count):
     """In turn: only K changes, only P changes, both do."""
     calls = []
@@ -233,8 +238,9 @@ CHECKS = (
                 "",
                 0.75,
                 otherwise=(
-                    "Your step is not of order 4. Compare it line by line with the four slopes in "
-                    "the text: where do you take each of them, and how much does it count?"
+                    "Your step ends further from the exact motion than one of order 4 does. Compare it "
+                    "line by line with the four slopes in the text: where do you take each of them, and "
+                    "how much does it count?"
                 ),
                 matching=EXACTLY,
             ),
@@ -252,6 +258,7 @@ CHECKS = (
     Check(
         id="p5-simulate",
         signature="simulate(f, x0, u, t)",
+        returns="x",
         reference=exact_run,
         calls=_run_calls,
         quantities=_run_parts,
@@ -293,14 +300,22 @@ CHECKS = (
                     "Is your step right? If you use a solver, are its tolerances tight enough?"
                 ),
                 is_property=True,
+                is_bound=True,
             ),
             Criterion(
                 "energy of a free motion, as a share of its start",
                 "",
                 0.2,
                 otherwise=(
-                    "A free motion without friction keeps its energy. Yours changes it by more "
-                    "than RK4 would."
+                    Said(
+                        "Your free motion does not come near the state where it should end, so its "
+                        "energy counts for nothing.",
+                        _ends_astray,
+                    ),
+                    Said(
+                        "A free motion without friction keeps its energy. Yours changes it by more "
+                        "than RK4 would."
+                    ),
                 ),
                 is_property=True,
             ),

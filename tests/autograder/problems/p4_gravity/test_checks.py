@@ -28,7 +28,7 @@ NAMES_OF_SUBSETS = {
     (2, 3): "link 1 up only",
     (0, 1): "link 1 down only",
 }
-STILL_NEEDED, MISSING = (c.otherwise for c in CHECKS["p4-equilibria"].criteria)
+STILL_NEEDED, MISSING = (c.said[1].text for c in CHECKS["p4-equilibria"].criteria)
 
 
 def test_a_constant_of_each_arm_is_free_but_not_one_that_moves_with_q():

@@ -25,7 +25,7 @@ NEARLY: dict = {}
 ROW = "it must return one row (q1, q2) for each configuration."
 UNFIT = {
     "p4-g_vec": [
-        (of_links(), "returned one number; it must return one entry for each joint. Is it P?"),
+        (of_links(), "returned one number, as P is; it must return one entry for each joint."),
     ],
     "p4-gravity_from_jacobians": [(SUM.format("-m * Jv @ g0"), "raised ValueError: matmul")],
     "p4-equilibria": [("[]", ROW), ("np.zeros((2, 4))", ROW)],
