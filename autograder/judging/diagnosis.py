@@ -87,13 +87,14 @@ def sentences(
     wrong: Wrong,
     terms: Callable[[], list[tuple[Term, Numbers]]],
     elsewhere: Callable[[int], str],
-) -> tuple[str, ...]:
-    """What to say of each criterion that is not met, where no mistake explains the whole answer.
+) -> list[tuple[str, ...]]:
+    """What to say of each criterion, where no mistake explains the whole answer: () of those met.
 
     terms, elsewhere: asked only where no mistake matches. elsewhere: what more can be found out of
     criterion k, "" for nothing; it may cost calls.
     """
     said: list[str] = []
+    of_each: list[tuple[str, ...]] = [()] * len(criteria)
     layout = layouts(given, expected)
     order = _likeliest_first(
         criteria, layout, rows(layout, expected), rows(layout, given), met, wrong
@@ -101,6 +102,7 @@ def sentences(
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
+        before = len(said)
         right, theirs = _part(k, expected), _part(k, given)
         kept = [i for i in order if not wrong.mistakes[i].whole
                 and (not criterion.is_property or wrong.mistakes[i].sentence in said)]  # fmt: skip
@@ -117,7 +119,8 @@ def sentences(
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
             found = findings.of_numbers(criterion, right, theirs, parts) or criterion.otherwise
             said.append(found or ("" if any(said) else elsewhere(k)))
-    return tuple(dict.fromkeys(filter(None, said)))
+        of_each[k] = tuple(dict.fromkeys(filter(None, said[before:])))
+    return of_each
 
 
 def _is_one_number(values: list[np.ndarray]) -> bool:
