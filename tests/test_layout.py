@@ -119,7 +119,7 @@ MAY_IMPORT = {
     "mutation": ("digest", "files", "protocol", "judging", "mechanisms"),
     "authoring": ("files", "judging", "mechanisms", "mutation", "notebook"),
     "problems": ("protocol", "judging", "mechanisms", "mutation"),
-    "student": ("protocol", "judging", "problems"),
+    "student": ("files", "protocol", "judging", "problems"),
     "notebook": ("digest", "terminal", "protocol", "sandbox", "judging", "problems"),
     "report": ("terminal", "protocol", "judging", "problems", "notebook"),
     "pipeline": ("digest", "files", "terminal", "protocol", "sandbox", "judging", "notebook"),
