@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output
 
+from autograder import hints_seen
 from autograder.problems import CHECKS
 from autograder.problems.material import planar_2r
 from autograder.problems.start_here.checks import CHECKS as FIRST
@@ -171,7 +172,7 @@ def test_three_hints_a_check_none_of_which_is_the_formula(id):
 def beside(tmp_path):
     """A notebook's folder."""
     (tmp_path / "p1-inertia.ipynb").write_text("{}")
-    return tmp_path / hint_counts.FILE
+    return tmp_path / hints_seen.FILE
 
 
 def another_kernel(monkeypatch):
@@ -184,12 +185,12 @@ def count_shown(capsys, id) -> int:
 
 def test_the_count_outlives_the_kernel(beside, capsys, monkeypatch):
     assert [count_shown(capsys, "p1-M") for _ in range(2)] == [1, 2]
-    assert hint_counts.read(beside) == {"p1-M": 2}
+    assert hints_seen.read(beside) == {"p1-M": 2}
     another_kernel(monkeypatch)
     # First the same again, so that "Run All" gives away no more; then one more.
     assert [count_shown(capsys, "p1-M") for _ in range(2)] == [2, 3]
     assert count_shown(capsys, "p1-is_spd") == 1
-    assert hint_counts.read(beside) == {"p1-M": 3, "p1-is_spd": 1}
+    assert hints_seen.read(beside) == {"p1-M": 3, "p1-is_spd": 1}
 
 
 def test_where_there_is_no_notebook_nothing_is_written(tmp_path, capsys):
@@ -207,7 +208,7 @@ def test_a_folder_that_nobody_may_write_to_breaks_nothing(beside, capsys, monkey
     def refused(*_, **__):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(hint_counts, "put_in_place", refused)
+    monkeypatch.setattr(hints_seen, "put_in_place", refused)
     assert [count_shown(capsys, "p1-M") for _ in range(3)] == [1, 2, 3]
     assert not beside.exists()
 
@@ -231,19 +232,19 @@ def test_a_folder_that_nobody_may_write_to_breaks_nothing(beside, capsys, monkey
 )
 def test_a_damaged_file_counts_as_none(text, beside, capsys):
     beside.write_text(text, encoding="utf-8", errors="surrogatepass")
-    assert hint_counts.read(beside) == {}
+    assert hints_seen.read(beside) == {}
     assert count_shown(capsys, "p1-M") == 1
-    assert hint_counts.read(beside) == {"p1-M": 1}
+    assert hints_seen.read(beside) == {"p1-M": 1}
 
 
 def test_a_file_that_is_too_large_or_a_link_is_not_read(beside, tmp_path):
     elsewhere = tmp_path / "elsewhere"
     elsewhere.write_text('{"p1-M": 2}')
     beside.symlink_to(elsewhere)
-    assert hint_counts.read(beside) == {}
+    assert hints_seen.read(beside) == {}
     beside.unlink()
-    beside.write_text('{"p1-M": 2' + " " * hint_counts.MOST_BYTES + "}")
-    assert hint_counts.read(beside) == {}
+    beside.write_text('{"p1-M": 2' + " " * hints_seen.MOST_BYTES + "}")
+    assert hints_seen.read(beside) == {}
 
 
 def checked(id, body):

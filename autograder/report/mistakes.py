@@ -1,0 +1,89 @@
+"""Which mistakes a class made: how many made each, and who made the same two."""
+
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import combinations
+
+from autograder.problems import check_for
+from autograder.report.answers import anonymous
+from autograder.report.students import Student
+
+MOST_PAIRS = 10
+
+
+@dataclass(frozen=True)
+class Made:
+    """A sentence of the diagnosis, its check, and the students who got it.
+
+    name: the mistake's name, if a person wrote the mistake.
+    """
+
+    check: str
+    name: str
+    sentence: str
+    students: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Together:
+    """Two wrong answers that several students share, to different checks.
+
+    expected: how many would share them by chance, if to make one made the other no likelier.
+    """
+
+    first: Made
+    second: Made
+    students: tuple[str, ...]
+    expected: float
+
+
+def mistakes_made(students: Iterable[Student]) -> list[Made]:
+    """Each sentence that a student got, the most frequent first."""
+    to_whom = defaultdict(list)
+    for student in students:
+        for check, verdict in student.verdicts.items():
+            for sentence in dict.fromkeys(verdict["diagnosis"]):
+                to_whom[check, sentence].append(student.name)
+    made = [
+        Made(check, _name_of(check, sentence), sentence, tuple(names))
+        for (check, sentence), names in to_whom.items()
+    ]
+    return sorted(made, key=lambda one: (-len(one.students), one.check, one.sentence))
+
+
+def made_together(made: list[Made], students: int) -> list[Together]:
+    """Pairs of mistakes in different checks that students share, the least expected first.
+
+    students: of the class. Such pairs say that an explanation is missing, or that work was shared, or
+    nothing: mistakes that many make come together by themselves.
+    """
+    found = []
+    shared = [one for one in made if len(one.students) > 1]
+    for first, second in combinations(shared, 2):
+        if first.check == second.check:
+            continue
+        both = tuple(name for name in first.students if name in set(second.students))
+        expected = len(first.students) * len(second.students) / students
+        if len(both) > 1 and len(both) > expected:
+            found.append(Together(first, second, both, expected))
+    found.sort(key=lambda one: (one.expected - len(one.students), one.first.check))
+    return found[:MOST_PAIRS]
+
+
+def example_of(made: Made, students: list[Student]) -> str:
+    """The shortest answer of those who made the mistake, without what could name its author."""
+    names = [student.name for student in students]
+    answers = [
+        anonymous(student.answers[made.check], names)
+        for student in students
+        if student.name in made.students and made.check in student.answers
+    ]
+    return min(filter(None, answers), key=len, default="")
+
+
+def _name_of(check: str, sentence: str) -> str:
+    """Of a mistake that a person wrote; of one that follows from a mechanism the sentence says more."""
+    known = check_for(check)
+    mistakes = known.mistakes if known else ()
+    return next((mistake.name for mistake in mistakes if mistake.sentence == sentence), "")
