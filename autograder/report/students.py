@@ -1,4 +1,4 @@
-"""What a report knows of a class: of each student, the verdicts, the answers and what else is on file."""
+"""What a report knows of a class: each student's verdicts and answers, and what else is on file."""
 
 from dataclasses import dataclass, field
 from datetime import datetime
