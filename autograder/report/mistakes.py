@@ -1,5 +1,6 @@
 """Which mistakes a class made: how many made each, and who made the same two."""
 
+import math
 from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -10,6 +11,8 @@ from autograder.report.answers import anonymous
 from autograder.report.students import Student
 
 MOST_PAIRS = 10
+# A pair is shown if chance brings so many together less often than this.
+RARE = 0.01
 
 
 @dataclass(frozen=True)
@@ -53,22 +56,31 @@ def mistakes_made(students: Iterable[Student]) -> list[Made]:
 
 
 def made_together(made: list[Made], students: int) -> list[Together]:
-    """Pairs of mistakes in different checks that students share, the least expected first.
+    """Pairs of mistakes in different checks that more students share than chance explains.
 
     students: of the class. Such pairs say that an explanation is missing, or that work was shared, or
     nothing: mistakes that many make come together by themselves.
     """
-    found = []
+    found: list[tuple[float, int, int, Together]] = []
     shared = [one for one in made if len(one.students) > 1]
     for first, second in combinations(shared, 2):
         if first.check == second.check:
             continue
         both = tuple(name for name in first.students if name in set(second.students))
-        expected = len(first.students) * len(second.students) / students
-        if len(both) > 1 and len(both) > expected:
-            found.append(Together(first, second, both, expected))
-    found.sort(key=lambda one: (one.expected - len(one.students), one.first.check))
-    return found[:MOST_PAIRS]
+        counts = len(first.students), len(second.students)
+        if len(both) > 1 and (rare := _chance(len(both), *counts, students)) < RARE:
+            together = Together(first, second, both, counts[0] * counts[1] / students)
+            found.append((rare, -len(both), len(found), together))
+    return [together for *_, together in sorted(found, key=lambda one: one[:3])][:MOST_PAIRS]
+
+
+def _chance(both: int, first: int, second: int, students: int) -> float:
+    """The probability that at least so many made both, if to make one made the other no likelier."""
+    ways = sum(
+        math.comb(first, k) * math.comb(students - first, second - k)
+        for k in range(both, min(first, second) + 1)
+    )
+    return ways / math.comb(students, second)
 
 
 def example_of(made: Made, students: list[Student]) -> str:
