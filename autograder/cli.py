@@ -46,7 +46,11 @@ def main(arguments: list[str] | None = None) -> int:
     reporting = commands.add_parser(
         "report", help="write a page about the class: scores, and who made which mistake"
     )
-    reporting.add_argument("assignment", help="its name in solutions/, such as p1-inertia")
+    reporting.add_argument(
+        "assignment",
+        nargs="?",
+        help="its name in solutions/, such as p1-inertia (default: all of the term)",
+    )
     trying = commands.add_parser(
         "try",
         help="try the checks of a mechanism: right answers, every mistake, and what students read",
@@ -191,24 +195,37 @@ def _listed(asks: str) -> list[str]:
     return [name.strip() for name in asks.split(",")]
 
 
-def report(root: Path, assignment: str) -> int:
-    """Write the report on an assignment's class to course/report/, and a summary to the terminal."""
+def report(root: Path, assignment: str | None) -> int:
+    """Write the report on a class to course/report/, and a summary to the terminal.
+
+    assignment: None for all of the term.
+    """
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.files import put_in_place
-    from autograder.nbgrader_glue.class_list import read_class
-    from autograder.report import page, summary
+    from autograder.nbgrader_glue.class_list import read_class, read_term
+    from autograder.report import page, summary, term_page, term_summary
 
-    assignment = _name_of(assignment)
+    name = "term" if assignment is None else _name_of(assignment)
     try:
-        most, students = read_class(root, assignment)
-        if not students:
-            return _complain(f"nobody has handed in {assignment}")
-        to = root / "course" / "report" / f"{assignment}.html"
+        if assignment is None:
+            classes, left_out = read_term(root)
+            for why in left_out:
+                say(f"left out: {why}")
+            if not classes:
+                return _complain("nobody has handed in anything")
+            said, written = term_summary(classes), term_page(classes)
+        else:
+            of = read_class(root, name)
+            if not of.students:
+                return _complain(f"nobody has handed in {name}")
+            said, written = summary(of.most, of.students), page(name, of.most, of.students)
+        to = root / "course" / "report" / f"{name}.html"
         to.parent.mkdir(exist_ok=True)
-        put_in_place(to, page(assignment, most, students))
+        put_in_place(to, written)
     except (OSError, ValueError) as error:
-        return _complain(_unknown(root, assignment) or str(error))
-    say(summary(most, students))
+        why = "" if assignment is None else _unknown(root, name)
+        return _complain(why or str(error))
+    say(said)
     say(f"The whole page: {to.relative_to(root)}")
     return 0
 

@@ -2,9 +2,11 @@
 
 import itertools
 import math
+from collections.abc import Iterable
+from dataclasses import dataclass
 from html import escape
 
-from autograder.judging.verdict import State, Verdict, Witness, worst_case
+from autograder.judging.verdict import State, Verdict, Witness, filled, worst_case
 
 # Mark and colour (Okabe and Ito's palette, safe for colour-blind readers).
 LOOKS = {
@@ -15,25 +17,40 @@ LOOKS = {
     State.NOT_ATTEMPTED: ("○", "#888888"),
     State.CHECK_FAILED: ("?", "#0072B2"),
 }
+PARAGRAPH = "margin: 0.3em 0"
+NOT_MET = LOOKS[State.INCORRECT][1]
 LINKS = ("#0072B2", "#56B4E9")  # in turn, so that a folded arm shows both
 
 
-def html_card(verdict: Verdict) -> str:
-    """The verdict as HTML, readable by a screen reader from top to bottom.
+@dataclass(frozen=True)
+class Line:
+    """A line at the end of a card: as plain text, and as HTML where that can do more, such as a link.
+
+    html: ours, with whatever it quotes escaped; "" for the text itself.
+    """
+
+    text: str
+    html: str = ""
+
+
+def html_card(verdict: Verdict, lines: Iterable[Line] = ()) -> str:
+    """The verdict as HTML, readable by a screen reader from top to bottom; then the lines.
 
     The arm of the worst case stands beside the text, and below it where the notebook is narrow.
     """
     mark, colour = LOOKS[verdict.state]
     pose = verdict.witness.pose if verdict.witness else ()
-    lines = [_paragraph("problem", verdict.problem)]
-    lines += [_rows(verdict)] if verdict.rows else []
-    lines += [_paragraph("diagnosis", sentence) for sentence in verdict.diagnosis]
-    lines.append(_paragraph("remark", verdict.remark))
-    lines += [_worst_case(verdict.witness)] if verdict.witness else []
-    lines.append(_paragraph("next", verdict.next_step))
+    parts = [_paragraph("problem", verdict.problem)]
+    parts += [_rows(verdict)] if verdict.rows else []
+    parts += [_paragraph("diagnosis", sentence) for sentence in verdict.of_the_whole]
+    parts.append(_paragraph("remark", verdict.remark))
+    parts += [_worst_case(verdict.witness)] if verdict.witness else []
+    parts.append(_paragraph("further", verdict.further))
+    parts.append(_paragraph("next", verdict.next_step))
+    parts += [f'<p style="{PARAGRAPH}">{line.html or escape(line.text)}</p>' for line in lines]
     text = (
         f'<p style="margin: 0.2em 0"><strong><span aria-hidden="true">{mark} </span>'
-        f"{escape(verdict.headline)}</strong></p>{''.join(lines)}"
+        f"{escape(verdict.headline)}</strong></p>{''.join(parts)}"
     )
     return (
         f'<div class="armdyn-verdict" data-state="{verdict.state.name.lower().replace("_", "-")}"'
@@ -43,9 +60,14 @@ def html_card(verdict: Verdict) -> str:
     )
 
 
-def mimebundle(verdict: Verdict) -> dict[str, str]:
-    """The verdict for a notebook's output: plain text, and the card."""
-    return {"text/plain": str(verdict), "text/html": html_card(verdict)}
+def mimebundle(verdict: Verdict, lines: Iterable[Line] = ()) -> dict[str, str]:
+    """The verdict, and the lines below it, for a notebook's output: plain text, and the card."""
+    lines = tuple(lines)
+    below = [filled(line.text) for line in lines]
+    return {
+        "text/plain": "\n".join([str(verdict), *below]),
+        "text/html": html_card(verdict, lines),
+    }
 
 
 def drawing(pose: tuple[tuple[float, float], ...], size: int = 110) -> str:
@@ -124,7 +146,7 @@ def _paragraph(kind: str, text: str) -> str:
     weight = "; font-weight: 600" if kind == "diagnosis" else ""
     # Only a problem may quote a student. As a formula, the quote could be a link that runs code.
     plain = " tex2jax_ignore mathjax_ignore" if kind == "problem" else ""
-    return f'<p class="armdyn-{kind}{plain}" style="margin: 0.3em 0{weight}">{escape(text)}</p>'
+    return f'<p class="armdyn-{kind}{plain}" style="{PARAGRAPH}{weight}">{escape(text)}</p>'
 
 
 def _worst_case(witness: Witness) -> str:
@@ -137,12 +159,21 @@ def _worst_case(witness: Witness) -> str:
             " white-space: normal; overflow-wrap: anywhere"
         )
         sentence = sentence.replace(call, f'<code style="{look}">{call}</code>', 1)
-    return f'<p class="armdyn-witness" style="margin: 0.3em 0">{sentence}</p>'
+    return f'<p class="armdyn-witness" style="{PARAGRAPH}">{sentence}</p>'
 
 
 def _rows(verdict: Verdict) -> str:
-    items = "".join(
-        f"<li>{'met' if row.met else 'not met'}: {escape(row.text)} ({row.share:.0%})</li>"
-        for row in verdict.rows
-    )
-    return f'<ul style="margin: 0.3em 0">{items}</ul>'
+    """The criteria, each with what is said of it. Those not met differ by word, by mark and by a bar."""
+    items = []
+    for row, said in verdict.said_of_rows():
+        mark, bar = ("✓", "transparent") if row.met else ("✗", NOT_MET)
+        sentences = "".join(_paragraph("diagnosis", sentence) for sentence in said)
+        items.append(
+            f'<li style="border-left: 3px solid {bar}; padding-left: 0.6em; margin: 0.3em 0">'
+            f'<span aria-hidden="true">{mark} </span>'
+            f"<span>{'met' if row.met else 'not met'}: {escape(row.text)} ({row.share:.0%})</span>"
+            f"{sentences}</li>"
+        )
+    # Without its bullets, a list is none to some screen readers unless its role says so.
+    look = "list-style: none; margin: 0.3em 0; padding: 0"
+    return f'<ul role="list" style="{look}">{"".join(items)}</ul>'

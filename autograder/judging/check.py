@@ -7,10 +7,10 @@ function runs (`ask`) and in how many cases are drawn.
 import math
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import groupby
+from itertools import chain, groupby
 
 import numpy as np
 
@@ -28,6 +28,7 @@ from autograder.judging.quantities import (
     finite,
     one_number,
 )
+from autograder.judging.section import Section
 from autograder.judging.stacked import Layout, layouts, rows, stacked, unlike
 from autograder.judging.terms import Term
 from autograder.judging.verdict import Row, State, Verdict, Witness
@@ -59,8 +60,10 @@ class Check:
     judged in the values, for each call one array a criterion; by default the one number that came
     back. mistakes: tried in order on each criterion that is not met. catalogue: more of them, made when
     they are needed. terms: the parts of the right answer, of which an error may be made that no mistake
-    explains; or a function that gives them. hints: from a nudge to nearly
-    the way. pose(call): the joints of the arm in a call, to be drawn beside the worst case.
+    explains; or a function that gives them. hints: from a nudge to nearly the way. section: of the
+    lesson that prepares it. further: a sentence for whoever has the right answer, which leads on; true
+    of every arm that is asked for. pose(call): the joints of the arm in a call, to be drawn beside the
+    worst case.
 
     ValueError where the shares of the criteria do not add up to 1, or where two criteria have one
     text, two mistakes or terms one name, or two hints are the same.
@@ -76,6 +79,8 @@ class Check:
     quantities: Quantities = one_number
     terms: tuple[Term, ...] | Callable[[], tuple[Term, ...]] = ()
     hints: tuple[str, ...] = ()
+    section: Section | None = None
+    further: str = ""
     pose: Callable[[Call], list] | None = None
     returns: str = ""
 
@@ -190,25 +195,31 @@ class Check:
             met = [one and two for one, two in zip(right, later, strict=True)]
         remark = changes.remark(self.name, changed, met != right)
         credit = sum(c.share for c, ok in zip(self.criteria, met, strict=True) if ok)
-        rows = tuple(Row(c.text, c.share, ok) for c, ok in zip(self.criteria, met, strict=True))
+        whole: tuple[str, ...] = ()
+        of_each: list[tuple[str, ...]] = [()] * len(met)
         if all(met):
-            return Verdict(self.id, State.CORRECT, 1.0, rows, remark=remark)
-        said: tuple[str, ...] = ()
+            rows = self._rows(met, of_each)
+            return Verdict(self.id, State.CORRECT, 1.0, rows, remark=remark, further=self.further)
         if again is not None and all(right):  # only what it does to its arguments is wrong
             worst = self._witness(calls, expected, again, met, values_later, changes.SECOND)
         else:
             worst = self._witness(calls, expected, given, right, values)
-            said = self._diagnosis(calls, expected, given, right, ask)
+            whole, of_each = self._diagnosis(calls, expected, given, right, ask)
         return Verdict(
             self.id,
             State.PARTLY_CORRECT if credit > 0 else State.INCORRECT,
             credit,
-            rows,
+            self._rows(met, of_each),
             worst,
-            diagnosis=said,
+            diagnosis=tuple(dict.fromkeys([*whole, *chain.from_iterable(of_each)])),
             remark=remark,
             next_step="Change your function, run its cell, then run this cell again.",
         )
+
+    def _rows(self, met: list[bool], said: Sequence[tuple[str, ...]]) -> tuple[Row, ...]:
+        """One a criterion. said: what is known of each."""
+        found = zip(self.criteria, met, said, strict=True)
+        return tuple(Row(c.text, c.share, ok, sentences) for c, ok, sentences in found)
 
     def _errors(self, expected: Numbers, given: Numbers) -> list[np.ndarray]:
         """For each criterion the relative error of each case."""
@@ -229,12 +240,16 @@ class Check:
 
     def _diagnosis(
         self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool], ask: Ask | None
-    ) -> tuple[str, ...]:
-        """What to say of the criteria that are not met."""
+    ) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+        """What to say of the whole answer, and of each criterion: nothing of one that is met."""
         layout = layouts(given, expected)
         wrong = self._wrong(layout, calls)
         if mistake := wrong.explaining(self.criteria, layout, rows(layout, given), met):
-            return (mistake.sentence,)
+            said: tuple[str, ...] = (mistake.sentence,)
+            nothing: list[tuple[str, ...]] = [()] * len(met)
+            if met.count(False) > 1:
+                return said, nothing
+            return (), [() if ok else said for ok in met]
 
         @cache  # calls are made once, and only where something is left to explain
         def tried() -> tuple[list[dependence.Probe], Numbers, Numbers] | None:
@@ -251,7 +266,7 @@ class Check:
             terms = self.terms if isinstance(self.terms, tuple) else self.terms()
             return [(term, self._quantities_of(term.model, calls)) for term in terms]
 
-        return sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
+        return (), sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
 
     def _wrong(self, layout: list[Layout], calls: list[Call]) -> Wrong:
         """The numbers of every mistake."""

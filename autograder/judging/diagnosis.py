@@ -94,13 +94,14 @@ def sentences(
     wrong: Wrong,
     terms: Callable[[], list[tuple[Term, Numbers]]],
     elsewhere: Callable[[int], str],
-) -> tuple[str, ...]:
-    """What to say of each criterion that is not met, where no mistake explains the whole answer.
+) -> list[tuple[str, ...]]:
+    """What to say of each criterion, where no mistake explains the whole answer: () of those met.
 
     terms, elsewhere: asked only where no mistake matches. elsewhere: what more can be found out of
     criterion k, "" for nothing; it may cost calls.
     """
     said: list[str] = []
+    of_each: list[tuple[str, ...]] = [()] * len(criteria)
     layout = layouts(given, expected)
     given_rows = rows(layout, given)
     order, spoils = _likeliest_first(
@@ -111,6 +112,7 @@ def sentences(
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
+        before = len(said)
         right, theirs = _part(k, expected), _part(k, given)
         kept = likely
         if criterion.is_property:
@@ -134,7 +136,8 @@ def sentences(
             found = findings.of_numbers(criterion, right, theirs, parts)
             found = found or criterion.unmet(Answered(expected, given, met))
             said.append(found or ("" if any(said) else elsewhere(k)))
-    return tuple(dict.fromkeys(filter(None, said)))
+        of_each[k] = tuple(dict.fromkeys(filter(None, said[before:])))
+    return of_each
 
 
 def _is_one_number(values: list[np.ndarray]) -> bool:

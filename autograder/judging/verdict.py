@@ -4,6 +4,8 @@ import textwrap
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
+AS_ABOVE = "For the same reason as above."
+
 
 class State(StrEnum):
     """Where an answer stands. In the last state the check failed; the student is not to blame."""
@@ -18,11 +20,15 @@ class State(StrEnum):
 
 @dataclass(frozen=True)
 class Row:
-    """One criterion: what was asked for, its share of the credit, and whether it was met."""
+    """One criterion: what was asked for, its share of the credit, and whether it was met.
+
+    said: those sentences of the diagnosis that are about this criterion, which is then not met.
+    """
 
     text: str
     share: float
     met: bool
+    said: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -46,9 +52,9 @@ class Verdict:
     """What the check found out about one answer.
 
     credit: its share of the cell's points, in [0, 1]. problem: why the code gave no numbers, or that it
-    is not the code on the screen. diagnosis: for each criterion that is not met, what is known of the
-    reason. remark: what in the answer, even a right one, harms other code. next_step: what the student
-    can do now.
+    is not the code on the screen. diagnosis: all that is known of the reasons why criteria are not met,
+    each sentence once; its rows say which belongs to which. remark: what in the answer, even a right
+    one, harms other code. further: what a right answer leads to. next_step: what the student can do now.
     """
 
     check: str
@@ -59,6 +65,7 @@ class Verdict:
     problem: str = ""
     diagnosis: tuple[str, ...] = ()
     remark: str = ""
+    further: str = ""
     next_step: str = ""
 
     def without_inputs(self) -> "Verdict":
@@ -73,6 +80,22 @@ class Verdict:
             return f"{self.check}: {self.state} ({self.credit:.0%})"
         return f"{self.check}: {self.state}"
 
+    @property
+    def of_the_whole(self) -> tuple[str, ...]:
+        """Those sentences of the diagnosis that are about no single criterion."""
+        of_rows = {sentence for row in self.rows for sentence in row.said}
+        return tuple(sentence for sentence in self.diagnosis if sentence not in of_rows)
+
+    def said_of_rows(self) -> list[tuple[Row, list[str]]]:
+        """Each row with what is said below it; a sentence that stands further up is not said again."""
+        above: set[str] = set()
+        found = []
+        for row in self.rows:
+            said = [AS_ABOVE if sentence in above else sentence for sentence in row.said]
+            above.update(row.said)
+            found.append((row, list(dict.fromkeys(said))))
+        return found
+
     def lines(self) -> list[str]:
         """The verdict in sentences, the headline apart, most useful first."""
         return [
@@ -80,17 +103,26 @@ class Verdict:
             *self.diagnosis,
             *([self.remark] if self.remark else []),
             *([worst_case(self.witness)] if self.witness else []),
+            *([self.further] if self.further else []),
             *([self.next_step] if self.next_step else []),
         ]
 
     def __str__(self):
-        # A single criterion has the whole credit, so its share says nothing.
-        shares = [f" ({row.share:.0%})" if len(self.rows) > 1 else "" for row in self.rows]
-        rows = [f"  [{'x' if row.met else ' '}] {row.text}{share}"
-                for row, share in zip(self.rows, shares, strict=True)]  # fmt: skip
-        body = [textwrap.fill(line, 78, initial_indent="  ", subsequent_indent="  ")
-                for line in self.lines()]  # fmt: skip
-        return "\n".join([self.headline, *rows, *body])
+        rows = []
+        for row, said in self.said_of_rows():
+            # A single criterion has the whole credit, so its share says nothing.
+            share = f" ({row.share:.0%})" if len(self.rows) > 1 else ""
+            rows.append(f"  [{'x' if row.met else ' '}] {row.text}{share}")
+            rows += [filled(sentence, 6) for sentence in said]
+        below = replace(self, problem="", diagnosis=self.of_the_whole).lines()
+        first = [filled(self.problem)] if self.problem else []
+        return "\n".join([self.headline, *first, *rows, *map(filled, below)])
+
+
+def filled(text: str, indent: int = 2) -> str:
+    """A sentence as lines of at most 78 characters."""
+    margin = " " * indent
+    return textwrap.fill(text, 78, initial_indent=margin, subsequent_indent=margin)
 
 
 def worst_case(witness: Witness) -> str:

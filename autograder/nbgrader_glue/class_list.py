@@ -1,17 +1,22 @@
-"""Reads a class from the gradebook and the autograded notebooks, for its report."""
+"""Reads a class from the gradebook and the submissions, for its report."""
 
+from datetime import datetime
 from pathlib import Path
 
+from nbgrader import api
+
+from autograder import hints_seen
 from autograder.nbgrader_glue import names
 from autograder.nbgrader_glue.folders import Folders
-from autograder.nbgrader_glue.gradebook import Rows
+from autograder.nbgrader_glue.gradebook import Rows, Standing
 from autograder.nbgrader_glue.release import configuration
-from autograder.report import Student, read_verdicts
+from autograder.nbgrader_glue.submitted import RefusedError
+from autograder.report import Class, Student, read_graded
 from autograder.terminal import shown_name
 
 
-def read_class(root: Path, assignment: str) -> tuple[float, list[Student]]:
-    """The assignment's points, and its students in order of their names.
+def read_class(root: Path, assignment: str) -> Class:
+    """An assignment's students, in order of their names.
 
     root: the course's folder. ValueError if the gradebook does not know the assignment.
     """
@@ -23,19 +28,61 @@ def read_class(root: Path, assignment: str) -> tuple[float, list[Student]]:
         standings, most = rows.standings(), sum(rows.points.values())
     finally:
         rows.close()
-    return most, [
-        _student(name, folders.autograded(name), standings.get(name))
-        for name in folders.submissions()
-    ]
+    students = [_student(name, folders, standings.get(name)) for name in folders.submissions()]
+    return Class(assignment, most, students)
 
 
-def _student(name: str, notebook: Path, standing) -> Student:
+def read_term(root: Path) -> tuple[list[Class], list[str]]:
+    """Each assignment that somebody has handed in, in order of the names, and why others are left out.
+
+    root: the course's folder.
+    """
+    config = configuration(root)
+    config.CourseDirectory.assignment_id = "of the term"
+    course = Folders(config, "of the term").course
+    with api.Gradebook(course.db_url, course.course_id) as gradebook:
+        known = sorted(assignment.name for assignment in gradebook.assignments)
+    classes, left_out = [], []
+    for name in known:
+        try:
+            classes.append(read_class(root, name))
+        except ValueError as error:  # such as one of several notebooks
+            left_out.append(str(error))
+    return [of for of in classes if of.students], left_out
+
+
+def _student(name: str, folders: Folders, standing: Standing | None) -> Student:
     if why := names.refusal(name):
         return Student(shown_name(name), note=why)
+    notebook, when = folders.autograded(name), _handed_in(folders, name)
     if standing is None or not notebook.exists():
-        return Student(name, note="not graded yet, or it could not be graded")
+        return Student(name, note="not graded yet, or it could not be graded", handed_in=when)
+    score, to_read = standing.score, standing.to_read
     try:
-        verdicts = read_verdicts(notebook)
+        verdicts, answers = read_graded(notebook)
     except ValueError as error:
-        return Student(name, standing.score, standing.to_read, note=str(error))
-    return Student(name, standing.score, standing.to_read, verdicts)
+        return Student(name, score, to_read, note=str(error), handed_in=when)
+    return Student(
+        name,
+        score,
+        to_read,
+        verdicts,
+        answers=answers,
+        handed_in=when,
+        hints=_hints(folders.submitted(name) / hints_seen.FILE, verdicts),
+    )
+
+
+def _handed_in(folders: Folders, name: str) -> datetime | None:
+    try:
+        return folders.timestamp(name)
+    except RefusedError:  # its timestamp.txt holds no time
+        return None
+
+
+def _hints(file: Path, verdicts: dict[str, dict]) -> dict[str, int] | None:
+    """How many hints a student saw of the checks that judged the submission; None if no file says."""
+    if file.is_symlink() or not file.is_file():
+        return None
+    seen = hints_seen.read(file)
+    return {check: seen[check] for check in verdicts if check in seen}

@@ -55,12 +55,16 @@ def of_verdict(verdict: Verdict) -> NotebookNode:
         "state": verdict.state.value,
         "credit": verdict.credit,
         "diagnosis": list(verdict.diagnosis),
+        "rows": [{"text": row.text, "met": row.met} for row in verdict.rows],
     }
     return display(card.mimebundle(verdict), {VERDICT: said})
 
 
 def read_verdict(output: dict) -> dict | None:
-    """check, state, credit and diagnosis of the verdict that an output shows; None for any other."""
+    """check, state, credit, diagnosis and rows of the verdict that an output shows; None for any other.
+
+    One that an earlier version of the course wrote has no rows.
+    """
     return output.get("metadata", {}).get(VERDICT)
 
 

@@ -12,6 +12,7 @@ from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict
 from autograder.problems import CHECKS, known_check
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
+from autograder.student import below, failing, progress
 from autograder.student.definitions import watched
 from autograder.student.own_arm import drawn_for, reminder
 
@@ -21,16 +22,20 @@ _definitions = watched({check.name for check in CHECKS.values()})
 
 
 class NotCorrectError(Exception):
-    """The answer is not correct yet. Its traceback is the verdict, not the way through our code."""
+    """The answer is not correct yet. Its traceback is the verdict, not the way through our code.
 
-    def __init__(self, verdict: Verdict):
+    said: the card as plain text.
+    """
+
+    def __init__(self, verdict: Verdict, said: str):
         super().__init__(verdict.headline)
         self.verdict = verdict
+        self.said = said
 
     def _render_traceback_(self):
         # `nbgrader validate` shows errors alone, not the card above them.
         if os.environ.get("NBGRADER_EXECUTION"):
-            return str(self.verdict).splitlines()
+            return self.said.splitlines()
         return [f"{self.verdict.headline}: see the card above."]
 
 
@@ -44,11 +49,14 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     verdict = _naming_an_old_function(
         verdict_on(known_check(id).id, sys._getframe(1).f_globals, fresh)
     )
-    _show(verdict)
+    failing.note(verdict)
+    progress.note(verdict)
+    shown = card.mimebundle(verdict, below.lines(verdict))
+    _show(shown)
     if said := reminder(id):
         print(said)
     if verdict.state is not State.CORRECT:
-        raise NotCorrectError(verdict)
+        raise NotCorrectError(verdict, shown["text/plain"])
 
 
 def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
@@ -78,14 +86,14 @@ def _naming_an_old_function(verdict: Verdict) -> Verdict:
     return replace(verdict, problem=f"{said} {verdict.problem}".rstrip())
 
 
-def _show(verdict: Verdict) -> None:
+def _show(shown: dict[str, str]) -> None:
     try:
         from IPython import get_ipython
         from IPython.display import display
     except ImportError:
-        print(verdict)
+        print(shown["text/plain"])
         return
     if get_ipython() is None:
-        print(verdict)
+        print(shown["text/plain"])
     else:
-        display(card.mimebundle(verdict), raw=True)
+        display(shown, raw=True)

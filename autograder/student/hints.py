@@ -3,29 +3,37 @@
 from html import escape
 
 from autograder.problems import CHECKS, known_check
+from autograder.student import failing, hint_counts
 from autograder.student.own_arm import drawn_for
-
-_given: dict[str, int] = {}
 
 
 def hint(id: str | None = None) -> None:
     """Show one more hint for the check `id`, below those you have seen. Hints cost no points.
 
-    The count starts again with the kernel. UnknownCheckError where no check has this id.
+    Without an id, for the check that failed last. How many you have seen is kept beside the notebook
+    and handed in with it; a new kernel first shows these again. UnknownCheckError where no check has
+    this id, or where none is given and none has failed.
     """
+    id = failing.last() if id is None else id
     check = known_check(id, drawn_for(id))
     id, hints = check.id, check.hints
-    given = min(_given.get(id, 0) + 1, len(hints))
-    _given[id] = given
-    if not hints:
-        left = "There are no hints for this check."
-    elif given < len(hints):
-        left = f'Hint {given} of {len(hints)}. For the next one, run hint("{id}") again.'
-    else:
-        left = "That was the last hint."
-        if id in CHECKS:
-            left += " The matching lesson has the rest."
-    _show(hints[:given], f"Hints for {id}", left)
+    seen = hint_counts.seen(id)
+    again = hint_counts.is_first_call(id) and seen > 0
+    given = min(seen if again else seen + 1, len(hints))
+    if hints:
+        hint_counts.keep(id, given)
+    _show(hints[:given], f"Hints for {id}", _left(id, given, len(hints)))
+
+
+def _left(id: str, given: int, most: int) -> str:
+    """The line below the hints."""
+    if not most:
+        return "There are no hints for this check."
+    if given < most:
+        return f'Hint {given} of {most}. For the next one, run hint("{id}") again.'
+    if id in CHECKS:
+        return "That was the last hint. The matching lesson has the rest."
+    return "That was the last hint."
 
 
 def _show(hints: tuple[str, ...], title: str, left: str) -> None:

@@ -181,14 +181,24 @@ def test_a_mistake_is_named_drawn_and_mended(inertia):
           - strong: "p1-M: partly correct (75%)"
         - list:
           - listitem: "met: M11 (50%)"
-          - listitem: "not met: M12 and M21 (25%)"
+          - listitem:
+            - text: "not met: M12 and M21 (25%)"
+            - paragraph: /Your M12 is right except that I2 is missing/
           - listitem: "met: M22 (25%)"
-        - paragraph: /Your M12 is right except that I2 is missing/
         - paragraph:
           - text: "Worst case:"
           - code: /M\\(.*l1=/
           - text: /gave .* kg·m².*, off by .* kg·m²/
         - paragraph: /Change your function/
+        - paragraph:
+          - text: Stuck? Run
+          - code: hint("p1-M")
+          - text: for a hint. Hints cost no points.
+        - paragraph:
+          - text: "Lesson 03 prepares this:"
+          - 'link "By hand: the 2R arm"'
+          - text: .
+        - paragraph: /3 of 15 points checked; left. p1-inertia_from_links/
         - img /The arm in the worst case. link 1 at .*° from the x axis/
     """)
     arm, words = card.get_by_role("img").bounding_box(), card.locator("p").first.bounding_box()
@@ -210,6 +220,18 @@ def test_a_mistake_is_named_drawn_and_mended(inertia):
     expect(card.get_by_role("img")).to_have_count(0)
     expect(inertia.panel.get_by_text("I2 is missing")).to_have_count(0)
     inertia.picture("mended")
+
+
+def test_a_card_leads_to_the_section_of_the_lesson(inertia, page):
+    inertia.run("from autograder import check")
+    card = inertia.run('check("p1-is_spd")')
+    inertia.picture("before the link")
+    card.get_by_role("link", name="4 · Testing it on a computer").click()
+    tab = page.locator(".lm-DockPanel-tabBar .lm-TabBar-tab", has_text="03-inertia-matrix.ipynb")
+    expect(tab).to_have_class(re.compile("lm-mod-current"))
+    lesson = page.locator(".jp-NotebookPanel:visible").filter(has_text="The inertia matrix")
+    expect(lesson.get_by_role("heading", name="4 · Testing it on a computer")).to_be_in_viewport()
+    inertia.picture("the section")
 
 
 def test_a_typed_name_draws_an_arm_of_ones_own(inertia):

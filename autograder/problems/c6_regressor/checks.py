@@ -11,6 +11,7 @@ import numpy as np
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.criterion import Answered, Said
 from autograder.judging.quantities import UnfitError, each, one_number, vector
+from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
 from autograder.problems.c6_regressor import mistakes
@@ -227,6 +228,15 @@ CHECKS = (
             "torques. For m2: all of link 2 sits at the elbow. For J2: link 2 has inertia and no "
             "weight. For m1: all of link 1 sits at the shoulder, so nothing needs a torque.",
         ),
+        section=Section(
+            "06-linearity-in-parameters",
+            "06-regressor-hand",
+            "2 · From the energies to the regressor",
+        ),
+        further=(
+            "No mass and no inertia stands in Y. So two arms with the same lengths have the same "
+            "Y in the same motion, and only π tells them apart."
+        ),
         pose=lambda call: planar_2r.joints(call.args[0], call.args[3]),
     ),
     Check(
@@ -283,6 +293,13 @@ CHECKS = (
             "np.vstack joins a list of matrices into one, and np.linalg.matrix_rank counts singular "
             "values with a sensible limit. It is also worth printing np.linalg.svd(W)[1] once.",
         ),
+        section=Section(
+            "06-linearity-in-parameters", "06-ranks", "4 · How many parameters can a motion show?"
+        ),
+        further=(
+            "With measured, noisy angles no singular value of W is exactly zero. Then the gap "
+            "between the large and the small ones tells you the rank."
+        ),
     ),
     Check(
         id="c6-identify",
@@ -316,6 +333,15 @@ CHECKS = (
             "factors: so m2 does not disappear, it moves into the unknowns of those two.",
             "Keep columns 1, 2, 4 and 5 of W (counted from 0), make one vector of u with u.ravel(), "
             "and give both to np.linalg.lstsq. Its first result is β, in the order asked for.",
+        ),
+        section=Section(
+            "06-linearity-in-parameters",
+            "06-least-squares",
+            "5 · Identification: from torques to parameters",
+        ),
+        further=(
+            "These four numbers predict the torques of every motion of the arm. What they leave "
+            "unknown never shows in a torque."
         ),
     ),
 )

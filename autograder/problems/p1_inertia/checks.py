@@ -8,6 +8,7 @@ import numpy as np
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.criterion import Answered, Said
 from autograder.judging.quantities import UnfitError, array, each, one_number
+from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
@@ -263,6 +264,11 @@ CHECKS = (
             "Start with an n × n matrix of zeros, n from jacobians.shape[2]. Loop over the links "
             "with zip(jacobians, inertias), add each link's matrix, and return after the loop.",
         ),
+        section=Section("03-inertia-matrix", "03-arm", "2 · From the bodies to the arm"),
+        further=(
+            "Your function knows nothing of the plane or of two links: with the Jacobians of a "
+            "robot with six joints in space, the same lines give its inertia matrix."
+        ),
     ),
     Check(
         id="p1-M",
@@ -284,6 +290,11 @@ CHECKS = (
             "square the velocity. Only one cosine is left: that of the angle between the links.",
             "Sort K by q̇1², q̇1 q̇2 and q̇2². In q̇ᵀ M q̇ the first has M11, the last M22, and the "
             "mixed one M12 + M21. Remember the ½, and that M12 = M21.",
+        ),
+        section=Section("03-inertia-matrix", "03-2r-hand", "By hand: the 2R arm"),
+        further=(
+            "Your M depends on the angle between the two links alone. Turn the whole arm like one "
+            "rigid body, and no entry changes; only gravity would notice."
         ),
         pose=lambda call: planar_2r.joints(*call.args),
     ),
@@ -325,6 +336,11 @@ CHECKS = (
             "Compare both with 1e-9 times the largest number of their kind: the asymmetry with the "
             "largest entry, and the smallest eigenvalue with the largest one.",
         ),
+        section=Section("03-inertia-matrix", "03-computer", "4 · Testing it on a computer"),
+        further=(
+            "np.linalg.cholesky alone would not have been enough: it reads one triangle of the "
+            "matrix, so that it also accepts matrices that are not symmetric."
+        ),
     ),
     Check(
         id="p1-singular_arm",
@@ -352,6 +368,13 @@ CHECKS = (
             "which motions leave its centre of mass at rest.",
             "A point mass has no inertia about its centre of mass. Put the point mass of link 2 where "
             "joint 2 cannot move it, and look at your M22.",
+        ),
+        section=Section(
+            "03-inertia-matrix", "03-singular-dynamics", "What a singular M does to a simulation"
+        ),
+        further=(
+            "A real link has some extent, so no real arm is singular like yours. A model made of "
+            "point masses can be, and a simulator then divides by zero."
         ),
     ),
 )

@@ -12,6 +12,7 @@ import numpy as np
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.criterion import TOLERANCE, Said, relative_errors
 from autograder.judging.quantities import array, each
+from autograder.judging.section import Section
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.p2_energy_skew import mistakes
@@ -177,6 +178,11 @@ CHECKS = (
             "not equally often. Differentiate it with respect to q2 and multiply by q̇2. To test: "
             "(M(q + ε q̇) − M(q − ε q̇)) / (2ε) for a small ε.",
         ),
+        section=Section("04-coriolis-and-skew-symmetry", "04-energy", "2 · What the energy proves"),
+        further=(
+            "Ṁ is 0 while the arm turns like one rigid body, and also where its links are in "
+            "line, at any velocity: only an elbow that bends changes the inertia."
+        ),
         pose=_pose,
     ),
     Check(
@@ -212,6 +218,13 @@ CHECKS = (
             "are not: there are three, and two of them are equal.",
             "Give the name h to half of ∂M11/∂q2. Form h_ijk for all eight i, j, k: each is h, −h or 0.",
             "Entry (i, j) of C is h_ij1 q̇1 + h_ij2 q̇2. Test it: C + Cᵀ must be your Ṁ, entry by entry.",
+        ),
+        section=Section(
+            "02-from-lagrangian-to-matrices", "02-hand", "3 · The 2R arm by hand: all eight h_ijk"
+        ),
+        further=(
+            "C is linear in q̇, so C q̇ is quadratic: at twice the speed these torques are four "
+            "times as large. So a controller for a slow arm can often leave them out."
         ),
         pose=_pose,
     ),
@@ -252,6 +265,11 @@ CHECKS = (
             "Move the term of C11 into C12 so that the first row times q̇ stays the same. Then look at "
             "C_other + C_otherᵀ beside Ṁ: is the first entry still the same?",
         ),
+        section=Section("04-coriolis-and-skew-symmetry", "04-not-unique", "1 · C is not unique"),
+        further=(
+            "No measured motion can tell your C_other from C, as only the product with q̇ enters "
+            "it. A controller that multiplies C by another velocity can."
+        ),
         pose=_pose,
     ),
     Check(
@@ -283,6 +301,11 @@ CHECKS = (
             "In h_ijk the first derivative keeps i, j together, the second i, k, the third j, k. The "
             "two that hold the row index i inside M have a plus. Multiply each h_ijk by q̇_k, and test "
             "on the arm's M: C + Cᵀ must be Ṁ.",
+        ),
+        section=Section("02-from-lagrangian-to-matrices", "02-any-n", "5 · Any number of joints"),
+        further=(
+            "Your function needs nothing but M and q. So it holds for sliding joints too, and for "
+            "angles that are measured from elsewhere: the form of the equation stays the same."
         ),
     ),
 )

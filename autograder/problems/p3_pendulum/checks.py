@@ -10,6 +10,7 @@ import numpy as np
 
 from autograder.judging.check import Check, Criterion
 from autograder.judging.quantities import UnfitError, each
+from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
 from autograder.problems.material import sampling
@@ -68,6 +69,10 @@ def _frequency_calls(rng, count):
 
 GRAVITY = Generated("pendulum", "g_vec", mistakes.GRAVITY_SAID)
 
+TRAP_INERTIA = Section(
+    "01-canonical-form", "01-trap-inertia", 'Trap: the pendulum\'s inertia "about its centre"'
+)
+
 CHECKS = (
     Check(
         id="p3-lagrangian",
@@ -100,6 +105,11 @@ CHECKS = (
             "height that is 0 at q = 0, ℓc at q = π/2 and twice ℓc at q = π: which function of q "
             "does that? L is the first minus the second.",
         ),
+        section=Section("01-canonical-form", "01-pendulum-hand", "2 · The pendulum, by hand"),
+        further=(
+            "A constant that is added to P changes L, but not the motion: only derivatives of L "
+            "enter the equation. So you may choose where P is 0."
+        ),
     ),
     Check(
         id="p3-M",
@@ -118,6 +128,11 @@ CHECKS = (
             "which does the body turn?",
             "It is the same point, so you add nothing to the given inertia, and q does not enter. "
             "Write it as a matrix with one row and one column.",
+        ),
+        section=Section("01-canonical-form", "01-terms", "4 · What each term is, and what it does"),
+        further=(
+            "The farther a body's mass lies from the axis, the more slowly the same torque sets "
+            "it turning. A tightrope walker's long pole uses just that."
         ),
     ),
     Check(
@@ -140,6 +155,11 @@ CHECKS = (
             "C comes from the change of M with q. How does this M change when the pendulum turns?",
             "A constant M has no derivative. Return the matrix of one row and one column that says so.",
         ),
+        section=Section("01-canonical-form", "01-terms", "4 · What each term is, and what it does"),
+        further=(
+            "A single joint can have velocity terms: in a crank that drives a slider, M changes "
+            "with q, and there C is ½ M′(q) q̇."
+        ),
     ),
     Check(
         id="p3-g_vec",
@@ -157,6 +177,11 @@ CHECKS = (
             "horizontal distance of the centre of mass from the pivot. To hold the body at a "
             "small positive q, the motor must push in the positive direction: that is the sign of "
             "g on the left side.",
+        ),
+        section=Section("01-canonical-form", "01-terms", "4 · What each term is, and what it does"),
+        further=(
+            "At q = π the torque is 0 again: the pendulum can stand on its head, but the smallest "
+            "push brings it down."
         ),
     ),
     Check(
@@ -177,6 +202,11 @@ CHECKS = (
             "Of all parallel axes the one through the centre of mass has the smallest inertia, so "
             "you must add the inertia of that point mass. Check the unit: kg·m².",
         ),
+        section=TRAP_INERTIA,
+        further=(
+            "Of all parallel axes, the one through the centre of mass has the least inertia: "
+            "wherever you put the pivot, the inertia about it is at least as large."
+        ),
     ),
     Check(
         id="p3-small_angle_frequency",
@@ -191,6 +221,11 @@ CHECKS = (
             "constant factor: what is that factor called?",
             "The factor before q is the square of the angular frequency. It holds the weight, its "
             "lever arm and the inertia about the pivot. A root gives rad/s; you do not need 2π.",
+        ),
+        section=TRAP_INERTIA,
+        further=(
+            "This holds for small swings. If the same pendulum swings by 90° to each side, one "
+            "swing takes 18 % longer."
         ),
     ),
 )

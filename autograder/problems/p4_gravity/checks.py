@@ -8,6 +8,7 @@ import numpy as np
 from autograder.judging.check import Check, Criterion
 from autograder.judging.criterion import Answered, Said
 from autograder.judging.quantities import UnfitError, each, one_number, vector
+from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
@@ -168,6 +169,11 @@ CHECKS = (
             "q2 is measured from link 1, so the angle of link 2 with the x axis is a sum. A length "
             "at an angle from the x axis rises by its sine. Now add weight times height, link by link.",
         ),
+        section=Section("05-gravity", "05-potential", "1 · From the work of a weight to g(q)"),
+        further=(
+            "Your P is a sum, with one part for the direction of each link. The kinetic energy is "
+            "not: there, one part depends on the directions of both."
+        ),
         pose=_pose,
     ),
     Check(
@@ -192,6 +198,11 @@ CHECKS = (
             "you find one term in g1 and again in g2. Check with the arm level: g1 is every "
             "weight times its distance from the shoulder.",
         ),
+        section=Section("05-gravity", "05-2r-hand", "By hand: the 2R arm"),
+        further=(
+            "If motors give these torques at every q, the arm stays wherever you leave it. This "
+            "is gravity compensation; with it, people guide heavy arms by hand."
+        ),
         pose=_pose,
     ),
     Check(
@@ -215,6 +226,11 @@ CHECKS = (
             "what stands before dq.",
             "What stands before dq is a row and g is its column, so you must transpose Jv. Then "
             "add up all links, each with its own mass, and look at the sign: P falls along g0.",
+        ),
+        section=Section("05-gravity", "05-potential", "1 · From the work of a weight to g(q)"),
+        further=(
+            "A joint that turns about the direction of gravity needs no torque to hold: it moves "
+            "every centre of mass at right angles to the pull."
         ),
     ),
     Check(
@@ -262,6 +278,11 @@ CHECKS = (
             "With link 2 pointing so, its term is gone from g1 as well. What must link 1 do?",
             "Each link points straight up or straight down: two choices each. For each of the four "
             "pairs of directions write q1, and then q2, the angle from link 1 to link 2.",
+        ),
+        section=Section("05-gravity", "05-equilibria", "3 · Where the arm rests by itself"),
+        further=(
+            "A third link on the hand would make eight of them, and an arm with n links has 2ⁿ: "
+            "their number doubles with each link."
         ),
     ),
 )

@@ -11,6 +11,7 @@ import numpy as np
 from autograder.judging.check import Check, Criterion
 from autograder.judging.criterion import TOLERANCE, Answered, Said
 from autograder.judging.quantities import UnfitError, each, vector
+from autograder.judging.section import Section
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.material.systems import (
@@ -215,6 +216,11 @@ CHECKS = (
             "Write the friction torque on a line of its own, with arm.viscous, arm.coulomb and "
             "np.sign. Then let np.linalg.solve divide by M, and join the halves with np.concatenate.",
         ),
+        section=Section("10-state-space-and-simulation", "10-state", "1 · The state form"),
+        further=(
+            "An integrator sees nothing of the arm but f. With one wrong sign in it, it would "
+            "simulate another arm, and just as exactly."
+        ),
         pose=lambda call: planar_2r.joints(call.args[0][:2], call.args[2]),
     ),
     Check(
@@ -253,6 +259,11 @@ CHECKS = (
             "the newest slope. u is the same in all four.",
             "The new state is x plus dt times a mean of the slopes. The two middle slopes count "
             "twice; the weights add up to 1.",
+        ),
+        section=Section("10-state-space-and-simulation", "10-steps", "2 · One step"),
+        further=(
+            "Your step calls f four times. Four of Euler's steps, each a quarter as long, cost "
+            "the same, and at small steps they are far less exact."
         ),
     ),
     Check(
@@ -329,6 +340,11 @@ CHECKS = (
             "In a loop over range(len(t) - 1): the torque, from t[k] and states[k]; then "
             "states[k + 1] = rk4_step(...). Assign to the row; do not change an array in place.",
         ),
+        section=Section("10-state-space-and-simulation", "10-steps", "2 · One step"),
+        further=(
+            "Between two rows, the cubic that has both states and both slopes f(x, u) is a smooth "
+            "curve close to the motion: for a picture you need no smaller steps."
+        ),
     ),
     Check(
         id="p5-energy_drift",
@@ -349,6 +365,13 @@ CHECKS = (
             "one sits on the elbow and points along q1 + q2.",
             "Put the energies into an array E of len(x) entries. The drift compares all of them "
             "with one of them. Which entry of your result is 0?",
+        ),
+        section=Section(
+            "10-state-space-and-simulation", "10-energy", "3 · The energy as an instrument"
+        ),
+        further=(
+            "Your function uses K and P, and not f. So it judges a simulator by formulas that the "
+            "simulator has never seen."
         ),
     ),
 )

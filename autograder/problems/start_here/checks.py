@@ -20,5 +20,6 @@ CHECKS = (
         calls=_calls,
         criteria=(Criterion("kinetic energy of a body that turns", "J"),),
         mistakes=mistakes.KINETIC_ENERGY,
+        further=("Twice the velocity means four times the energy, whichever way the body turns."),
     ),
 )

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from autograder.judging.card import LOOKS, drawing, html_card, mimebundle
-from autograder.judging.verdict import Row, State, Verdict, Witness
+from autograder.judging.card import LOOKS, Line, drawing, html_card, mimebundle
+from autograder.judging.verdict import AS_ABOVE, Row, State, Verdict, Witness
 from autograder.problems.material.planar_2r import joints
 
 TEXT = st.text(max_size=120) | st.sampled_from(
@@ -31,16 +31,20 @@ def pose_of(links) -> tuple[tuple[float, float], ...]:
 
 
 POSES = st.lists(st.tuples(LENGTHS, ANGLES), min_size=1, max_size=4).map(pose_of)
+SAID = st.lists(TEXT, max_size=2).map(tuple)
 VERDICTS = st.builds(
     Verdict,
     check=TEXT,
     state=st.sampled_from(State),
     credit=st.floats(0, 1),
-    rows=st.lists(st.builds(Row, TEXT, st.floats(0, 1), st.booleans()), max_size=3).map(tuple),
+    rows=st.lists(st.builds(Row, TEXT, st.floats(0, 1), st.booleans(), SAID), max_size=3).map(
+        tuple
+    ),
     witness=st.none() | st.builds(Witness, TEXT, TEXT, TEXT, st.just(()) | POSES),
     problem=TEXT,
     diagnosis=st.lists(TEXT, max_size=2).map(tuple),
     remark=TEXT,
+    further=TEXT,
     next_step=TEXT,
 )
 MARK = '<b>"it\'s"&</b>'
@@ -277,3 +281,76 @@ def test_the_call_stands_as_code(call):
     words = Card(card).words
     assert "".join(words).endswith(f"Worst case: {call} gave 1 N·m, off by 2 N·m.")
     assert card.count("<code ") == card.count("</code>") == 1
+
+
+class Items(HTMLParser):
+    """The list items of a card, each with its words, and with their marks apart."""
+
+    def __init__(self, html: str):
+        super().__init__()
+        self.items, self.marks, self._hidden = [], [], False
+        self.feed(html)
+
+    def handle_starttag(self, tag, attributes):
+        self._hidden = dict(attributes).get("aria-hidden") == "true"
+        if tag == "li":
+            self.items.append([])
+
+    def handle_data(self, data):
+        if self._hidden and self.items:
+            self.marks.append(data.strip())
+        elif self.items:
+            self.items[-1].append(data)
+
+
+ENTRIES = Verdict(
+    "p1-M",
+    State.PARTLY_CORRECT,
+    0.25,
+    (
+        Row("M11", 0.5, False, ("The sign.", "The half.")),
+        Row("M22", 0.25, True),
+        Row("M12", 0.25, False, ("The sign.",)),
+    ),
+    diagnosis=("The sign.", "The half.", "Of all."),
+)
+
+
+def test_each_sentence_stands_under_its_criterion():
+    items = Items(html_card(ENTRIES)).items
+    assert items[0] == ["not met: M11 (50%)", "The sign.", "The half."]
+    assert items[1] == ["met: M22 (25%)"]
+    assert items[2][:2] == ["not met: M12 (25%)", AS_ABOVE]
+    assert html_card(ENTRIES).index("Of all.") > html_card(ENTRIES).index(AS_ABOVE)
+    assert str(ENTRIES).splitlines()[1:] == [
+        "  [ ] M11 (50%)",
+        "      The sign.",
+        "      The half.",
+        "  [x] M22 (25%)",
+        "  [ ] M12 (25%)",
+        f"      {AS_ABOVE}",
+        "  Of all.",
+    ]
+
+
+def test_met_and_unmet_rows_differ_by_word_mark_and_bar():
+    html = html_card(ENTRIES)
+    assert Items(html).marks == ["✗", "✓", "✗"]
+    assert re.findall(r"border-left: 3px solid ([^;]+);", html) == [
+        LOOKS[State.INCORRECT][1],
+        "transparent",
+        LOOKS[State.INCORRECT][1],
+    ]
+    assert '<ul role="list"' in html
+
+
+@given(VERDICTS, TEXT)
+def test_lines_of_the_notebook_come_last_and_as_text(verdict, said):
+    bundle = mimebundle(verdict, [Line(said), Line("a lesson", '<a href="x">a lesson</a>')])
+    card = Card(bundle["text/html"])
+    assert card.tags.count("a") == 1
+    assert (
+        squeezed("".join(card.words)).endswith(squeezed(f"{said}a lesson"))
+        or "<svg" in (bundle["text/html"])
+    )
+    assert squeezed(bundle["text/plain"]).endswith(squeezed(f"{said}a lesson"))

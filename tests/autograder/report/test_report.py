@@ -102,7 +102,7 @@ def test_a_damaged_notebook_is_refused_by_name(tmp_path):
     path = tmp_path / "p3-pendulum.ipynb"
     path.write_text("{")
     with pytest.raises(ValueError, match=r"p3-pendulum\.ipynb cannot be read"):
-        report.read_verdicts(path)
+        report.read_graded(path)
 
 
 def test_the_command_reports_what_grading_left(tmp_path, monkeypatch, capsys):

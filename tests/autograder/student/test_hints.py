@@ -6,24 +6,28 @@ import re
 from html.parser import HTMLParser
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output
 
+from autograder import hints_seen
 from autograder.problems import CHECKS
 from autograder.problems.material import planar_2r
 from autograder.problems.start_here.checks import CHECKS as FIRST
-from autograder.student import hints
-from autograder.student.cell import check
+from autograder.student import failing, hint_counts
+from autograder.student.cell import NotCorrectError, check
 from autograder.student.hints import hint
 
 LAST = "That was the last hint. The matching lesson has the rest."
 
 
 @pytest.fixture(autouse=True)
-def none_given(monkeypatch):
-    monkeypatch.setattr(hints, "_given", {})
+def none_given(monkeypatch, tmp_path):
+    """A kernel that has just started, in a folder of its own."""
+    monkeypatch.setattr(hint_counts, "_here", {})
+    monkeypatch.setattr(failing, "_failing", {})
+    monkeypatch.chdir(tmp_path)
 
 
 @pytest.fixture
@@ -74,9 +78,10 @@ def test_each_time_one_more_and_the_last_again(id, capsys):
         assert left == (again if more else LAST)
 
 
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.sampled_from([id for id in CHECKS if CHECKS[id].hints]), max_size=12))
 def test_each_check_counts_for_itself(asked):
-    hints._given.clear()
+    hint_counts._here.clear()
     for place, id in enumerate(asked):
         with capture_output() as captured:
             hint(id)
@@ -101,7 +106,7 @@ def test_an_unknown_id_is_refused_as_by_the_check(id):
         hint(id)
     assert str(of_hint.value) == str(of_check.value)
     assert repr(id) in str(of_hint.value)
-    assert not hints._given
+    assert not hint_counts._here
 
 
 def test_under_ipython_a_card_says_what_the_text_says(shown):
@@ -126,7 +131,7 @@ def test_a_hint_is_escaped(shown, monkeypatch):
 
 def formulas() -> set[str]:
     """The right sides of the reference formulas, and of what the models are made of, without blanks."""
-    models = [c.reference for c in CHECKS.values()]
+    models = [getattr(c.reference, "of", c.reference) for c in CHECKS.values()]
     models += [f for _, f in inspect.getmembers(planar_2r, inspect.isfunction)]
     sides = set()
     for model in models:
@@ -161,3 +166,102 @@ def test_three_hints_a_check_none_of_which_is_the_formula(id):
         assert text[-1] in ".?"
         assert "$" not in text  # JupyterLab would typeset it, plain text would not
         assert not [side for side in formulas() if side in squeezed(text)]
+
+
+@pytest.fixture
+def beside(tmp_path):
+    """A notebook's folder."""
+    (tmp_path / "p1-inertia.ipynb").write_text("{}")
+    return tmp_path / hints_seen.FILE
+
+
+def another_kernel(monkeypatch):
+    monkeypatch.setattr(hint_counts, "_here", {})
+
+
+def count_shown(capsys, id) -> int:
+    return len(printed(capsys, id)) - 2
+
+
+def test_the_count_outlives_the_kernel(beside, capsys, monkeypatch):
+    assert [count_shown(capsys, "p1-M") for _ in range(2)] == [1, 2]
+    assert hints_seen.read(beside) == {"p1-M": 2}
+    another_kernel(monkeypatch)
+    # First the same again, so that "Run All" gives away no more; then one more.
+    assert [count_shown(capsys, "p1-M") for _ in range(2)] == [2, 3]
+    assert count_shown(capsys, "p1-is_spd") == 1
+    assert hints_seen.read(beside) == {"p1-M": 3, "p1-is_spd": 1}
+
+
+def test_where_there_is_no_notebook_nothing_is_written(tmp_path, capsys):
+    assert [count_shown(capsys, "p1-M") for _ in range(2)] == [1, 2]
+    assert not list(tmp_path.iterdir())
+
+
+def test_validate_counts_nothing(beside, capsys, monkeypatch):
+    monkeypatch.setenv("NBGRADER_EXECUTION", "validate")
+    assert count_shown(capsys, "p1-M") == 1
+    assert not beside.exists()
+
+
+def test_a_folder_that_nobody_may_write_to_breaks_nothing(beside, capsys, monkeypatch):
+    def refused(*_, **__):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(hints_seen, "put_in_place", refused)
+    assert [count_shown(capsys, "p1-M") for _ in range(3)] == [1, 2, 3]
+    assert not beside.exists()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[1, 2]",
+        "null",
+        "{",
+        "[" * 50_000,
+        '{"p1-M": "2"}',
+        '{"p1-M": true}',
+        '{"p1-M": -1}',
+        '{"p1-M": 1e9}',
+        '{"p1-M": 1000}',
+        f'{{"{"x" * 200}": 1}}',
+        "\ud800",
+    ],
+)
+def test_a_damaged_file_counts_as_none(text, beside, capsys):
+    beside.write_text(text, encoding="utf-8", errors="surrogatepass")
+    assert hints_seen.read(beside) == {}
+    assert count_shown(capsys, "p1-M") == 1
+    assert hints_seen.read(beside) == {"p1-M": 1}
+
+
+def test_a_file_that_is_too_large_or_a_link_is_not_read(beside, tmp_path):
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.write_text('{"p1-M": 2}')
+    beside.symlink_to(elsewhere)
+    assert hints_seen.read(beside) == {}
+    beside.unlink()
+    beside.write_text('{"p1-M": 2' + " " * hints_seen.MOST_BYTES + "}")
+    assert hints_seen.read(beside) == {}
+
+
+def checked(id, body):
+    namespace = {"__name__": "__main__", "check": check}
+    exec(f"def {CHECKS[id].signature}:\n    {body}", namespace)
+    exec(f"check({id!r})", namespace)
+
+
+def test_without_an_id_the_check_that_failed_last_is_served(capsys):
+    with pytest.raises(ValueError, match="give the id of a check"):
+        hint()
+    for id in ("p3-M", "p3-C"):
+        with pytest.raises(NotCorrectError):
+            checked(id, "return 7.0")
+    assert printed(capsys, None)[-3] == "Hints for p3-C"
+    checked("p3-C", "return 0.0")
+    assert "Hints for p3-M" in printed(capsys, None)
+    checked("p3-M", "return pend.I")
+    with pytest.raises(ValueError, match="give the id of a check"):
+        hint()

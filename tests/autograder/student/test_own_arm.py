@@ -8,8 +8,9 @@ from types import SimpleNamespace
 import pytest
 
 from autograder.problems.material.conventions import BOOK, FAMILY, drawn
-from autograder.student import hints, own_arm
+from autograder.student import hint_counts, own_arm
 from autograder.student.cell import check, verdict_on
+from autograder.student.hints import hint
 from autograder.student.own_arm import drawn_for
 
 ARM = SimpleNamespace(l1=0.45, l2=0.4, g=9.81)
@@ -21,7 +22,7 @@ def kernel(monkeypatch, tmp_path):
     monkeypatch.setattr(own_arm, "_typed", [])
     monkeypatch.setattr(own_arm, "_drawn", {})
     monkeypatch.setattr(own_arm, "_nameless", set())
-    monkeypatch.setattr(hints, "_given", {})
+    monkeypatch.setattr(hint_counts, "_here", {})
     monkeypatch.delenv("JUPYTERHUB_USER", raising=False)
     folder = tmp_path / "problems" / "p1-inertia"
     folder.mkdir(parents=True)
@@ -137,7 +138,7 @@ def test_a_check_and_its_hints_are_of_the_drawn_arm(monkeypatch, capsys):
     assert verdict_on("p1-M", {"M": own.M}, fresh=True).credit == 1
     capsys.readouterr()
     for _ in range(2):
-        hints.hint("p1-M")
+        hint("p1-M")
     assert "as your table says" in capsys.readouterr().out
 
 

@@ -1,0 +1,75 @@
+"""What a lecturer may want to count: criteria that nobody met, hints, times of hand-in."""
+
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from statistics import median
+
+from autograder.report.students import Class, Student
+
+
+@dataclass(frozen=True)
+class NeverMet:
+    """A criterion that nobody met, and by how many answers it was tried."""
+
+    check: str
+    text: str
+    tried: int
+
+
+@dataclass(frozen=True)
+class HintsSeen:
+    """Of one check: how many students saw hints, of how many whose count is known, and how many hints
+    they saw together.
+    """
+
+    check: str
+    students: int
+    known: int
+    seen: int
+
+
+@dataclass(frozen=True)
+class HandedIn:
+    """When a class handed in, UTC. in_last_day: how many did so in the 24 hours before the last one."""
+
+    first: datetime
+    middle: datetime
+    last: datetime
+    in_last_day: int
+    known: int
+
+
+def never_met(students: list[Student]) -> list[NeverMet]:
+    """In the order of the checks. Verdicts that store no criteria, as older ones do not, say nothing."""
+    tried: dict[tuple[str, str], int] = {}
+    met: set[tuple[str, str]] = set()
+    for student in students:
+        for check, verdict in student.verdicts.items():
+            for row in verdict.get("rows", ()):
+                of = check, row["text"]
+                tried[of] = tried.get(of, 0) + 1
+                if row["met"]:
+                    met.add(of)
+    return [NeverMet(*of, count) for of, count in tried.items() if of not in met]
+
+
+def hints_seen(of: Class) -> list[HintsSeen]:
+    """For each check of which somebody saw a hint, the most students first."""
+    known = [student.hints for student in of.students if student.hints is not None]
+    found = []
+    for check in of.checks:
+        counts = [hints[check] for hints in known if hints.get(check)]
+        if counts:
+            found.append(HintsSeen(check, len(counts), len(known), sum(counts)))
+    return sorted(found, key=lambda one: -one.students)
+
+
+def handed_in(students: list[Student]) -> HandedIn | None:
+    """None where no time is known."""
+    times = sorted(one.handed_in for one in students if one.handed_in is not None)
+    if not times:
+        return None
+    start = times[0]
+    middle = start + timedelta(seconds=median((time - start).total_seconds() for time in times))
+    late = sum(time > times[-1] - timedelta(days=1) for time in times)
+    return HandedIn(start, middle, times[-1], late, len(times))

@@ -1,0 +1,101 @@
+"""Which mistakes a class made: how many made each, and who made the same two."""
+
+import math
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import combinations
+
+from autograder.problems import check_for
+from autograder.report.answers import anonymous
+from autograder.report.students import Student
+
+MOST_PAIRS = 10
+# A pair is shown if chance brings so many together less often than this.
+RARE = 0.01
+
+
+@dataclass(frozen=True)
+class Made:
+    """A sentence of the diagnosis, its check, and the students who got it.
+
+    name: the mistake's name, if a person wrote the mistake.
+    """
+
+    check: str
+    name: str
+    sentence: str
+    students: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Together:
+    """Two wrong answers that several students share, to different checks.
+
+    expected: how many would share them by chance, if to make one made the other no likelier.
+    """
+
+    first: Made
+    second: Made
+    students: tuple[str, ...]
+    expected: float
+
+
+def mistakes_made(students: Iterable[Student]) -> list[Made]:
+    """Each sentence that a student got, the most frequent first."""
+    to_whom = defaultdict(list)
+    for student in students:
+        for check, verdict in student.verdicts.items():
+            for sentence in dict.fromkeys(verdict["diagnosis"]):
+                to_whom[check, sentence].append(student.name)
+    made = [
+        Made(check, _name_of(check, sentence), sentence, tuple(names))
+        for (check, sentence), names in to_whom.items()
+    ]
+    return sorted(made, key=lambda one: (-len(one.students), one.check, one.sentence))
+
+
+def made_together(made: list[Made], students: int) -> list[Together]:
+    """Pairs of mistakes in different checks that more students share than chance explains.
+
+    students: of the class. Such pairs say that an explanation is missing, or that work was shared, or
+    nothing: mistakes that many make come together by themselves.
+    """
+    found: list[tuple[float, int, int, Together]] = []
+    shared = [one for one in made if len(one.students) > 1]
+    for first, second in combinations(shared, 2):
+        if first.check == second.check:
+            continue
+        both = tuple(name for name in first.students if name in set(second.students))
+        counts = len(first.students), len(second.students)
+        if len(both) > 1 and (rare := _chance(len(both), *counts, students)) < RARE:
+            together = Together(first, second, both, counts[0] * counts[1] / students)
+            found.append((rare, -len(both), len(found), together))
+    return [together for *_, together in sorted(found, key=lambda one: one[:3])][:MOST_PAIRS]
+
+
+def _chance(both: int, first: int, second: int, students: int) -> float:
+    """The probability that at least so many made both, if to make one made the other no likelier."""
+    ways = sum(
+        math.comb(first, k) * math.comb(students - first, second - k)
+        for k in range(both, min(first, second) + 1)
+    )
+    return ways / math.comb(students, second)
+
+
+def example_of(made: Made, students: list[Student]) -> str:
+    """The shortest answer of those who made the mistake, without what could name its author."""
+    names = [student.name for student in students]
+    answers = [
+        anonymous(student.answers[made.check], names)
+        for student in students
+        if student.name in made.students and made.check in student.answers
+    ]
+    return min(filter(None, answers), key=len, default="")
+
+
+def _name_of(check: str, sentence: str) -> str:
+    """Of a mistake that a person wrote; of one that follows from a mechanism the sentence says more."""
+    known = check_for(check)
+    mistakes = known.mistakes if known else ()
+    return next((mistake.name for mistake in mistakes if mistake.sentence == sentence), "")

@@ -1,0 +1,130 @@
+"""A report's pages, of one assignment and of the term, and the same in a few lines for the terminal."""
+
+from collections import Counter
+from functools import cache
+from importlib import resources
+from statistics import mean, median
+
+import jinja2
+
+from autograder.judging.card import LOOKS
+from autograder.judging.verdict import State
+from autograder.report import figures
+from autograder.report.mistakes import example_of, made_together, mistakes_made
+from autograder.report.students import Class, Student
+from autograder.terminal import shown_note
+
+MOST_LINES = 10  # mistakes in the terminal; the page has all of them
+MOST_MADE = 3  # with an example
+
+
+def page(assignment: str, most: float, students: list[Student]) -> str:
+    """The report on an assignment as an HTML page. most: its points."""
+    of = Class(assignment, most, students)
+    counts = {
+        check: Counter(
+            student.verdicts[check]["state"] for student in students if check in student.verdicts
+        )
+        for check in of.checks
+    }
+    return _rendered(
+        "page.html",
+        of=_of_class(of),
+        states=[state.value for state in State],
+        looks={state.value: look for state, look in LOOKS.items()},
+        counts=counts,
+        made=mistakes_made(students),
+    )
+
+
+def term_page(classes: list[Class]) -> str:
+    """The report on all assignments as an HTML page."""
+    students = _of_term(classes)
+    made = mistakes_made(students)
+    points = {
+        of.assignment: {one.name: one.points for one in of.students if one.points is not None}
+        for of in classes
+    }
+    return _rendered(
+        "term.html",
+        classes=[_of_class(of) for of in classes],
+        names=[student.name for student in students],
+        points=points,
+        worst=[(one, example_of(one, students)) for one in made[:MOST_MADE]],
+        together=made_together(made, len(students)),
+    )
+
+
+def summary(most: float, students: list[Student]) -> str:
+    """The report on an assignment in a few lines, for the terminal."""
+    lines = [_how_many(Class("", most, students))]
+    for one in mistakes_made(students)[:MOST_LINES]:
+        lines.append(
+            f"{len(one.students):4d} × {shown_note(f'{one.check}: {one.name or one.sentence}')}"
+        )
+    for never in figures.never_met(students):
+        lines.append(shown_note(f"nobody met: {never.check}: {never.text}"))
+    return "\n".join(lines)
+
+
+def term_summary(classes: list[Class]) -> str:
+    """The report on all assignments in a line each."""
+    return "\n".join(f"{of.assignment}: {_how_many(of)}" for of in classes)
+
+
+def _how_many(of: Class) -> str:
+    said = f"{len(of.scores)} of {len(of.students)} graded"
+    if of.scores:
+        said += f", mean {mean(of.scores):.3g}, median {median(of.scores):.3g}"
+        said += f" of {of.most:g} points"
+    return said
+
+
+def _of_class(of: Class) -> dict:
+    """What both pages show of an assignment."""
+    made = mistakes_made(of.students)
+    return {
+        "assignment": of.assignment,
+        "most": of.most,
+        "students": of.students,
+        "checks": of.checks,
+        "graded": len(of.scores),
+        "mean": mean(of.scores) if of.scores else 0.0,
+        "median": median(of.scores) if of.scores else 0.0,
+        "to_read": sum(student.to_read for student in of.students),
+        "worst": [(one, example_of(one, of.students)) for one in made[:MOST_MADE]],
+        "together": made_together(made, len(of.students)),
+        "never": figures.never_met(of.students),
+        "hints": figures.hints_seen(of),
+        "times": figures.handed_in(of.students),
+    }
+
+
+def _of_term(classes: list[Class]) -> list[Student]:
+    """Each student once, with the verdicts and answers of all assignments, in order of the names."""
+    found: dict[str, Student] = {}
+    for of in classes:
+        for one in of.students:
+            before = found.get(one.name, Student(one.name))
+            found[one.name] = Student(
+                one.name,
+                verdicts=before.verdicts | one.verdicts,
+                answers=before.answers | one.answers,
+            )
+    return [found[name] for name in sorted(found)]
+
+
+def _rendered(template: str, **values) -> str:
+    return _environment().get_template(template).render(**values)
+
+
+@cache
+def _environment() -> jinja2.Environment:
+    folder = resources.files(__package__)
+    return jinja2.Environment(
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        loader=jinja2.FunctionLoader(
+            lambda name: folder.joinpath(name).read_text(encoding="utf-8")
+        ),
+    )

@@ -1,0 +1,69 @@
+"""What a report knows of a class: each student's verdicts and answers, and what else is on file."""
+
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+
+import nbformat
+
+from autograder.notebook.outputs import read_verdict
+from autograder.protocol import one_line
+from autograder.report.answers import answers_to
+
+
+@dataclass(frozen=True)
+class Student:
+    """One student's points, and the verdicts on the autograded notebook.
+
+    points: with those that a person gave; None if nothing is graded. to_read: how many cells a person
+    still has to read. verdicts: by check. note: why there are none. answers: the code cell that defines
+    each check's function, by check. handed_in: in UTC, None where that is not known. hints: how many
+    were seen, by check; None where that is not known.
+    """
+
+    name: str
+    points: float | None = None
+    to_read: int = 0
+    verdicts: dict[str, dict] = field(default_factory=dict)
+    note: str = ""
+    answers: dict[str, str] = field(default_factory=dict)
+    handed_in: datetime | None = None
+    hints: dict[str, int] | None = None
+
+
+@dataclass(frozen=True)
+class Class:
+    """The students who handed in an assignment, which gives `most` points."""
+
+    assignment: str
+    most: float
+    students: list[Student]
+
+    @property
+    def checks(self) -> list[str]:
+        """Of all students, in the order of the notebook."""
+        return list(dict.fromkeys(check for one in self.students for check in one.verdicts))
+
+    @property
+    def scores(self) -> list[float]:
+        """Of those who are graded, in points."""
+        return [one.points for one in self.students if one.points is not None]
+
+
+def read_graded(notebook: Path) -> tuple[dict[str, dict], dict[str, str]]:
+    """The verdicts in an autograded notebook, and the answers that they are on, both by check.
+
+    ValueError if it cannot be read.
+    """
+    try:
+        cells = nbformat.read(notebook, as_version=4).cells
+        found = [
+            read_verdict(output)
+            for cell in cells
+            if cell.metadata.get("nbgrader", {}).get("grade")
+            for output in cell.get("outputs", [])
+        ]
+        verdicts = {one["check"]: one for one in found if one}
+        return verdicts, answers_to(list(verdicts), cells)
+    except Exception as error:  # the file may be JSON of any other kind
+        raise ValueError(f"{notebook.name} cannot be read: {one_line(str(error))}") from None

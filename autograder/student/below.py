@@ -1,0 +1,43 @@
+"""What a card in a student's notebook ends with: where to go on."""
+
+from html import escape
+from pathlib import Path
+
+from autograder.judging.card import Line
+from autograder.judging.section import Section
+from autograder.judging.verdict import State, Verdict
+from autograder.problems import known_check
+from autograder.student import progress
+
+LESSONS = Path("../../lessons")  # from a problem's notebook
+
+
+def lines(verdict: Verdict) -> list[Line]:
+    """The hint to call and the section to read, if the answer is not right; the notebook's points."""
+    found = []
+    if verdict.state not in (State.CORRECT, State.CHECK_FAILED):
+        check = known_check(verdict.check)
+        if check.hints:
+            found.append(_hint(check.id))
+        if check.section:
+            found.append(_section(check.section))
+    if points := progress.of(verdict.check):
+        found.append(Line(str(points)))
+    return found
+
+
+def _hint(id: str) -> Line:
+    call = f'hint("{id}")'
+    said = "Stuck? Run {} for a hint. Hints cost no points."
+    return Line(said.format(call), said.format(f"<code>{escape(call)}</code>"))
+
+
+def _section(section: Section) -> Line:
+    """A link, where the lesson lies where a problem's notebook finds it."""
+    said = f"Lesson {section.number} prepares this: {{}}."
+    path = LESSONS / section.file
+    if not path.is_file():
+        return Line(said.format(section.heading))
+    link = f"{path.as_posix()}#cell-id={section.cell}"
+    shown = f'<a href="{escape(link)}">{escape(section.heading)}</a>'
+    return Line(f"{said.format(section.heading)} ({path.as_posix()})", said.format(shown))
