@@ -4,7 +4,14 @@ import itertools
 import math
 from html import escape
 
-from autograder.judging.verdict import State, Verdict, Witness, worst_case
+from autograder.judging.verdict import (
+    State,
+    Verdict,
+    Witness,
+    arguments_by,
+    failing,
+    worst_case,
+)
 
 # Mark and colour (Okabe and Ito's palette, safe for colour-blind readers).
 LOOKS = {
@@ -26,10 +33,16 @@ def html_card(verdict: Verdict) -> str:
     mark, colour = LOOKS[verdict.state]
     pose = verdict.witness.pose if verdict.witness else ()
     lines = [_paragraph("problem", verdict.problem)]
+    if failed := verdict.failed:
+        shown = zip(failing(failed), (failed.call, failed.works), strict=False)
+        lines += [_with_code("failed", sentence, call) for sentence, call in shown]
     lines += [_rows(verdict)] if verdict.rows else []
     lines += [_paragraph("diagnosis", sentence) for sentence in verdict.diagnosis]
     lines.append(_paragraph("remark", verdict.remark))
     lines += [_worst_case(verdict.witness)] if verdict.witness else []
+    if verdict.given_by:
+        sentence = arguments_by(verdict)
+        lines.append(_with_code("arguments", sentence, verdict.given_by))
     lines.append(_paragraph("next", verdict.next_step))
     text = (
         f'<p style="margin: 0.2em 0"><strong><span aria-hidden="true">{mark} </span>'
@@ -128,16 +141,19 @@ def _paragraph(kind: str, text: str) -> str:
 
 
 def _worst_case(witness: Witness) -> str:
-    """The sentence, with the call in it as code; wide arrays may break anywhere."""
-    sentence = escape(worst_case(witness))
-    if witness.call:
-        call = escape(witness.call)
+    return _with_code("witness", worst_case(witness), witness.call)
+
+
+def _with_code(kind: str, sentence: str, code: str) -> str:
+    """A sentence, with what is Python in it as code; wide arrays may break anywhere."""
+    sentence, code = escape(sentence), escape(code)
+    if code:
         look = (
             "font-size: 0.9em; background: none; padding: 0;"
             " white-space: normal; overflow-wrap: anywhere"
         )
-        sentence = sentence.replace(call, f'<code style="{look}">{call}</code>', 1)
-    return f'<p class="armdyn-witness" style="margin: 0.3em 0">{sentence}</p>'
+        sentence = sentence.replace(code, f'<code style="{look}">{code}</code>', 1)
+    return f'<p class="armdyn-{kind}" style="margin: 0.3em 0">{sentence}</p>'
 
 
 def _rows(verdict: Verdict) -> str:

@@ -2,6 +2,8 @@
 
 import re
 
+import numpy as np
+
 from autograder.protocol import Fault, FaultKind
 
 NUMBERS = "numbers"
@@ -59,6 +61,26 @@ def _of_symbols(message: str, needed: str) -> str:
         " Its arguments are SymPy's symbols, and the functions of NumPy and of math take only "
         "numbers. Use SymPy's own, such as sp.cos."
     )
+
+
+def describe_unfit(signature: str, unfit: str, truth: bool, value, right) -> str:
+    """The sentence where numbers came back, but not as many, or not in the shape, that is asked for.
+
+    unfit: what came, and what is needed. truth: whether True or False is. value: what came for a call;
+    right: what should have.
+    """
+    if truth and np.size(value) != 1:
+        return (
+            f"{signature} returned {np.size(value)} values of True or False, in shape "
+            f"{np.shape(value)}; it must return one. When is the answer True: where all of them are?"
+        )
+    matrix, n = np.shape(value), np.size(right)
+    if np.ndim(right) == 1 and n > 1 and matrix == (n, n):
+        return (
+            f"{signature} returned {unfit}. Did you multiply a matrix and a vector by *? It multiplies "
+            "entry by entry; the matrix product is @."
+        )
+    return f"{signature} returned {unfit}."
 
 
 def describe_second_fault(fault: Fault, name: str, signature: str, needed: str = NUMBERS) -> str:

@@ -33,6 +33,8 @@ PATIENCE = 5.0
 # A reply with two answers must fit where the largest answer does; this is more than any answer has.
 MOST_TWICE = MOST_NUMBERS // 10
 MOST_CHANGES = 50
+# Faults that another call need not have.
+GO_ON_AFTER = (FaultKind.RAISED, FaultKind.NOTHING, FaultKind.NOT_NUMBERS)
 
 
 @dataclass(frozen=True)
@@ -155,11 +157,20 @@ def read(call: Call, result):
 
 
 def answer_all(calls: list[Call], namespace: Mapping) -> list[Reply]:
-    """Answer calls in turn, up to the first that gives no numbers: the rest would say the same."""
-    replies = []
+    """Answer calls in turn, up to a fault that the rest would share, or would take long to find.
+
+    After an error, or a value that is no number, the calls go on for as long as one call may take in
+    all: whoever reads of it wants to know whether every call fails.
+    """
+    replies: list[Reply] = []
+    ends = None
     for call in calls:
         replies.append(answer(call, namespace))
-        if replies[-1].fault:
+        if (fault := replies[-1].fault) is None:
+            continue
+        now = time.monotonic()
+        ends = now + CALL_SECONDS if ends is None else ends
+        if fault.kind not in GO_ON_AFTER or now > ends:
             break
     return replies
 
