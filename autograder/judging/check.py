@@ -32,6 +32,7 @@ VISIBLE_CASES = 6
 HIDDEN_CASES = 24
 # An answer that took longer, s, is not called again to find out more about it.
 SLOW = 2.0
+CARET = "Your {} uses ^. In Python ^ is no power; the power is **."
 
 Ask = Callable[[list[Call]], list[Reply]]
 
@@ -117,9 +118,13 @@ class Check:
         try:
             # Near the largest float, their numbers less ours overflow: wrong, but not our failure.
             with np.errstate(over="ignore", invalid="ignore"):
-                return self._judge_replies(calls, expected, replies, ask_again)
+                verdict = self._judge_replies(calls, expected, replies, ask_again)
         except Exception as error:
             return self._failed(error)
+        if verdict.state is not State.CORRECT and replies[0].caret:
+            remarks = filter(None, [verdict.remark, CARET.format(self.name)])
+            return replace(verdict, remark=" ".join(remarks))
+        return verdict
 
     def _judge_replies(
         self, calls: list[Call], expected: Numbers, replies: list[Reply], ask: Ask | None

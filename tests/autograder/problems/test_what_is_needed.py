@@ -9,10 +9,7 @@ NUMBERS = "it must return numbers."
 EXPRESSION = "it must return a SymPy expression of its arguments."
 EXPRESSIONS = "it must return SymPy expressions of its arguments."
 TRUTH = "it must return True or False."
-USE_SYMPY = (
-    "Its arguments are SymPy's symbols, and the functions of NumPy and of math take only numbers. "
-    "Use SymPy's own, such as sp.cos."
-)
+USE_SYMPY = "takes only numbers, and this is a SymPy expression: SymPy's own is sp.cos."
 
 
 @pytest.mark.parametrize(
@@ -48,7 +45,8 @@ def test_only_symbols_call_for_sympys_functions():
     """The same error of NumPy, where the arguments are numbers and the symbol is the student's own."""
     verdict = judged("p3-g_vec", "np.cos(sp.Symbol('q'))")
     assert verdict.state is State.ERROR
-    assert "Use SymPy's" not in verdict.problem
+    assert "SymPy's own" not in verdict.problem
+    assert "The arguments are numbers" in verdict.problem
 
 
 def test_sympys_own_truth_is_one():
