@@ -137,7 +137,9 @@ def _called(scene: Scene, found, error) -> Words | None:
 
 def _divisor(scene: Scene, found, error) -> Words | None:
     node = scene.find(ast.BinOp)
-    return (text(node.right),) if node and isinstance(node.op, ast.Div) else None
+    if node is None or not isinstance(node.op, ast.Div) or isinstance(node.right, ast.Constant):
+        return None
+    return (text(node.right),)
 
 
 def _of_numpy(scene: Scene, found, error) -> Words | None:

@@ -229,7 +229,11 @@ CASES = [
         "M is a list. An array takes two indices: make it one with np.array(M).",
     ),
     ("complex", "float((-2.0) ** 0.5)", "The number is complex. Is it a root of something negative?"),
-    ("domain", "x = -2.0\nreturn math.sqrt(x)", "math.sqrt has no value at x. Is that negative, or out of its range?"),
+    (
+        "domain",
+        "x = -2.0\nreturn math.sqrt(x)",
+        "math.sqrt has no value at x. Is that negative, or out of its range?",
+    ),
     ("zero", "x = 0.0\nreturn 1 / abs(x)", "abs(x) is 0 in this call."),
     ("numpy name", "cos(q[0])", "cos needs a prefix: np.cos takes numbers."),
     (
@@ -262,6 +266,7 @@ def test_it_crosses_to_the_judge(kind, body, said):
     "body",
     [
         "int('l1')",
+        "arm.l1 / 0",
         "raise ValueError('matmul: mine')\n",
         "raise KeyError('l1')\n",
         "q[0] + undefined",
