@@ -44,13 +44,18 @@ def given_by(call: Call, signature: str, id: str) -> str:
     names = arguments(signature)
     if not names:
         return ""
-    shapes = [
+    line = f'from autograder import worst_case; {", ".join(names)} = worst_case("{id}")'
+    return line + shapes(call, signature)
+
+
+def shapes(call: Call, signature: str) -> str:
+    """A comment with the shapes of the arguments that `shown_call` shows by their names; "" for none."""
+    said = [
         f"{name} {value.shape}"
-        for name, value in zip(names, call.args, strict=False)
+        for name, value in zip(arguments(signature), call.args, strict=False)
         if isinstance(value, np.ndarray) and value.size > LONGEST_ARRAY
     ]
-    comment = f"  # {', '.join(shapes)}" if shapes else ""
-    return f'from autograder import worst_case; {", ".join(names)} = worst_case("{id}"){comment}'
+    return f"  # {', '.join(said)}" if said else ""
 
 
 def rounded(call: Call, digits: int = SHORT) -> Call:

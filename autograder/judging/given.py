@@ -7,7 +7,7 @@ are judged that do not hang on these.
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from autograder.judging.call_text import given_by, shown_call
+from autograder.judging.call_text import given_by, shapes, shown_call
 from autograder.judging.faults import NUMBERS, describe_unfit
 from autograder.judging.partial import is_finite, partial, where_not_finite
 from autograder.judging.quantities import Numbers, Quantities, UnfitError
@@ -79,8 +79,9 @@ class Reading:
             found = partial(self.quantities, calls, values)
         except UnfitError as error:
             unfit = self._unfit(calls, values)
+            first = calls[unfit[0]]
             said = describe_unfit(
-                self.signature, str(error), calls[0].truth, values[unfit[0]], self.right(calls[0])
+                self.signature, str(error), first.truth, values[unfit[0]], self.right(first)
             )
             raise NoNumbersError(said, self._failed(calls, unfit)) from None
         problem = (
@@ -105,16 +106,19 @@ class Reading:
 
     def _failed(self, calls: list[Call], bad: list[int], asked: int | None = None) -> Failed:
         """calls: those that were made. asked: how many should have been, where not all were."""
-        works = next((k for k in range(len(calls)) if k not in bad), None)
         first = calls[bad[0]]
+        shown = shown_call(first, self.signature)
+        works = next((k for k in range(len(calls)) if k not in bad), None)
+        working = ""
+        if works is not None:
+            call = calls[works]
+            working = shown_call(call, self.signature) + shapes(call, self.signature)
         whole = asked is None or asked == len(calls)
-        shown = "" if works is None else shown_call(calls[works], self.signature)
-        failing = shown_call(first, self.signature)
         return Failed(
-            failing,
+            shown,
             len(bad),
             len(calls) if whole else 0,
-            "" if shown == failing else shown,  # both by the names of their arguments
+            "" if working == shown else working,  # symbols, which say nothing
             given_by(first, self.signature, self.id),
             first,
         )

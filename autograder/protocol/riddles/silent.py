@@ -31,7 +31,7 @@ def _has_caret(code: CodeType) -> bool:
 
 def _begins(node: ast.FunctionDef, code: CodeType) -> bool:
     """Whether the code is of this definition, which begins at its first decorator."""
-    first = min(line.lineno for line in (node, *node.decorator_list))
+    first = min([node.lineno, *(line.lineno for line in node.decorator_list)])
     return (node.name, first) == (code.co_name, code.co_firstlineno)
 
 
