@@ -1,13 +1,13 @@
 """worst_case(), and the calls that a card prints: pasted, they give what the card says."""
 
+import ast
 import re
-from types import SimpleNamespace
+from functools import cache
 
 import nbclient
 import nbformat
 import numpy as np
 import pytest
-import sympy as sp
 
 from autograder import worst_case
 from autograder.judging.call_text import arguments
@@ -17,6 +17,7 @@ from autograder.protocol import Call, answer, read
 from autograder.student import worst_case as module
 from autograder.student.cell import verdict_on
 from autograder.student.worst_case import NoWorstCaseError
+from tests.autograder.course_problems import ROOT
 
 MECHANISMS = ("cart-pole-M", "cart-pole-f", "pendulum-lagrangian", "pendulum-energy_drift")
 # A wrong answer to each question that 1.1 times the right one would not be.
@@ -37,9 +38,24 @@ def nothing_remembered(monkeypatch):
     monkeypatch.setattr(module, "_last", {})
 
 
+@cache
+def imports_of(check_id: str) -> str:
+    """What the set-up cell of a check's problem imports; of another mechanism, as `new-problem` does."""
+    if check_id not in CHECKS:
+        return "import numpy as np\nfrom types import SimpleNamespace"
+    if check_id.startswith("start"):
+        return ""
+    (path,) = (ROOT / "solutions").glob(f"{check_id[:2]}-*/*.ipynb")
+    set_up = next(c for c in nbformat.read(path, 4).cells if c.cell_type == "code")
+    kinds = (ast.Import, ast.ImportFrom)
+    lines = [node for node in ast.parse(set_up.source).body if isinstance(node, kinds)]
+    return "\n".join(ast.unparse(line) for line in lines)
+
+
 def namespace_of(check, source: str = "") -> dict:
     """A notebook with a wrong answer to a check."""
-    namespace = {"__name__": "__main__", "np": np, "sp": sp, "SimpleNamespace": SimpleNamespace}
+    namespace = {"__name__": "__main__"}
+    exec(imports_of(check.id), namespace)
     if source:
         exec(source, namespace)
     else:
