@@ -6,7 +6,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape
 
-from autograder.judging.verdict import State, Verdict, Witness, filled, worst_case
+from autograder.judging.verdict import (
+    State,
+    Verdict,
+    Witness,
+    arguments_by,
+    failing,
+    filled,
+    worst_case,
+)
 
 # Mark and colour (Okabe and Ito's palette, safe for colour-blind readers).
 LOOKS = {
@@ -41,10 +49,15 @@ def html_card(verdict: Verdict, lines: Iterable[Line] = ()) -> str:
     mark, colour = LOOKS[verdict.state]
     pose = verdict.witness.pose if verdict.witness else ()
     parts = [_paragraph("problem", verdict.problem)]
+    if failed := verdict.failed:
+        shown = zip(failing(failed), (failed.call, failed.works), strict=False)
+        parts += [_with_code("failed", sentence, call) for sentence, call in shown]
     parts += [_rows(verdict)] if verdict.rows else []
     parts += [_paragraph("diagnosis", sentence) for sentence in verdict.of_the_whole]
     parts.append(_paragraph("remark", verdict.remark))
     parts += [_worst_case(verdict.witness)] if verdict.witness else []
+    if verdict.given_by:
+        parts.append(_with_code("arguments", arguments_by(verdict), verdict.given_by))
     parts.append(_paragraph("further", verdict.further))
     parts.append(_paragraph("next", verdict.next_step))
     parts += [f'<p style="{PARAGRAPH}">{line.html or escape(line.text)}</p>' for line in lines]
@@ -150,16 +163,19 @@ def _paragraph(kind: str, text: str) -> str:
 
 
 def _worst_case(witness: Witness) -> str:
-    """The sentence, with the call in it as code; wide arrays may break anywhere."""
-    sentence = escape(worst_case(witness))
-    if witness.call:
-        call = escape(witness.call)
+    return _with_code("witness", worst_case(witness), witness.call)
+
+
+def _with_code(kind: str, sentence: str, code: str) -> str:
+    """A sentence, with what is Python in it as code; wide arrays may break anywhere."""
+    sentence, code = escape(sentence), escape(code)
+    if code:
         look = (
             "font-size: 0.9em; background: none; padding: 0;"
             " white-space: normal; overflow-wrap: anywhere"
         )
-        sentence = sentence.replace(call, f'<code style="{look}">{call}</code>', 1)
-    return f'<p class="armdyn-witness" style="{PARAGRAPH}">{sentence}</p>'
+        sentence = sentence.replace(code, f'<code style="{look}">{code}</code>', 1)
+    return f'<p class="armdyn-{kind}" style="{PARAGRAPH}">{sentence}</p>'
 
 
 def _rows(verdict: Verdict) -> str:

@@ -8,47 +8,39 @@ import math
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, replace
+from functools import cache, partial
 from itertools import chain, groupby
 
 import numpy as np
 
 from autograder.judging import changes, dependence
 from autograder.judging.at_points import AtPoints
+from autograder.judging.call_text import given_by
 from autograder.judging.criterion import Criterion, relative_errors
 from autograder.judging.diagnosis import Catalogue, Mistake, OfCalls, Wrong, sentences
-from autograder.judging.faults import NUMBERS, describe_fault, describe_second_fault
-from autograder.judging.places import NOWHERE, place
-from autograder.judging.quantities import (
-    Numbers,
-    Quantities,
-    UnfitError,
-    each,
-    finite,
-    one_number,
-)
+from autograder.judging.faults import describe_fault, describe_second_fault
+from autograder.judging.given import Describe, Given, NoNumbersError, Reading
+from autograder.judging.places import place
+from autograder.judging.quantities import Numbers, Quantities, each, one_number
 from autograder.judging.section import Section
 from autograder.judging.stacked import Layout, layouts, rows, stacked, unlike
 from autograder.judging.terms import Term
-from autograder.judging.verdict import Row, State, Verdict, Witness
+from autograder.judging.verdict import Failed, Row, State, Verdict, Witness
 from autograder.judging.witness import witness, worst_entry, wrong_places
-from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol, read, real, shortened
+from autograder.protocol import Call, FaultKind, Reply, Symbol, read, real, shortened
 
 VISIBLE_CASES = 6
 HIDDEN_CASES = 24
 # An answer that took longer, s, is not called again to find out more about it.
 SLOW = 2.0
+CARET = "Your {} uses ^. In Python ^ is no power; the power is **."
 
 Ask = Callable[[list[Call]], list[Reply]]
 
 
 class CannotRunError(Exception):
     """An answer cannot be run on the machine that judges, which is not its fault."""
-
-
-class _NoNumbersError(Exception):
-    """An answer gave nothing that can be judged; the text is the sentence for the student."""
 
 
 @dataclass(frozen=True)
@@ -133,9 +125,13 @@ class Check:
         try:
             # Near the largest float, their numbers less ours overflow: wrong, but not our failure.
             with np.errstate(over="ignore", invalid="ignore"):
-                return self._judge_replies(calls, expected, replies, ask_again)
+                verdict = self._judge_replies(calls, expected, replies, ask_again)
         except Exception as error:
             return self._failed(error)
+        if verdict.state is not State.CORRECT and replies[0].caret:
+            remarks = filter(None, [verdict.remark, CARET.format(self.name)])
+            return replace(verdict, remark=" ".join(remarks))
+        return verdict
 
     def _judge_replies(
         self, calls: list[Call], expected: Numbers, replies: list[Reply], ask: Ask | None
@@ -145,53 +141,40 @@ class Check:
             return self._not_attempted()
         changed = changes.changed(self.signature, calls, replies)
         try:
-            given = self._given(calls, replies, describe_fault)
-        except _NoNumbersError as error:
-            return self._error(str(error))
-        values = [reply.value for reply in replies]
+            given = self._given(calls, replies)
+        except NoNumbersError as error:
+            return self._error(str(error), error.failed)
         if not any(reply.again for reply in replies):
-            return self.judge(calls, expected, given, changed=changed, ask=ask, values=values)
+            return self.judge(calls, expected, given, changed=changed, ask=ask)
         second = [reply.again or reply for reply in replies]
         try:
             again = self._given(calls, second, describe_second_fault)
-        except _NoNumbersError as error:
-            return self._error(
-                f"{changes.remark(self.name, changed, True)} On the second call, {error}"
-            )
-        values_later = [reply.value for reply in second]
-        return self.judge(calls, expected, given, again, changed, ask, values, values_later)
+        except NoNumbersError as error:
+            said = f"{changes.remark(self.name, changed, True)} On the second call, {error}"
+            return self._error(said, error.failed)
+        return self.judge(calls, expected, given, again, changed, ask)
 
     def _given(
-        self,
-        calls: list[Call],
-        replies: list[Reply],
-        describe: Callable[[Fault, str, str, str], str],
-    ) -> Numbers:
-        """What is judged in the replies; _NoNumbersError where it cannot be formed."""
-        for reply in replies:
-            if reply.fault:
-                needed = _needed(calls[0])
-                raise _NoNumbersError(describe(reply.fault, self.name, self.signature, needed))
-        try:
-            return self.quantities(calls, [finite(reply.value) for reply in replies])
-        except UnfitError as error:
-            raise _NoNumbersError(f"{self.signature} returned {error}.") from None
+        self, calls: list[Call], replies: list[Reply], describe: Describe = describe_fault
+    ) -> Given:
+        """What is judged in the replies; NoNumbersError where nothing can be."""
+        right = partial(_evaluated, self.reference)
+        reading = Reading(self.id, self.signature, self.quantities, right, describe)
+        return reading.given(calls, replies)
 
     def judge(
-        self, calls: list[Call], expected: Numbers, given: Numbers, again: Numbers | None = None,
-        changed: tuple[str, ...] = (), ask: Ask | None = None, values: list | None = None,
-        values_later: list | None = None,
+        self, calls: list[Call], expected: Numbers, given: Given, again: Given | None = None,
+        changed: tuple[str, ...] = (), ask: Ask | None = None,
     ) -> Verdict:  # fmt: skip
         """The verdict on quantities given, case by case, against those expected.
 
         again: the quantities of second calls, where a first one changed its arguments; a criterion is
         met where both are right. changed: the names of these arguments. ask: by which more may be found
-        out of an answer that no mistake explains. values, values_later: what the first and the second
-        calls gave, from which the quantities were formed.
+        out of an answer that no mistake explains.
         """
-        right = met = self._met(self._errors(expected, given))
+        right = met = self._met(self._errors(expected, given.numbers))
         if again is not None:
-            later = self._met(self._errors(expected, again))
+            later = self._met(self._errors(expected, again.numbers))
             met = [one and two for one, two in zip(right, later, strict=True)]
         remark = changes.remark(self.name, changed, met != right)
         credit = sum(c.share for c, ok in zip(self.criteria, met, strict=True) if ok)
@@ -200,19 +183,29 @@ class Check:
         if all(met):
             rows = self._rows(met, of_each)
             return Verdict(self.id, State.CORRECT, 1.0, rows, remark=remark, further=self.further)
-        if again is not None and all(right):  # only what it does to its arguments is wrong
-            worst = self._witness(calls, expected, again, met, values_later, changes.SECOND)
-        else:
-            worst = self._witness(calls, expected, given, right, values)
-            whole, of_each = self._diagnosis(calls, expected, given, right, ask)
+        # Only what it does to its arguments is wrong, where a first call is right.
+        judged, when = (again, changes.SECOND) if again and all(right) else (given, "")
+        # Of what hangs on a NaN nothing more can be said.
+        told = [ok or bad for ok, bad in zip(met if when else right, judged.spoilt, strict=True)]
+        numbers = judged.but_spoilt(expected)
+        worst: Witness | None = None
+        if not all(told):
+            worst = self._witness(calls, expected, numbers, told, judged.values, when)
+            if not when:
+                whole, of_each = self._diagnosis(calls, expected, numbers, told, ask)
+        problem, failed = given.problem, given.failed
+        if not problem and again and again.problem:
+            problem, failed = f"On the second call, {again.problem}", again.failed
         return Verdict(
             self.id,
             State.PARTLY_CORRECT if credit > 0 else State.INCORRECT,
             credit,
             self._rows(met, of_each),
             worst,
-            diagnosis=tuple(dict.fromkeys([*whole, *chain.from_iterable(of_each)])),
-            remark=remark,
+            problem,
+            tuple(dict.fromkeys([*whole, *chain.from_iterable(of_each)])),
+            remark,
+            failed=failed,
             next_step="Change your function, run its cell, then run this cell again.",
         )
 
@@ -300,14 +293,16 @@ class Check:
         if len(replies) < len(calls) or any(reply.fault for reply in replies):
             return None
         try:
-            theirs = self._given(calls, replies, describe_fault)
-        except _NoNumbersError:
+            theirs = self._given(calls, replies)
+        except NoNumbersError:
             return None
-        return probes, self._quantities_of(self.reference, calls), theirs
+        if any(theirs.spoilt):
+            return None
+        return probes, self._quantities_of(self.reference, calls), theirs.numbers
 
     def _witness(
         self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool],
-        values: list | None, when: str = "",
+        values: list, when: str = "",
     ) -> Witness:  # fmt: skip
         k = met.index(False)
         criterion = self.criteria[k]
@@ -315,7 +310,7 @@ class Check:
         right, theirs = expected[worst][k], given[worst][k]
         name = self.returns or self.name
         at = worst_entry(right, theirs)
-        where = place(name, self.quantities, calls, values, worst, k, at) if values else NOWHERE
+        where = place(name, self.quantities, calls, values, worst, k, at)
         largest = max(float(np.max(np.abs(case[k]), initial=0.0)) for case in expected)
         # A quantity formed from several values is not what the function returned.
         what = "" if len(self.criteria) == 1 else criterion.text
@@ -323,7 +318,11 @@ class Check:
         if what and not named and wrong_places(criterion, expected, given, k) == {at}:
             what += ", of which no other entry is wrong"
         what = ", ".join(filter(None, [what, when]))
-        return witness(calls[worst], right, theirs, criterion, largest, where, what, self.pose)
+        call = calls[worst]
+        found = witness(
+            call, self.signature, right, theirs, criterion, largest, where, what, self.pose
+        )
+        return replace(found, given_by=given_by(call, self.signature, self.id), of=call)
 
     def _not_attempted(self) -> Verdict:
         return Verdict(
@@ -333,9 +332,9 @@ class Check:
             "run its cell, then run this cell again.",
         )
 
-    def _error(self, problem: str) -> Verdict:
+    def _error(self, problem: str, failed: Failed | None) -> Verdict:
         step = "Fix this first: the check can't look at the physics until the function runs."
-        return Verdict(self.id, State.ERROR, problem=problem, next_step=step)
+        return Verdict(self.id, State.ERROR, problem=problem, next_step=step, failed=failed)
 
     def _failed(self, error: Exception) -> Verdict:
         return Verdict(
@@ -352,16 +351,6 @@ def _shape(values) -> tuple[int, ...] | None:
         return values.shape
     shapes = {np.shape(value) for value in values}
     return (len(values), *shapes.pop()) if len(shapes) == 1 else None
-
-
-def _needed(call: Call) -> str:
-    """What a call's function should return, in words."""
-    if call.truth:
-        return "True or False"
-    if not call.at:
-        return NUMBERS
-    symbols = all(isinstance(value, Symbol) for value in call.args)
-    return f"{'a SymPy expression' if symbols else 'SymPy expressions'} of its arguments"
 
 
 def _evaluated(model: Callable, call: Call):

@@ -1,17 +1,20 @@
 """Tells a student why a call gave no numbers."""
 
-import re
+import numpy as np
 
-from autograder.protocol import Fault, FaultKind
+from autograder.protocol import Fault, FaultKind, sentence_of
 
 NUMBERS = "numbers"
 # Why a cell stopped, in place of the error that stops most.
 PYTHON_ENDED = "Python itself ended"
-# How NumPy and `math` refuse a SymPy expression.
-TAKES_ONLY_NUMBERS = re.compile(
-    r"^TypeError: (loop of ufunc does not support argument \d+ of type|"
-    r"Cannot convert expression to float|must be real number, not )"
-)
+# What helps where a function returned something else than numbers, by how that is described.
+INSTEAD = {
+    "the function ": "Call it: write its arguments behind it, in round brackets.",
+    "the text ": "Without the quotes, Python would compute it.",
+    "an array of texts": "Without the quotes, Python would compute them.",
+    "the complex number ": "Is it a root of something negative?",
+    "an array of complex numbers": "Is there a root of something negative?",
+}
 
 
 def describe_fault(fault: Fault, name: str, signature: str, needed: str = NUMBERS) -> str:
@@ -20,6 +23,9 @@ def describe_fault(fault: Fault, name: str, signature: str, needed: str = NUMBER
     needed: what the function should return, in words.
     """
     where = f" ({fault.line})" if fault.line else ""
+    means = sentence_of(fault.riddle, "SymPy" in needed)
+    means = f" {means}" if means else ""
+    instead = next((f" {w}" for kind, w in INSTEAD.items() if fault.message.startswith(kind)), "")
     left_out = f" Before that, {fault.line}." if fault.line else ""
     if fault.message.startswith(PYTHON_ENDED):
         stopped, fix = f"stopped because {fault.message}", "Fix that cell"
@@ -35,8 +41,7 @@ def describe_fault(fault: Fault, name: str, signature: str, needed: str = NUMBER
         f"{stopped}. {fix}.",
         FaultKind.NOT_CALLABLE: f"{name} is of type {fault.message}, not a function that can "
         f"be called as {signature}. Did you use the name again further down?",
-        FaultKind.RAISED: f"{signature} raised {fault.message}{where}."
-        f"{_of_symbols(fault.message, needed)}",
+        FaultKind.RAISED: f"{signature} raised {fault.message}{where}.{means}",
         FaultKind.TIMED_OUT: f"{signature} did not return within {fault.message}. "
         "Is there a loop that never ends?",
         FaultKind.STARVED: f"{signature} did not return within {fault.message}, and slept most of "
@@ -45,20 +50,32 @@ def describe_fault(fault: Fault, name: str, signature: str, needed: str = NUMBER
         f"{fault.message} You can always answer in Python.",
         FaultKind.DIED: f"Python itself stopped while {signature} was running. "
         "Does it call exit, or use up all memory?",
-        FaultKind.NOTHING: f"{signature} returned None. Is the return statement missing?",
-        FaultKind.NOT_NUMBERS: f"{signature} returned {fault.message}; it must return {needed}.",
+        FaultKind.NOTHING: f"{signature} returned None. "
+        f"{means.strip() or 'Is the return statement missing?'}",
+        FaultKind.NOT_NUMBERS: f"{signature} returned {fault.message}; it must return {needed}."
+        f"{instead}",
         FaultKind.GARBLED: f"The check could not read what {signature} returned as numbers.",
     }[fault.kind]
 
 
-def _of_symbols(message: str, needed: str) -> str:
-    """What an error means in a function whose arguments are symbols; else nothing."""
-    if "SymPy" not in needed or not TAKES_ONLY_NUMBERS.search(message):
-        return ""
-    return (
-        " Its arguments are SymPy's symbols, and the functions of NumPy and of math take only "
-        "numbers. Use SymPy's own, such as sp.cos."
-    )
+def describe_unfit(signature: str, unfit: str, truth: bool, value, right) -> str:
+    """The sentence where numbers came back, but not as many, or not in the shape, that is asked for.
+
+    unfit: what came, and what is needed. truth: whether True or False is. value: what came for a call;
+    right: what should have.
+    """
+    if truth and np.size(value) != 1:
+        return (
+            f"{signature} returned {np.size(value)} values of True or False, in shape "
+            f"{np.shape(value)}; it must return one. When is the answer True: where all of them are?"
+        )
+    matrix, n = np.shape(value), np.size(right)
+    if np.ndim(right) == 1 and n > 1 and matrix == (n, n):
+        return (
+            f"{signature} returned {unfit}. Did you multiply a matrix and a vector by *? It multiplies "
+            "entry by entry; the matrix product is @."
+        )
+    return f"{signature} returned {unfit}."
 
 
 def describe_second_fault(fault: Fault, name: str, signature: str, needed: str = NUMBERS) -> str:

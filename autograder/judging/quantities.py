@@ -51,20 +51,3 @@ def array(value, *shape: int) -> np.ndarray:
     if np.shape(value) != shape:
         raise UnfitError(f"an array of shape {np.shape(value)}; it must return shape {shape}")
     return value
-
-
-def finite(value):
-    """The value, where all its numbers are; UnfitError names one that is not."""
-    for numbers in _arrays(value):
-        bad = numbers[~np.isfinite(numbers)]
-        if bad.size:
-            raise UnfitError(f"{bad.flat[0]}, which is not a finite number")
-    return value
-
-
-def _arrays(value):
-    if isinstance(value, dict | list):
-        for part in value.values() if isinstance(value, dict) else value:
-            yield from _arrays(part)
-    else:
-        yield np.atleast_1d(value)

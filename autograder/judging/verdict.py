@@ -1,8 +1,10 @@
 """The verdict on one answer, and how it reads as plain text."""
 
 import textwrap
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
+
+from autograder.protocol import Call
 
 AS_ABOVE = "For the same reason as above."
 
@@ -37,7 +39,8 @@ class Witness:
     value is right or wrong, so its `off` is empty.
 
     pose: the arm's joints in that call, one (x, y) in m each, where drawing it helps. where: the entry
-    of what came back, "M[0, 1]", where it is one.
+    of what came back, "M[0, 1]", where it is one. given_by: the line of Python that gives the call's
+    arguments. of: the call itself.
     """
 
     call: str
@@ -45,6 +48,25 @@ class Witness:
     off: str
     pose: tuple[tuple[float, float], ...] = ()
     where: str = ""
+    given_by: str = ""
+    of: Call | None = field(default=None, repr=False, compare=False)
+
+
+@dataclass(frozen=True)
+class Failed:
+    """The first call that gave no numbers, or some that are not finite.
+
+    count, tried: of so many calls, so many failed; tried is 0 where the check stopped at the first, as
+    at a loop that never ends. works: a call that gave numbers, "" for none. given_by, of: as in a
+    Witness.
+    """
+
+    call: str
+    count: int = 1
+    tried: int = 0
+    works: str = ""
+    given_by: str = ""
+    of: Call | None = field(default=None, repr=False, compare=False)
 
 
 @dataclass(frozen=True)
@@ -55,6 +77,7 @@ class Verdict:
     is not the code on the screen. diagnosis: all that is known of the reasons why criteria are not met,
     each sentence once; its rows say which belongs to which. remark: what in the answer, even a right
     one, harms other code. further: what a right answer leads to. next_step: what the student can do now.
+    failed: the call in which the code gave no numbers.
     """
 
     check: str
@@ -67,12 +90,24 @@ class Verdict:
     remark: str = ""
     further: str = ""
     next_step: str = ""
+    failed: Failed | None = None
 
     def without_inputs(self) -> "Verdict":
         """The same verdict for a feedback page: the worst case without the inputs that showed it."""
-        if self.witness is None:
-            return self
-        return replace(self, witness=replace(self.witness, call="", pose=()))
+        witness = self.witness and replace(self.witness, call="", pose=(), given_by="", of=None)
+        return replace(self, witness=witness, failed=None)
+
+    @property
+    def worst(self) -> Call | None:
+        """The call that failed, or else the worst one; None where neither is known."""
+        shown = self.failed or self.witness
+        return shown.of if shown else None
+
+    @property
+    def given_by(self) -> str:
+        """The line of Python that gives the arguments of `worst`; "" where none does."""
+        shown = self.failed or self.witness
+        return shown.given_by if shown else ""
 
     @property
     def headline(self) -> str:
@@ -100,9 +135,11 @@ class Verdict:
         """The verdict in sentences, the headline apart, most useful first."""
         return [
             *([self.problem] if self.problem else []),
+            *(failing(self.failed) if self.failed else []),
             *self.diagnosis,
             *([self.remark] if self.remark else []),
             *([worst_case(self.witness)] if self.witness else []),
+            *([arguments_by(self)] if self.given_by else []),
             *([self.further] if self.further else []),
             *([self.next_step] if self.next_step else []),
         ]
@@ -114,9 +151,10 @@ class Verdict:
             share = f" ({row.share:.0%})" if len(self.rows) > 1 else ""
             rows.append(f"  [{'x' if row.met else ' '}] {row.text}{share}")
             rows += [filled(sentence, 6) for sentence in said]
-        below = replace(self, problem="", diagnosis=self.of_the_whole).lines()
-        first = [filled(self.problem)] if self.problem else []
-        return "\n".join([self.headline, *first, *rows, *map(filled, below)])
+        below = replace(self, problem="", failed=None, diagnosis=self.of_the_whole).lines()
+        first = [self.problem] if self.problem else []
+        first += failing(self.failed) if self.failed else []
+        return "\n".join([self.headline, *map(filled, first), *rows, *map(filled, below)])
 
 
 def filled(text: str, indent: int = 2) -> str:
@@ -132,3 +170,27 @@ def worst_case(witness: Witness) -> str:
     if witness.call:
         return f"Worst case: {witness.call} gave {witness.returned}, off by {witness.off}."
     return f"Worst case: {f'{witness.where} is ' if witness.where else ''}off by {witness.off}."
+
+
+def failing(failed: Failed) -> list[str]:
+    """Which calls fail and which work, in sentences."""
+    if failed.tried == 0:
+        said = "The check stopped at this call"
+    elif failed.tried == 1:
+        said = "The one call failed"
+    elif failed.count == failed.tried:
+        said = f"All {failed.tried} calls failed, the first of them"
+    elif failed.count == 1:
+        said = f"1 of {failed.tried} calls failed"
+    else:
+        said = f"{failed.count} of {failed.tried} calls failed, the first of them"
+    return [
+        f"{said}: {failed.call}",
+        *([f"This one works: {failed.works}"] if failed.works else []),
+    ]
+
+
+def arguments_by(verdict: Verdict) -> str:
+    """Where a student finds the arguments of the call that failed, or of the worst case."""
+    whose = "failed call" if verdict.failed else "worst case"
+    return f"The arguments of the {whose}: {verdict.given_by}"

@@ -1,17 +1,15 @@
 """The worst case of a wrong answer, as a student would type the call, with what came back."""
 
 from collections.abc import Callable
-from types import SimpleNamespace
 
 import numpy as np
 
+from autograder.judging.call_text import shown_call
 from autograder.judging.criterion import LEAST_SCALE, Criterion, scales
 from autograder.judging.places import Place
 from autograder.judging.quantities import Numbers
 from autograder.judging.verdict import Witness
-from autograder.protocol import Call, Expressions, Function, Symbol
-
-LONGEST_ARRAY = 12  # entries; a longer one is shown by its shape
+from autograder.protocol import Call
 
 
 def worst_entry(right: np.ndarray, given: np.ndarray) -> tuple[int, ...]:
@@ -40,7 +38,7 @@ def wrong_places(
 
 
 def witness(
-    call: Call, right: np.ndarray, given: np.ndarray, criterion: Criterion,
+    call: Call, signature: str, right: np.ndarray, given: np.ndarray, criterion: Criterion,
     largest: float, place: Place, what: str = "", pose: Callable[[Call], list] | None = None,
 ) -> Witness:  # fmt: skip
     """The entry of one case that is furthest off. what: of which quantity, where it is not plain.
@@ -56,7 +54,7 @@ def witness(
         said = f"{bool(given[at])}; the right answer is {bool(right[at])}{asked}"
         if not call.truth:  # it is the check that asks, of what came back
             said = f"a result for which “{criterion.text}” has the answer {_yes_or_no(given[at])}"
-        return Witness(shown_call(call), said, "", joints)
+        return Witness(shown_call(call, signature), said, "", joints)
     off, size = abs(float(given[at] - right[at])), abs(float(right[at]))
     shares = has_share(size, largest, criterion)
     share = f" ({_percent(off / size)} of the right value)" if shares else ""
@@ -69,7 +67,7 @@ def witness(
     made_of = f"made of {where}" if where and not entry else ""
     of = ", ".join(filter(None, [what, made_of]))
     return Witness(
-        shown_call(call),
+        shown_call(call, signature),
         f"{float(given[at]):.4g}{unit}{entry}{f' ({of})' if of else ''}",
         f"{off:.3g}{unit}{share}",
         joints,
@@ -89,31 +87,5 @@ def has_share(size: float, largest: float, criterion: Criterion) -> bool:
     return size > 0 and size >= LEAST_SCALE * largest and not criterion.is_bound
 
 
-def shown_call(call: Call) -> str:
-    """A call as a student would type it, numbers shortened."""
-    names = {name: f"{at:.4g}" for name, at in call.at[-1].items()} if call.at else {}
-    return f"{call.name}({', '.join(_shown(value, names) for value in call.args)})"
-
-
 def _percent(share: float) -> str:
     return f"{share:.0%}" if share >= 0.01 else f"{100 * share:.1g}%"
-
-
-def _shown(value, names) -> str:
-    match value:
-        case Symbol(name):
-            return f"{name}={names.get(name, name)}"
-        case Expressions(rows):
-            return f"[{', '.join('[' + ', '.join(row) + ']' for row in rows)}]"
-        case Function(arguments, returns):
-            return f"lambda {arguments}: {returns}"
-        case SimpleNamespace():
-            inside = ", ".join(f"{name}={_shown(v, names)}" for name, v in vars(value).items())
-            return f"({inside})"
-        case tuple():
-            return f"[{', '.join(_shown(entry, names) for entry in value)}]"
-        case np.ndarray() if value.size > LONGEST_ARRAY:
-            return f"an array of shape {value.shape}"
-        case np.ndarray():
-            return np.array2string(value, precision=4, separator=", ").replace("\n", "")
-    return f"{value:.4g}"

@@ -11,7 +11,7 @@ from nbformat import NotebookNode
 from autograder.digest import digest
 from autograder.judging.check import HIDDEN_CASES
 from autograder.judging.verdict import State, Verdict
-from autograder.notebook import outputs
+from autograder.notebook import examples, outputs
 from autograder.notebook.beside import Beside
 from autograder.notebook.own_arm import drawn_for
 from autograder.notebook.recognise import grade_id
@@ -72,6 +72,8 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
         if drawn is not None:
             sitting.run(drawn.prelude)
             notes += filter(None, [drawn.apart(submission)])
+        if laid := examples.prelude(notebook, drawn.own if drawn else None, beside.mechanisms):
+            sitting.run(laid)
 
         def ask(calls):
             return [beside.explained(reply) for reply in sitting.ask(calls)]

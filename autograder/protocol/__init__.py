@@ -16,10 +16,6 @@ from .calls import (
     TimeLimitError,
     answer,
     answer_all,
-    decode_call,
-    decode_reply,
-    encode_call,
-    encode_reply,
     kind_of,
     message_of,
     read,
@@ -28,6 +24,9 @@ from .calls import (
 from .looks import Look
 from .own_arm import OwnArm
 from .readings import MOST_NUMBERS, FaultKind, NotNumbersError
+from .riddles import Riddle
+from .riddles import sentence as sentence_of
+from .wire import decode_call, decode_reply, encode_call, encode_reply
 from .words import one_line, shortened
 
 __all__ = [
@@ -43,6 +42,7 @@ __all__ = [
     "NotNumbersError",
     "OwnArm",
     "Reply",
+    "Riddle",
     "Symbol",
     "TimeLimitError",
     "answer",
@@ -57,6 +57,7 @@ __all__ = [
     "one_line",
     "read",
     "real",
+    "sentence_of",
     "shortened",
     "time_limit",
 ]

@@ -9,17 +9,16 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arguments import changed, decode, encode, real
+from . import riddles
+from .arguments import changed, real
 from .readings import (
     MOST_NUMBERS,
     FaultKind,
     NotNumbersError,
-    decode_value,
-    encode_value,
     evaluate,
     read_numbers,
     read_parts,
@@ -33,15 +32,21 @@ PATIENCE = 5.0
 # A reply with two answers must fit where the largest answer does; this is more than any answer has.
 MOST_TWICE = MOST_NUMBERS // 10
 MOST_CHANGES = 50
+# Faults that another call need not have.
+GO_ON_AFTER = (FaultKind.RAISED, FaultKind.NOTHING, FaultKind.NOT_NUMBERS)
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A call that gave no numbers: what went wrong, and the student's line where it did."""
+    """A call that gave no numbers: what went wrong, and the student's line where it did.
+
+    riddle: what the error means, where it is in the table.
+    """
 
     kind: FaultKind
     message: str = ""
     line: str = ""
+    riddle: riddles.Riddle | None = None
 
 
 @dataclass(frozen=True)
@@ -68,13 +73,15 @@ class Reply:
 
     value: a float array; dicts and lists of arrays where the call asks for parts.
     changed: each argument that the call changed: its place, and the name in a namespace or "".
-    again: what a second call gave, with the arguments as the first call had changed them.
+    again: what a second call gave, with the arguments as the first call had changed them. caret:
+    whether the function uses ^, which is no power.
     """
 
     value: np.ndarray | dict | list | None = None
     fault: Fault | None = None
     changed: tuple[tuple[int, str], ...] = ()
     again: "Reply | None" = None
+    caret: bool = False
 
 
 class TimeLimitError(BaseException):
@@ -100,6 +107,8 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     given: list = []
     started, clock = time.process_time(), time.monotonic()
     reply = _called(call, function, given, CALL_SECONDS)
+    if not reply.fault and riddles.uses_caret(function):
+        reply = replace(reply, caret=True)
     changes = () if reply.fault else _changes(call.args, given)
     if not changes:
         return reply
@@ -120,15 +129,19 @@ def _called(call: Call, function: Callable, given: list, seconds: float) -> Repl
             given += [] if given else map(real, call.args)
             return Reply(value=read(call, function(*given)))
     except NotNumbersError as error:
-        return Reply(fault=Fault(error.kind, shortened(str(error))))
+        nothing = error.kind is FaultKind.NOTHING
+        riddle = riddles.of_nothing(function) if nothing else None
+        return Reply(fault=Fault(error.kind, shortened(str(error)), riddle=riddle))
     except NotImplementedError:
         return Reply(fault=Fault(FaultKind.NOT_IMPLEMENTED))
     except TimeLimitError as limit:
         kind = FaultKind.STARVED if limit.starved else FaultKind.TIMED_OUT
         return Reply(fault=Fault(kind, f"{limit.seconds:g} s"))
     except (Exception, SystemExit) as error:
-        message = shortened(f"{type(error).__name__}: {message_of(error)}")
-        return Reply(fault=Fault(FaultKind.RAISED, message, _failing_line(error)))
+        text = message_of(error)
+        message = shortened(f"{type(error).__name__}: {text}")
+        riddle = riddles.of_error(error, shortened(text))
+        return Reply(fault=Fault(FaultKind.RAISED, message, _failing_line(error), riddle))
 
 
 def _changes(args: tuple, given: list) -> tuple[tuple[int, str], ...]:
@@ -155,11 +168,20 @@ def read(call: Call, result):
 
 
 def answer_all(calls: list[Call], namespace: Mapping) -> list[Reply]:
-    """Answer calls in turn, up to the first that gives no numbers: the rest would say the same."""
-    replies = []
+    """Answer calls in turn, up to a fault that the rest would share, or would take long to find.
+
+    After an error, or a value that is no number, the calls go on for as long as one call may take in
+    all: whoever reads of it wants to know whether every call fails.
+    """
+    replies: list[Reply] = []
+    ends = None
     for call in calls:
         replies.append(answer(call, namespace))
-        if replies[-1].fault:
+        if (fault := replies[-1].fault) is None:
+            continue
+        now = time.monotonic()
+        ends = now + CALL_SECONDS if ends is None else ends
+        if fault.kind not in GO_ON_AFTER or now > ends:
             break
     return replies
 
@@ -229,54 +251,3 @@ def time_limit(seconds: float) -> Iterator[None]:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGPROF, of_processor)
         signal.signal(signal.SIGALRM, of_clock)
-
-
-def encode_call(call: Call) -> dict:
-    args = [encode(value) for value in call.args]
-    shape = {"at": list(call.at), "parts": call.parts, "truth": call.truth}
-    return {"name": call.name, "args": args, **shape}
-
-
-def decode_call(message: dict) -> Call:
-    args = tuple(decode(value) for value in message["args"])
-    return Call(message["name"], args, tuple(message["at"]), message["parts"], message["truth"])
-
-
-def encode_reply(reply: Reply) -> dict:
-    if reply.fault:
-        return {"fault": asdict(reply.fault)}
-    message = {"value": encode_value(reply.value)}
-    if reply.changed:
-        message["changed"] = [list(change) for change in reply.changed]
-        message["again"] = reply.again and encode_reply(reply.again)
-    return message
-
-
-def decode_reply(message) -> Reply:
-    """A reply from the sandbox; anything else becomes a fault, never an exception."""
-    reply = _decode_reply(message)
-    match message:
-        case {"changed": list(changes), "again": again} if not reply.fault:
-            known = (change for change in changes if _is_change(change))
-            changed = tuple(dict.fromkeys((place, name) for place, name in known))[:MOST_CHANGES]
-            return replace(reply, changed=changed, again=_decode_reply(again) if again else None)
-    return reply
-
-
-def _decode_reply(message) -> Reply:
-    try:
-        match message:
-            case {"value": value}:
-                return Reply(value=decode_value(value))
-            case {"fault": {"kind": kind, "message": str(text), "line": str(line)}}:
-                return Reply(fault=Fault(FaultKind(kind), shortened(text), shortened(line)))
-    except (TypeError, ValueError, OverflowError):
-        pass
-    return Reply(fault=Fault(FaultKind.GARBLED))
-
-
-def _is_change(change) -> bool:
-    match change:
-        case [int(), str()]:
-            return True
-    return False

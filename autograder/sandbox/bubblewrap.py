@@ -26,6 +26,7 @@ INSIDE = {
     **{path: path.name for path in (HERE / "stubs").glob("*.py")},
     **{path: f"protocol/{path.name}" for path in PROTOCOL.glob("*.py")},
     **{path: f"protocol/languages/{path.name}" for path in (PROTOCOL / "languages").glob("*.*")},
+    **{path: f"protocol/riddles/{path.name}" for path in (PROTOCOL / "riddles").glob("*.py")},
     **{path: f"toolchain/{path.name}" for path in TOOLCHAIN.glob("*.py")},
 }
 ENVIRONMENT = {

@@ -2,19 +2,21 @@
 
 import os
 import sys
+import time
 from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from autograder.judging import card
-from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
+from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict
 from autograder.problems import CHECKS, known_check
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
-from autograder.student import below, failing, progress
+from autograder.student import below, failing, progress, worst_case
 from autograder.student.definitions import watched
 from autograder.student.own_arm import drawn_for, reminder
+from autograder.student.pasted import as_pasted
 
 # A visible check tries the same cases each time, so that a student sees how an error changes.
 VISIBLE_SEED = 20260101
@@ -51,6 +53,7 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     )
     failing.note(verdict)
     progress.note(verdict)
+    worst_case.remember(verdict)
     shown = card.mimebundle(verdict, below.lines(verdict))
     _show(shown)
     if said := reminder(id):
@@ -73,7 +76,10 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
             return [Reply(fault=Fault(FaultKind.CELL_FAILED, error))]
         return replies
 
-    return judged.run(ask, rng, count)
+    started = time.monotonic()
+    verdict = judged.run(ask, rng, count)
+    quick = time.monotonic() - started < SLOW
+    return as_pasted(verdict, judged, ask) if quick else verdict
 
 
 def _naming_an_old_function(verdict: Verdict) -> Verdict:

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from autograder.judging.card import LOOKS, Line, drawing, html_card, mimebundle
-from autograder.judging.verdict import AS_ABOVE, Row, State, Verdict, Witness
+from autograder.judging.verdict import AS_ABOVE, Failed, Row, State, Verdict, Witness, failing
 from autograder.problems.material.planar_2r import joints
 
 TEXT = st.text(max_size=120) | st.sampled_from(
@@ -40,12 +40,16 @@ VERDICTS = st.builds(
     rows=st.lists(st.builds(Row, TEXT, st.floats(0, 1), st.booleans(), SAID), max_size=3).map(
         tuple
     ),
-    witness=st.none() | st.builds(Witness, TEXT, TEXT, TEXT, st.just(()) | POSES),
+    witness=st.none()
+    | st.builds(
+        Witness, TEXT, TEXT, TEXT, st.just(()) | POSES, st.sampled_from(["", "M[0, 1]"]), TEXT
+    ),
     problem=TEXT,
     diagnosis=st.lists(TEXT, max_size=2).map(tuple),
     remark=TEXT,
     further=TEXT,
     next_step=TEXT,
+    failed=st.none() | st.builds(Failed, TEXT, st.just(1), st.integers(0, 9), TEXT, TEXT),
 )
 MARK = '<b>"it\'s"&</b>'
 
@@ -85,6 +89,7 @@ def full(state: State) -> Verdict:
         ("The sign is wrong.", "And the unit."),
         "It changes q.",
         "Change your function.",
+        Failed("g_vec([0.0], m=1)", 2, 6, "g_vec([0.3], m=1)", 'q = worst_case("p3-g_vec")'),
     )
 
 
@@ -112,6 +117,10 @@ def test_the_card_has_only_its_own_tags(verdict):
         Verdict("a", State.INCORRECT, witness=Witness(MARK, "1", "2")),
         Verdict("a", State.INCORRECT, witness=Witness("f", MARK, "2")),
         Verdict("a", State.INCORRECT, witness=Witness("f", "1", MARK)),
+        Verdict("a", State.INCORRECT, witness=Witness("f", "1", "2", given_by=MARK)),
+        Verdict("a", State.ERROR, failed=Failed(MARK)),
+        Verdict("a", State.ERROR, failed=Failed("f", works=MARK)),
+        Verdict("a", State.ERROR, failed=Failed("f", given_by=MARK)),
     ],
 )
 def test_what_comes_from_a_student_is_shown_as_it_is(verdict):
@@ -167,10 +176,13 @@ def test_sentences_come_in_the_order_of_their_use(state):
     verdict = full(state)
     assert verdict.lines() == [
         "It raised ValueError.",
+        "2 of 6 calls failed, the first of them: g_vec([0.0], m=1)",
+        "This one works: g_vec([0.3], m=1)",
         "The sign is wrong.",
         "And the unit.",
         "It changes q.",
         "Worst case: g_vec([0.3], m=1) gave 2.1 N·m, off by 0.3 N·m (14% of the right value).",
+        'The arguments of the failed call: q = worst_case("p3-g_vec")',
         "Change your function.",
     ]
     for text in (str(verdict), " ".join(Card(html_card(verdict)).words)):
@@ -194,6 +206,9 @@ def test_without_inputs_only_the_size_of_the_error_is_told():
         assert "Worst case: off by 0.3 N·m" in text
         assert "m=1" not in text
         assert "2.1" not in text
+        assert "worst_case" not in text
+        assert "[0.0]" not in text
+    assert (verdict.worst, verdict.failed, verdict.given_by) == (None, None, "")
     assert Verdict("a", State.CORRECT).without_inputs() == Verdict("a", State.CORRECT)
 
 
@@ -354,3 +369,20 @@ def test_lines_of_the_notebook_come_last_and_as_text(verdict, said):
         or "<svg" in (bundle["text/html"])
     )
     assert squeezed(bundle["text/plain"]).endswith(squeezed(f"{said}a lesson"))
+
+
+@pytest.mark.parametrize(
+    ("failed", "said"),
+    [
+        (Failed("f(1)"), "The check stopped at this call: f(1)"),
+        (Failed("f(1)", 1, 1), "The one call failed: f(1)"),
+        (Failed("f(1)", 6, 6), "All 6 calls failed, the first of them: f(1)"),
+        (Failed("f(1)", 1, 6), "1 of 6 calls failed: f(1)"),
+        (Failed("f(1)", 2, 6), "2 of 6 calls failed, the first of them: f(1)"),
+    ],
+)
+def test_how_many_calls_failed(failed, said):
+    assert failing(failed) == [said]
+    card = html_card(Verdict("a", State.ERROR, failed=failed))
+    assert "".join(Card(card).words).endswith(said)
+    assert ">f(1)</code>" in card

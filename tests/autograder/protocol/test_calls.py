@@ -352,12 +352,40 @@ def test_warnings_numpy_errors_and_prints_are_harmless(capsys):
     assert np.geterr()["divide"] == "raise"
 
 
-def test_answers_stop_at_the_first_fault():
+def answered(body: str) -> tuple[list, list]:
+    """The kinds of fault of four calls, x = 0 to 3, and the arguments of those that were made."""
     namespace = {"__name__": "__main__", "calls": []}
-    exec("def f(q):\n    calls.append(q)\n    return None if q > 1 else q", namespace)
-    replies = protocol.answer_all([Call("f", (q,)) for q in (0.0, 1.0, 2.0, 3.0)], namespace)
-    assert [reply.fault and reply.fault.kind for reply in replies] == [None, None, "nothing"]
-    assert namespace["calls"] == [0.0, 1.0, 2.0]
+    exec(f"def f(x):\n    calls.append(x)\n    {body}", namespace)
+    replies = protocol.answer_all([Call("f", (float(x),)) for x in range(4)], namespace)
+    return [reply.fault and reply.fault.kind for reply in replies], namespace["calls"]
+
+
+@pytest.mark.parametrize(
+    ("body", "kind"),
+    [
+        ("return x if x != 1 else None", FaultKind.NOTHING),
+        ("return x if x != 1 else 'one'", FaultKind.NOT_NUMBERS),
+        ("return 1 / (x - 1)", FaultKind.RAISED),
+    ],
+)
+def test_calls_go_on_after_a_fault_that_others_need_not_have(body, kind):
+    assert answered(body) == ([None, kind, None, None], [0.0, 1.0, 2.0, 3.0])
+
+
+def test_calls_stop_at_a_fault_that_others_share(monkeypatch):
+    body = "raise NotImplementedError"
+    assert answered(body) == ([FaultKind.NOT_IMPLEMENTED], [0.0])
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.1)
+    monkeypatch.setattr(calls, "PATIENCE", 1000.0)
+    kinds, made = answered("while x == 1: pass\n    return x")
+    assert (kinds, made) == ([None, FaultKind.TIMED_OUT], [0.0, 1.0])
+
+
+def test_faulty_calls_together_take_no_longer_than_one_may(monkeypatch):
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
+    kinds, made = answered("import time; time.sleep(0.15); raise ValueError")
+    assert kinds == 3 * [FaultKind.RAISED]
+    assert made == [0.0, 1.0, 2.0]
 
 
 @pytest.mark.parametrize(

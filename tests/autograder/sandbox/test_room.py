@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from autograder.protocol import Call, Fault, FaultKind, Symbol
+from autograder.protocol import Call, Fault, FaultKind, Symbol, sentence_of
 from autograder.sandbox import room as sandbox
 from autograder.sandbox.inside.left_out import INPUT
 from tests.autograder.sandbox.rooms import EVERY_WAY, failed, printed
@@ -150,6 +150,19 @@ class TestCalls:
         assert room.ask([Call("f", (1.0,))] * 3)[0].fault == Fault(
             FaultKind.RAISED, "ZeroDivisionError: float division by zero", "line 3: return q / 0"
         )
+
+    def test_errors_are_read_in_the_room(self, room):
+        room.run("import numpy as np\nJ = np.ones((6, 3))")
+        room.run("def f(q):\n    return J @ (2 * np.array([q, q]))")
+        (reply,) = room.ask([Call("f", (1.0,))])
+        assert reply.fault.riddle is None  # what a call returned is not known any more
+        room.run("def f(q):\n    pair = np.array([q, q])\n    return J @ (2 * pair)")
+        (reply,) = room.ask([Call("f", (1.0,))])
+        assert sentence_of(reply.fault.riddle).startswith("J is (6, 3), and 2 * pair is (2,). ")
+        room.run("def f(q):\n    return q + 10^-3")
+        assert "**" in sentence_of(room.ask([Call("f", (1.0,))])[0].fault.riddle)
+        room.run("def f(q):\n    return q + (10^-3)")
+        assert room.ask([Call("f", (1.0,))])[0].caret
 
     def test_slow_calls_that_keep_their_own_limit_are_answered(self, room, monkeypatch):
         monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.0)

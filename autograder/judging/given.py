@@ -1,0 +1,147 @@
+"""What an answer gave for the calls of a check: numbers to judge, or why there are none.
+
+A fault is a call without numbers. Where all calls gave numbers but some are not finite, the criteria
+are judged that do not hang on these.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from autograder.judging.call_text import given_by, shapes, shown_call
+from autograder.judging.faults import NUMBERS, describe_unfit
+from autograder.judging.partial import is_finite, partial, where_not_finite
+from autograder.judging.quantities import Numbers, Quantities, UnfitError
+from autograder.judging.verdict import Failed
+from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol
+
+# No call was made where these stand.
+UNCALLED = (FaultKind.MISSING, FaultKind.CELL_FAILED, FaultKind.NOT_CALLABLE, FaultKind.NO_TOOLS)
+
+Describe = Callable[[Fault, str, str, str], str]
+
+
+class NoNumbersError(Exception):
+    """An answer gave nothing that can be judged; the text is the sentence for the student.
+
+    failed: the call because of which; None where no call was made.
+    """
+
+    def __init__(self, problem: str, failed: Failed | None = None):
+        super().__init__(problem)
+        self.failed = failed
+
+
+@dataclass(frozen=True)
+class Given:
+    """The quantities of an answer, case by case.
+
+    values: what came back, of which they were formed. spoilt: for each criterion, whether its numbers
+    hang on one that is not finite. problem, failed: the sentence about that one, and the call that gave
+    it.
+    """
+
+    numbers: Numbers
+    values: list
+    spoilt: tuple[bool, ...]
+    problem: str = ""
+    failed: Failed | None = None
+
+    def but_spoilt(self, others: Numbers) -> Numbers:
+        """The quantities, with others for those that hang on a number that is not finite."""
+        return [
+            tuple(b if bad else a for a, b, bad in zip(case, other, self.spoilt, strict=True))
+            for case, other in zip(self.numbers, others, strict=True)
+        ]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How replies are read: for which check, by which quantities.
+
+    right(call): what the right answer returns. describe: says what a fault is.
+    """
+
+    id: str
+    signature: str
+    quantities: Quantities
+    right: Callable[[Call], object]
+    describe: Describe
+
+    def given(self, calls: list[Call], replies: list[Reply]) -> Given:
+        """What is judged in the replies; NoNumbersError where there is nothing to judge."""
+        faults = [k for k, reply in enumerate(replies) if reply.fault]
+        if faults:
+            raise self._of_faults(calls, replies, faults)
+        values = [reply.value for reply in replies]
+        bad = [k for k, value in enumerate(values) if not is_finite(value)]
+        try:
+            if not bad:
+                numbers = self.quantities(calls, values)
+                return Given(numbers, values, len(numbers[0]) * (False,))
+            found = partial(self.quantities, calls, values)
+        except UnfitError as error:
+            unfit = self._unfit(calls, values)
+            first = calls[unfit[0]]
+            said = describe_unfit(
+                self.signature, str(error), first.truth, values[unfit[0]], self.right(first)
+            )
+            raise NoNumbersError(said, self._failed(calls, unfit)) from None
+        problem = (
+            f"{self.signature} returned {where_not_finite(values[bad[0]])}, "
+            "which is not a finite number."
+        )
+        failed = replace(self._failed(calls, bad), works="")
+        if found is None:
+            raise NoNumbersError(problem, failed)
+        return Given(found.numbers, values, found.spoilt, problem, failed)
+
+    def _of_faults(
+        self, calls: list[Call], replies: list[Reply], faults: list[int]
+    ) -> NoNumbersError:
+        fault = replies[faults[0]].fault
+        assert fault is not None
+        name = self.signature.partition("(")[0]
+        said = self.describe(fault, name, self.signature, needed(calls[0]))
+        if fault.kind in UNCALLED:
+            return NoNumbersError(said)
+        return NoNumbersError(said, self._failed(calls[: len(replies)], faults, len(calls)))
+
+    def _failed(self, calls: list[Call], bad: list[int], asked: int | None = None) -> Failed:
+        """calls: those that were made. asked: how many should have been, where not all were."""
+        first = calls[bad[0]]
+        shown = shown_call(first, self.signature)
+        works = next((k for k in range(len(calls)) if k not in bad), None)
+        working = ""
+        if works is not None:
+            call = calls[works]
+            working = shown_call(call, self.signature) + shapes(call, self.signature)
+        whole = asked is None or asked == len(calls)
+        return Failed(
+            shown,
+            len(bad),
+            len(calls) if whole else 0,
+            "" if working == shown else working,  # symbols, which say nothing
+            given_by(first, self.signature, self.id),
+            first,
+        )
+
+    def _unfit(self, calls: list[Call], values: list) -> list[int]:
+        """The calls whose values alone, among right ones, do not have the shape that is asked for."""
+        right = [self.right(call) for call in calls]
+        found = []
+        for k, value in enumerate(values):
+            try:
+                self.quantities(calls, [*right[:k], value, *right[k + 1 :]])
+            except UnfitError:
+                found.append(k)
+        return found or [0]
+
+
+def needed(call: Call) -> str:
+    """What a call's function should return, in words."""
+    if call.truth:
+        return "True or False"
+    if not call.at:
+        return NUMBERS
+    symbols = all(isinstance(value, Symbol) for value in call.args)
+    return f"{'a SymPy expression' if symbols else 'SymPy expressions'} of its arguments"

@@ -1,0 +1,127 @@
+"""Tells the quantities of an answer that are finite from those that hang on a NaN or an infinity.
+
+A function may return three right numbers and a NaN. The criteria that do not hang on the NaN are judged;
+the others are not met. Whether one hangs on it is tried, with other numbers in its place, so that no
+comparison, maximum or sorting in a check can hide it: an answer never gets more than it would with one
+of these numbers.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from autograder.judging.quantities import Numbers, Quantities, UnfitError
+from autograder.protocol import Call
+
+MOST_NAMED = 3  # places of an array
+
+
+@dataclass(frozen=True)
+class Partial:
+    """Quantities of which some are NaN.
+
+    spoilt: for each criterion, whether its numbers hang on one that is not finite; they are NaN then.
+    """
+
+    numbers: Numbers
+    spoilt: tuple[bool, ...]
+
+
+def is_finite(value) -> bool:
+    """Whether all numbers of a value are, an array or parts of it."""
+    if isinstance(value, dict | list):
+        return all(map(is_finite, value.values() if isinstance(value, dict) else value))
+    return bool(np.all(np.isfinite(value)))
+
+
+def where_not_finite(value) -> str:
+    """The first number of a value that is not finite, and its place: "nan at [2]"."""
+    if isinstance(value, dict | list):
+        named = value.items() if isinstance(value, dict) else enumerate(value)
+        key, part = next((key, part) for key, part in named if not is_finite(part))
+        first, _, place = where_not_finite(part).partition(" at ")
+        return f"{first} at [{key!r}]{place}"
+    bad = np.argwhere(~np.isfinite(value))
+    first = f"{value[tuple(bad[0])]}"
+    if np.size(value) == 1:
+        return first
+    places = [f"[{', '.join(map(str, place))}]" for place in bad[:MOST_NAMED].tolist()]
+    more = f" and {len(bad) - MOST_NAMED} more places" if len(bad) > MOST_NAMED else ""
+    return f"{first} at {', '.join(places)}{more}"
+
+
+def partial(quantities: Quantities, calls: list[Call], values: list) -> Partial | None:
+    """The quantities of values that are not all finite; None where none of them can be judged.
+
+    UnfitError where the values do not have the shape that is asked for.
+    """
+    if any(isinstance(value, dict | list) for value in values):
+        return None
+    bad = [k for k, value in enumerate(values) if not is_finite(value)]
+    with np.errstate(all="ignore"):
+        try:
+            as_given = quantities(calls, values)
+        except UnfitError:
+            raise
+        except Exception:  # such as a decomposition that refuses a NaN
+            return None
+        try:
+            spoilt = _hanging_on(quantities, calls, values, bad)
+            # A value of which no criterion takes notice is not judged to be none.
+            each = [_hanging_on(quantities, calls, values, [k]) for k in bad]
+        except UnfitError:
+            return None
+    if all(spoilt) or not all(map(any, each)):
+        return None
+    numbers = [
+        tuple(
+            np.full(np.shape(part), np.nan) if hangs else part
+            for part, hangs in zip(case, spoilt, strict=True)
+        )
+        for case in as_given
+    ]
+    return Partial(numbers, spoilt)
+
+
+def _hanging_on(
+    quantities: Quantities, calls: list[Call], values: list, bad: list[int]
+) -> tuple[bool, ...]:
+    """For each criterion, whether it hangs on what is not finite in the values at these places.
+
+    What is not finite in others is 0 meanwhile.
+    """
+    zero, *others = _fills(values)
+    rest = [v if k in bad else _filled(v, zero) for k, v in enumerate(values)]
+    found = [
+        quantities(calls, [_filled(v, fill) if k in bad else v for k, v in enumerate(rest)])
+        for fill in (zero, *others)
+    ]
+    as_given = quantities(calls, rest)
+    return tuple(
+        not all(_same(k, as_given, other) for other in found) for k in range(len(as_given[0]))
+    )
+
+
+def _fills(values: list):
+    """What stands for numbers that are not finite, each time another."""
+    finite = np.concatenate([np.ravel(value)[np.isfinite(np.ravel(value))] for value in values])
+    size = float(np.max(np.abs(finite), initial=0.0)) or 1.0
+    rng = np.random.default_rng(0)
+    yield lambda count: np.zeros(count)
+    yield lambda count: size * rng.uniform(0.5, 1.5, count)
+    yield lambda count: -size * rng.uniform(0.5, 1.5, count)
+
+
+def _filled(value: np.ndarray, fill) -> np.ndarray:
+    value = np.array(value, dtype=float)
+    bad = ~np.isfinite(value)
+    value[bad] = fill(np.count_nonzero(bad))
+    return value
+
+
+def _same(k: int, one: Numbers, other: Numbers) -> bool:
+    """Whether the numbers of criterion k are the same, finite ones, in every case."""
+    return all(
+        is_finite(a[k]) and np.shape(a[k]) == np.shape(b[k]) and np.array_equal(a[k], b[k])
+        for a, b in zip(one, other, strict=True)
+    )

@@ -1,0 +1,270 @@
+"""What NumPy says of shapes, indices and matrices, in the student's own names."""
+
+import ast
+
+import numpy as np
+
+from .row import Row, Words
+from .scene import Scene, text
+
+# The joints' names of the vectors that a problem gives.
+OF_JOINTS = {"q": "q", "qd": "q̇", "qdd": "q̈", "u": "u"}
+PRODUCTS = ("dot", "matmul", "cross", "inner", "outer")
+MOST_PARTS = 4
+MOST_RANKED = 400  # entries
+
+
+def _operands(scene: Scene) -> list[ast.expr]:
+    """What is multiplied by @, or by np.dot or np.matmul; what + − * / join."""
+    node = scene.node
+    if isinstance(node, ast.BinOp):
+        return [node.left, node.right]
+    if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
+        return []
+    given = node.args if len(node.args) == 2 else [node.func.value, *node.args]
+    return given if node.func.attr in PRODUCTS and len(given) == 2 else []
+
+
+def _two_shapes(scene: Scene, found, error) -> Words | None:
+    operands = _operands(scene)
+    shapes = [scene.shape(node) for node in operands]
+    if len(operands) != 2 or None in shapes:
+        return None
+    return tuple(
+        word
+        for node, shape in zip(operands, shapes, strict=True)
+        for word in (text(node), str(shape))
+    )
+
+
+def _number(scene: Scene, found, error) -> Words | None:
+    """Which of two factors is a single number."""
+    return next(((text(node),) for node in _operands(scene) if scene.shape(node) == ()), None)
+
+
+def _first_argument(scene: Scene) -> ast.expr | None:
+    call = scene.find(ast.Call)
+    return call.args[0] if call and call.args else None
+
+
+def _of_argument(scene: Scene, found, error) -> Words | None:
+    node = _first_argument(scene)
+    shape = scene.shape(node)
+    return (text(node), str(shape)) if node is not None and shape is not None else None
+
+
+def _rank(scene: Scene, found, error) -> Words | None:
+    node = _first_argument(scene)
+    matrix = scene.value(node)
+    if node is None or type(matrix) is not np.ndarray or matrix.ndim != 2:
+        return None
+    if matrix.size > MOST_RANKED or matrix.dtype.kind not in "if":
+        return None
+    if not np.all(np.isfinite(matrix)):
+        return None
+    rank = int(np.linalg.matrix_rank(matrix))
+    return (text(node), str(matrix.shape), str(rank)) if rank < len(matrix) else None
+
+
+def _entries(scene: Scene, found, error) -> Words | None:
+    """A vector, how many entries it has, and how the first and the last are written."""
+    node = scene.find(ast.Subscript)
+    shape = scene.shape(node.value) if node else None
+    if node is None or shape is None or len(shape) != 1 or not shape[0]:
+        return None
+    name, size = text(node.value), shape[0]
+    first, last = "its first entry", "its last one"
+    if letter := OF_JOINTS.get(name):
+        first, last = f"{letter}1", f"{letter}{size}"
+    many = f"{size} entr{'y' if size == 1 else 'ies'}"
+    if size == 1:
+        return name, many, f"{name}[0] is {first}"
+    return name, many, f"{name}[0] is {first} and {name}[{size - 1}] is {last}"
+
+
+def _of_subscript(scene: Scene, found, error) -> Words | None:
+    node = scene.find(ast.Subscript)
+    shape = scene.shape(node.value) if node else None
+    return (text(node.value), str(shape)) if node and shape is not None else None
+
+
+def _too_many(scene: Scene, found, error) -> Words | None:
+    words = _of_subscript(scene, found, error)
+    return words and (*words, f"{found[1]} ind{'ex' if found[1] == '1' else 'ices'}")
+
+
+def _parts(scene: Scene, found, error) -> Words | None:
+    """The parts that are joined, with their shapes."""
+    node = _first_argument(scene)
+    if not isinstance(node, ast.List | ast.Tuple) or len(node.elts) > MOST_PARTS:
+        return None
+    shapes = [scene.shape(part) for part in node.elts]
+    known = zip(node.elts, shapes, strict=True)
+    said = [f"{text(part)} {shape}" for part, shape in known if shape is not None]
+    return (", ".join(said),) if len(said) > 1 else None
+
+
+def _array_entry(scene: Scene, found, error) -> Words | None:
+    """An entry of np.array([...]) that is an array where others are numbers."""
+    node = _first_argument(scene)
+    rows = node.elts if isinstance(node, ast.List | ast.Tuple) else []
+    entries = [e for row in rows for e in (row.elts if isinstance(row, ast.List) else [row])]
+    for entry in entries:
+        shape = scene.shape(entry)
+        if shape and type(scene.value(entry)) is np.ndarray:
+            return text(entry), str(shape)
+    return None
+
+
+def _condition(scene: Scene, found, error) -> Words | None:
+    """What stands after if, not or while, and before and or or."""
+    node = scene.node
+    if isinstance(node, ast.IfExp):
+        node = node.test
+    if isinstance(node, ast.BoolOp):
+        node = node.values[0]
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
+        node = node.operand
+    if not isinstance(node, ast.Name | ast.Compare | ast.Attribute):
+        return None
+    shape = scene.shape(node)
+    return text(node), f" of shape {shape}" if shape else ""
+
+
+def _scalar_function(scene: Scene, found, error) -> Words | None:
+    """A function that takes one number, what it was given, and NumPy's function of that name."""
+    call, node = scene.find(ast.Call), _first_argument(scene)
+    if call is None or node is None:
+        return None
+    shape, called = scene.shape(node), text(call.func)
+    name = called.rpartition(".")[2]
+    is_there = isinstance(getattr(np, name, None), np.ufunc)
+    return (
+        called,
+        text(node),
+        f"has the shape {shape}" if shape else "is an array",
+        f"Use np.{name}, or one entry." if is_there else "Which entry is meant?",
+    )
+
+
+def _assigned(scene: Scene, found, error) -> Words | None:
+    return found[1], found[2]
+
+
+PRODUCT = "In a product A @ B, the last length of A must be the first of B."
+MATMUL = r"matmul: Input operand|^shapes .* not aligned|^Matrix size mismatch|^Dimension mismatch"
+ROWS = (
+    Row(
+        "matmul number",
+        ("ValueError",),
+        r"does not have enough dimensions",
+        "{0} is a single number, and @ multiplies matrices and vectors. A number is multiplied by *.",
+        _number,
+    ),
+    Row(
+        "matmul",
+        ("ValueError", "ShapeError"),
+        MATMUL,
+        "{0} is {1}, and {2} is {3}. " + PRODUCT,
+        _two_shapes,
+    ),
+    Row(
+        "broadcast",
+        ("ValueError",),
+        r"could not be broadcast together",
+        "{0} is {1}, and {2} is {3}. The signs +, −, * and / join arrays entry by entry.",
+        _two_shapes,
+    ),
+    Row(
+        "put into",
+        ("ValueError",),
+        r"could not broadcast input array from shape (\(.*\)) into shape (\(.*\))",
+        "An array of shape {0} does not fit where you put it: the place has the shape {1}.",
+        _assigned,
+    ),
+    Row(
+        "singular",
+        ("LinAlgError",),
+        r"^Singular matrix",
+        "{0} is {1}, and its rank is only {2}: some of its columns follow from others, or are zero. "
+        "Which columns?",
+        _rank,
+    ),
+    Row(
+        "some singular",
+        ("LinAlgError", "NonInvertibleMatrixError"),
+        r"^Singular matrix|det == 0|Matrix.*not invertible",
+        "Some columns of this matrix follow from others, or are zero. Which columns?",
+    ),
+    Row(
+        "square",
+        ("LinAlgError",),
+        r"must be square",
+        "{0} is {1}, and only a square matrix has an inverse.",
+        _of_argument,
+    ),
+    Row(
+        "index",
+        ("IndexError",),
+        r"is out of bounds for axis|index out of range",
+        "{0} has {1}, and Python counts from 0: {2}.",
+        _entries,
+    ),
+    Row(
+        "index of matrix",
+        ("IndexError",),
+        r"is out of bounds for axis",
+        "{0} has the shape {1}, and Python counts rows and columns from 0.",
+        _of_subscript,
+    ),
+    Row(
+        "many indices",
+        ("IndexError",),
+        r"too many indices for array: array is (\d+)-dimensional",
+        "{0} has the shape {1}: it takes {2}.",
+        _too_many,
+    ),
+    Row(
+        "joined",
+        ("ValueError",),
+        r"all the input arrays must have same|all the input array dimensions",
+        "The parts have the shapes {0}. Is one of them a matrix where a vector belongs?",
+        _parts,
+    ),
+    Row(
+        "truth",
+        ("ValueError",),
+        r"^The truth value of an array",
+        "A condition needs one True or False, and {0} is an array of them{1}. Must all of them hold "
+        "(np.all), or is one enough (np.any)?",
+        _condition,
+    ),
+    Row(
+        "some truth",
+        ("ValueError",),
+        r"^The truth value of an array",
+        "A condition needs one True or False, and this one is an array of them. Must all of them hold "
+        "(np.all), or is one enough (np.any)?",
+    ),
+    Row(
+        "one number",
+        ("TypeError",),
+        r"only (length-1|0-dimensional|size-1) arrays can be converted|"
+        r"must be real number, not (list|tuple)",
+        "{0} takes one number, and {1} {2}. {3}",
+        _scalar_function,
+    ),
+    Row(
+        "entry",
+        ("ValueError",),
+        r"^setting an array element with a sequence",
+        "{0} is an array of shape {1}. Does one number belong there?",
+        _array_entry,
+    ),
+    Row(
+        "some entry",
+        ("ValueError",),
+        r"^setting an array element with a sequence",
+        "The rows of an array must have one length. Is there an array where one number belongs?",
+    ),
+)

@@ -1,0 +1,141 @@
+"""What the card says of calls without numbers: which failed, how many, and which work."""
+
+import re
+
+import numpy as np
+import pytest
+
+from autograder.judging.check import VISIBLE_CASES
+from autograder.judging.verdict import State, failing
+from autograder.problems import CHECKS
+from autograder.protocol import FaultKind, Reply, answer, calls
+from tests.autograder.verdicts import function_of, judged
+
+ASKED = {"p1-M": 12, "p1-is_spd": 17, "p4-equilibria": 2}
+
+
+def shown(check_id: str, body: str):
+    verdict = judged(check_id, body, count=VISIBLE_CASES)
+    assert verdict.state is State.ERROR
+    assert verdict.credit == 0
+    return verdict
+
+
+@pytest.mark.parametrize(
+    ("check_id", "body"),
+    [
+        ("p1-M", "np.ones((2, 3))"),
+        ("p1-M", "q[2] * np.ones((2, 2))"),
+        ("p1-M", "None"),
+        ("p1-M", "'M'"),
+        ("p1-M", "np.full((2, 2), np.nan)"),
+        ("p1-is_spd", "A > 0"),
+        ("p1-is_spd", "0.5"),
+        ("p4-equilibria", "np.zeros(3)"),
+        ("p3-lagrangian", "q / 0"),
+        ("p4-potential_energy", "q"),
+        ("p5-simulate", "x0"),
+    ],
+)
+def test_every_call_fails(check_id, body):
+    failed = shown(check_id, body).failed
+    made = CHECKS[check_id].calls(np.random.default_rng(0), VISIBLE_CASES)
+    assert failed.tried == failed.count == len(made) == ASKED.get(check_id, len(made))
+    assert failed.works == ""
+    assert failed.of.name == CHECKS[check_id].name
+    assert failed.call.startswith((f"{failed.of.name}(", f"sp.Matrix({failed.of.name}("))
+
+
+@pytest.mark.parametrize(
+    "bad",
+    ["1 / 0", "None", "'g'", "np.nan", "np.ones(2)"],
+)
+def test_some_calls_fail_and_one_that_works_is_shown(bad):
+    """Of g_vec(q, pend): those with a positive q."""
+    body = f"if q[0] > 0:\n    return {bad}\nreturn 1.0"
+    verdict = shown("p3-g_vec", body)
+    made = CHECKS["p3-g_vec"].calls(np.random.default_rng(0), VISIBLE_CASES)
+    bad_ones = [call for call in made if call.args[0][0] > 0]
+    failed = verdict.failed
+    assert 0 < failed.count < failed.tried == len(made)
+    assert failed.count == len(bad_ones)
+    np.testing.assert_array_equal(failed.of.args[0], bad_ones[0].args[0])
+    if bad != "np.nan":  # which says itself where it came
+        (q,) = map(float, re.findall(r"np\.array\(\[(.*?)\]", failed.works))
+        assert q < 0
+    assert verdict.lines()[1] == failing(failed)[0]
+
+
+def test_where_arguments_are_long_the_shapes_tell_which_calls_work():
+    verdict = shown("p1-inertia_from_links", "return jacobians[1].T @ inertias[1] @ jacobians[1]")
+    assert verdict.failed.call == "inertia_from_links(jacobians, inertias)"
+    assert re.search(r"# jacobians \(1, 6, \d\), inertias \(1, 6, 6\)$", verdict.failed.given_by)
+    assert re.search(r"# jacobians \([23], 6, \d\), inertias \([23], 6, 6\)$", verdict.failed.works)
+
+
+def test_a_call_that_never_returns_is_shown_and_no_other_is_made(monkeypatch):
+    namespace = {"__name__": "__main__", "made": []}
+    source = function_of("p3-g_vec", "made.append(q)\nwhile len(made) > 1: pass\nreturn 1.0")
+    exec(source, namespace)
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
+    monkeypatch.setattr(calls, "PATIENCE", 1000.0)
+    verdict = CHECKS["p3-g_vec"].run(
+        lambda asked: calls.answer_all(asked, namespace), np.random.default_rng(0), VISIBLE_CASES
+    )
+    assert "did not return within 0.2 s" in verdict.problem
+    assert len(namespace["made"]) == 2
+    np.testing.assert_array_equal(verdict.failed.of.args[0], namespace["made"][1])
+    assert verdict.lines()[1].startswith("The check stopped at this call: g_vec(np.array([")
+
+
+def test_no_call_is_shown_where_none_was_made():
+    check = CHECKS["p3-g_vec"]
+    for namespace in ({}, {"g_vec": 3.0}):
+        verdict = check.run(
+            lambda asked, own=namespace: [answer(asked[0], own)], np.random.default_rng(0)
+        )
+        assert verdict.state is State.ERROR
+        assert verdict.failed is None
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("np.eye(2) * q", "Did you multiply a matrix and a vector by *?"),
+        ("np.ones((2, 3))", ""),
+        ("np.ones(3)", ""),
+    ],
+)
+def test_a_matrix_where_a_vector_belongs_is_asked_after(body, said):
+    problem = shown("p4-g_vec", body).problem
+    assert "it must return shape (2,)" in problem
+    assert ("by *?" in problem) == bool(said)
+    assert said in problem
+
+
+def test_an_array_where_one_truth_value_belongs():
+    assert shown("p1-is_spd", "A > 0").problem == (
+        "is_spd(A) returned 4 values of True or False, in shape (2, 2); it must return one. When is the "
+        "answer True: where all of them are?"
+    )
+
+
+def test_a_caret_is_told_of_a_wrong_answer_and_not_of_a_right_one():
+    said = "Your g_vec uses ^. In Python ^ is no power; the power is **."
+    body = "k = {}\nreturn pend.m * pend.g * pend.lc * np.sin(q) * (k ^ 3)"
+    assert judged("p3-g_vec", body.format(1)).remark == said
+    right = judged("p3-g_vec", body.format(2))
+    assert (right.state, right.remark) == (State.CORRECT, "")
+
+
+def test_a_forged_fault_gets_no_more_than_a_fault():
+    """Fewer replies than calls, the last of them a fault, as the sandbox sends them."""
+    check = CHECKS["p3-g_vec"]
+
+    def ask(asked):
+        fault = calls.Fault(FaultKind.RAISED, "ValueError: x")
+        return [Reply(value=np.array(check.reference(*asked[0].args))), Reply(fault=fault)]
+
+    verdict = check.run(ask, np.random.default_rng(0), VISIBLE_CASES)
+    assert (verdict.state, verdict.credit) == (State.ERROR, 0)
+    assert verdict.failed.tried == 0
