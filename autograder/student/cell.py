@@ -10,6 +10,7 @@ import numpy as np
 from autograder.judging import card
 from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict
+from autograder.pictures.offers import offering
 from autograder.problems import CHECKS, known_check
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
 from autograder.student.definitions import watched
@@ -41,9 +42,9 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     does. NotCorrectError, after the card, where the verdict is not "correct"; UnknownCheckError
     where no check has this id.
     """
-    verdict = _naming_an_old_function(
-        verdict_on(known_check(id).id, sys._getframe(1).f_globals, fresh)
-    )
+    namespace = sys._getframe(1).f_globals
+    verdict = _naming_an_old_function(verdict_on(known_check(id).id, namespace, fresh))
+    verdict = offering(verdict, known_check(id), namespace)
     _show(verdict)
     if said := reminder(id):
         print(said)
