@@ -48,9 +48,9 @@ def _apart(of: Comparison, at: str) -> list[str]:
 
 
 def _same(of: Comparison) -> list[str]:
-    if of.name == "C":
+    if of.name == "C" and of.same_rate:
         return [
-            "Both move alike: the motion sees C only in C q̇, and there yours is right. What is wrong "
+            "Both move alike: the motion sees C only in C q̇, and that is right with yours. What is wrong "
             "with your C does not move the arm."
         ]
     return [
@@ -124,9 +124,10 @@ def _energy(of: Comparison) -> list[str]:
     swing = np.ptp([_potential(of, x[:n]) for x in of.right.x])
     if abs(change) < max(LITTLE * swing, 10 * kept):
         return []
-    grows = "grows" if change > 0 else "falls"
+    more = "more" if change > 0 else "less"
     return [
-        f"The right motion keeps its energy K + P. Along yours it {grows} by {_number(abs(change))} J."
+        "The right motion keeps its energy K + P. Yours ends with "
+        f"{_number(abs(change))} J {more} than it began with."
     ]
 
 

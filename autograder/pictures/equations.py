@@ -59,7 +59,7 @@ class Equations:
         """ẋ = [q̇; q̈], (2n,); numpy.linalg.LinAlgError where M is singular."""
         if "f" in self._put:
             return self._put["f"](x, u, self.arm)
-        q, qd = np.split(x, 2)
+        q, qd = x[: self.mechanism.n], x[self.mechanism.n :]
         rest = u - self._of["C"](q, qd, self.arm) @ qd - self._of["g_vec"](q, self.arm)
         if self._friction:
             rest = rest - np.sum(self._friction(q[None], qd[None], [self.arm]), axis=0)[0]

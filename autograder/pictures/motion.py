@@ -9,6 +9,7 @@ import numpy as np
 
 from armdyn.integrators import rk4
 from autograder.judging.check import Check
+from autograder.judging.criterion import TOLERANCE
 from autograder.mechanisms import Mechanism
 from autograder.mechanisms.shapes import Link, Mass, places
 from autograder.mutation.generated import Generated
@@ -34,7 +35,12 @@ class Motion:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two motions of one mechanism from one state. name: of the student's function."""
+    """Two motions of one mechanism from one state.
+
+    name: of the student's function. equations: the right ones. is_free: there is neither torque nor
+    friction, so that the right motion keeps its energy. same_rate: whether both give the same ẋ at the
+    start, to rounding.
+    """
 
     name: str
     mechanism: Mechanism
@@ -42,7 +48,8 @@ class Comparison:
     right: Motion
     theirs: Motion
     equations: Equations
-    is_free: bool  # neither torque nor friction, so that the right motion keeps its energy
+    is_free: bool
+    same_rate: bool
 
     @property
     def common(self) -> int:
@@ -88,10 +95,21 @@ def compared(check: Check, function: Callable, call: Call) -> Comparison:
         if exact.stopped:
             raise NoMotionError(f"the right motion cannot be played from there: {exact.stopped}")
         is_free = of.answer != "f"
-        found = Comparison(check.name, m, arm, exact, tried, right, is_free)
+        same = not tried.stopped and _gives_the_same(theirs.rate, right.rate, x0, u)
+        found = Comparison(check.name, m, arm, exact, tried, right, is_free, same)
         if tried.stopped or not found.alike:
             break
     return found
+
+
+def _gives_the_same(rate: Callable, right: Callable, x0: np.ndarray, u: np.ndarray) -> bool:
+    try:
+        with bounded():
+            expected = right(x0, u)
+            apart = np.max(np.abs(rate(x0, u) - expected))
+            return bool(apart <= TOLERANCE * np.max(np.abs(expected)))
+    except (NoMotionError, np.linalg.LinAlgError):
+        return False
 
 
 def _run(rate: Callable, x0: np.ndarray, u: np.ndarray, seconds: float) -> Motion:
