@@ -50,8 +50,8 @@ def _apart(of: Comparison, at: str) -> list[str]:
 def _same(of: Comparison) -> list[str]:
     if of.name == "C" and of.same_rate:
         return [
-            "Both move alike: the motion sees C only in C q̇, and that is right with yours. What is wrong "
-            "with your C does not move the arm."
+            "Both move alike: the motion sees C only in C q̇, and that is right with yours. What is "
+            "wrong with your C does not move the arm."
         ]
     return [
         f"Both move alike from this state: what is wrong with your {of.name} does not show here."

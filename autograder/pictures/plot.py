@@ -34,7 +34,7 @@ class Line:
 
 
 def plot(lines: Sequence[Line], x: Axis, y: Axis, width: float, height: float) -> str:
-    """An SVG group of this size, px. Numbers that are not finite leave a gap in their line."""
+    """An SVG group of this size, px. Numbers that are not finite, or huge, are left out."""
     to_x = _scale([line.x for line in lines], x, LEFT, width - RIGHT)
     to_y = _scale([line.y for line in lines], y, height - BOTTOM, TOP)
     parts = [_axis_x(to_x, x, width, height), _axis_y(to_y, y, width, height)]
@@ -90,8 +90,10 @@ class _Scale:
     def at(self, values) -> np.ndarray:
         with np.errstate(all="ignore"):
             numbers = np.log10(values) if self.logarithmic else np.asarray(values, dtype=float)
-        share = (numbers - self.low) / (self.high - self.low)
-        return self.start + np.where(np.isfinite(share), share, np.nan) * (self.end - self.start)
+            share = (numbers - self.low) / (self.high - self.low)
+        # What lies beyond the axis is no number, or too large to be drawn.
+        share = np.where(np.abs(share - 0.5) < 1, share, np.nan)
+        return self.start + share * (self.end - self.start)
 
     @property
     def ticks(self) -> list[tuple[float, str]]:

@@ -179,7 +179,7 @@ def _panel(
         f'<text x="{k * half + 25:g}" y="16" fill="currentColor" font-weight="bold" {FONT}>'
         f"{title}</text>"
         f'<svg x="{k * half:g}" y="{TITLE}" width="{half - 6:g}" height="{PANEL}"'
-        f' viewBox="0 0 {half - 6:g} {PANEL}" data-panel="{k}">'
+        f' viewBox="0 0 {half - 6:g} {PANEL}" data-panel="{k}" role="none">'
         f'<rect width="100%" height="100%" fill="none" stroke="currentColor" stroke-opacity="0.25"/>'
         f"{inside}</svg>"
     )

@@ -75,7 +75,8 @@ def _pictures(check: Check, function, worst: Call, calls: list[Call]):
             yield Shown(title(both), said, drawn.svg, alt, drawn.motion)
     if name in CURVES and (made := curves_of(check)):
         try:
-            curves = made(check, function, worst, calls)
+            with np.errstate(all="ignore"):  # theirs may run away
+                curves = made(check, function, worst, calls)
         except NoMotionError as error:
             yield Shown("", (f"There is no curve of yours: {error}.",))
         else:

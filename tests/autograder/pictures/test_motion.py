@@ -43,7 +43,7 @@ def with_term(model, name: str, student, arm):
 
     setattr(Mistaken, name, lambda self, *state: np.reshape(student(*state, arm), shape))
     shape = {"M": (model.n, model.n), "C": (model.n, model.n), "g_vec": (model.n,)}[name]
-    return Mistaken(**{key: value for key, value in vars(arm).items()})
+    return Mistaken(**vars(arm))
 
 
 @pytest.mark.parametrize(
