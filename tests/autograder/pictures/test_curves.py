@@ -64,6 +64,7 @@ def test_gravity_goes_round_with_the_other_angle_held():
             "Your curve is the right one turned upside down.",
         ),
         (COSINE, "Your curve is the right one, moved 90° to the left."),
+        (f"-{COSINE}", "Your curve is the right one, moved 90° to the right."),
         (
             "2 * pend.m * pend.g * pend.lc * np.sin(q)",
             "Your curve is 2 times as high as the right one everywhere.",
