@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from autograder.judging.criterion import TOLERANCE
 from autograder.pictures.motion import Comparison
 
 LEAST_WAY = 0.005  # m; less is not seen in the picture
@@ -40,6 +41,7 @@ def title(of: Comparison) -> str:
 
 def _apart(of: Comparison, at: str) -> list[str]:
     return [
+        *_as_if(of),
         *_shift(of, at),
         *_coordinates(of, at),
         *(_ways(of) or _starts(of)),
@@ -48,7 +50,7 @@ def _apart(of: Comparison, at: str) -> list[str]:
 
 
 def _same(of: Comparison) -> list[str]:
-    if of.name == "C" and of.same_rate:
+    if of.name == "C" and of.times is not None and abs(of.times - 1) <= TOLERANCE:
         return [
             "Both move alike: the motion sees C only in C q̇, and that is right with yours. What is "
             "wrong with your C does not move the arm."
@@ -56,6 +58,27 @@ def _same(of: Comparison) -> list[str]:
     return [
         f"Both move alike from this state: what is wrong with your {of.name} does not show here."
     ]
+
+
+def _as_if(of: Comparison) -> list[str]:
+    """What a term means that is a multiple of the right one all along the motion."""
+    if of.times is None:
+        return []
+    times = round(of.times, 6) + 0.0  # and no -0.0
+    weighs = all(term.name.startswith("the weight") for term in of.mechanism.potential)
+    if of.name == "g_vec" and weighs:
+        if times == 0:
+            return ["It moves as if there were no gravity."]
+        if times == -1:
+            return ["It moves as if gravity pulled the other way."]
+        way = "" if times > 0 else " and pulled the other way"
+        return [f"It moves as if gravity were {abs(times):.4g} times as strong{way}."]
+    term = "C q̇" if of.name == "C" else of.name
+    if times == 0:
+        return [f"Along the right motion your {term} is zero, and the right one is not."]
+    size = "as large as" if abs(times) == 1 else f"{abs(times):.4g} times"
+    sign = "" if times > 0 else ", with the opposite sign"
+    return [f"Along the right motion your {term} is {size} the right one{sign}."]
 
 
 def _shift(of: Comparison, at: str) -> list[str]:

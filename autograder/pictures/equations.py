@@ -65,6 +65,13 @@ class Equations:
             rest = rest - np.sum(self._friction(q[None], qd[None], [self.arm]), axis=0)[0]
         return np.concatenate([qd, np.linalg.solve(self._of["M"](q, self.arm), rest)])
 
+    def term(self, name: str, x: np.ndarray) -> np.ndarray:
+        """What M, C q̇ or g_vec is at a state."""
+        q, qd = x[: self.mechanism.n], x[self.mechanism.n :]
+        if name == "C":
+            return self._of["C"](q, qd, self.arm) @ qd
+        return self._of[name](q, self.arm)
+
     def energy(self, x: np.ndarray) -> np.ndarray:
         """K + P at states (T, 2n): (T,), J."""
         M, P = (reference(self.mechanism, name) for name in ("M", "potential_energy"))

@@ -39,8 +39,8 @@ class Comparison:
     """Two motions of one mechanism from one state.
 
     name: of the student's function. equations: the right ones. is_free: there is neither torque nor
-    friction, so that the right motion keeps its energy. same_rate: whether both give the same ẋ at the
-    start, to rounding.
+    friction, so that the right motion keeps its energy. times: how many times the right M, C q̇ or g the
+    student's is all along the right motion; None where it is no multiple.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Comparison:
     theirs: Motion
     equations: Equations
     is_free: bool
-    same_rate: bool
+    times: float | None
 
     @property
     def common(self) -> int:
@@ -98,21 +98,27 @@ def compared(check: Check, function: Callable, call: Call) -> Comparison:
         if exact.stopped:
             raise NoMotionError(f"the right motion cannot be played from there: {exact.stopped}")
         is_free = of.answer != "f"
-        same = not tried.stopped and _gives_the_same(theirs.rate, right.rate, x0, u)
-        found = Comparison(check.name, m, arm, exact, tried, right, is_free, same)
+        times = _times(of.answer, theirs, right, exact.x) if is_free and not tried.stopped else None
+        found = Comparison(check.name, m, arm, exact, tried, right, is_free, times)
         if tried.stopped or not found.alike:
             break
     return found
 
 
-def _gives_the_same(rate: Callable, right: Callable, x0: np.ndarray, u: np.ndarray) -> bool:
+def _times(name: str, theirs: Equations, right: Equations, states: np.ndarray) -> float | None:
+    """The factor between a term of both at some of the states, if there is one."""
+    some = states[:: FRAMES // 5]
     try:
         with bounded():
-            expected = right(x0, u)
-            apart = np.max(np.abs(rate(x0, u) - expected))
-            return bool(apart <= TOLERANCE * np.max(np.abs(expected)))
-    except (NoMotionError, np.linalg.LinAlgError):
-        return False
+            given = np.ravel([theirs.term(name, x) for x in some])
+    except NoMotionError:  # at a state where their own motion never comes
+        return None
+    expected = np.ravel([right.term(name, x) for x in some])
+    if not np.any(expected):
+        return None
+    times = float(expected @ given / (expected @ expected))
+    apart = np.max(np.abs(given - times * expected))
+    return times if apart <= TOLERANCE * np.max(np.abs(expected)) else None
 
 
 def _run(

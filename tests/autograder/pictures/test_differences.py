@@ -9,7 +9,7 @@ from autograder.pictures.differences import differences, sentences, title
 from autograder.pictures.equations import Equations
 from autograder.pictures.motion import compared
 from autograder.problems import known_check
-from tests.autograder.pictures.wrong import MINUS, UPWARD, played
+from tests.autograder.pictures.wrong import MINUS, OTHER_SIGN_C, UPWARD, played
 
 METRES = {"m": 1.0, "cm": 0.01}
 COORDINATE = re.compile(r"(\w+) is ([\d.e+]+) (?:rad|m) too (large|small)")
@@ -20,13 +20,24 @@ def near(said: float, exact: float) -> bool:
     return abs(said - exact) <= 0.06 * abs(exact) + 1e-9
 
 
+def times_said(sentence: str) -> float:
+    """How many times the right term theirs is, by a sentence."""
+    found = re.search(r"([\d.]+) times", sentence)
+    size = float(found.group(1)) if found else 1.0
+    if "no gravity" in sentence or "is zero" in sentence:
+        return 0.0
+    return -size if "the other way" in sentence or "opposite sign" in sentence else size
+
+
 def assert_true(both, sentence: str) -> None:
     last = both.common - 1
     shift = both.tips(both.theirs)[last] - both.tips(both.right)[last]
     rises = [both.tips(m)[last, 1] - both.tips(m)[0, 1] for m in (both.right, both.theirs)]
     apart = both.theirs.x[last] - both.right.x[last]
     names = [c.name for c in both.mechanism.coordinates]
-    if "where it should be" in sentence:
+    if "as if" in sentence or "Along the right motion" in sentence:
+        assert times_said(sentence) == pytest.approx(both.times, rel=1e-3, abs=1e-6)
+    elif "where it should be" in sentence:
         parts = re.findall(r"([\d.]+) (m|cm) (above|below|left of|right of)", sentence)
         assert parts
         for number, unit, way in parts:
@@ -64,6 +75,11 @@ def assert_true(both, sentence: str) -> None:
 
 
 MECHANISMS_PLAYED = ("planar-2r", "cart-pole", "turn-and-slide", "furuta", "slider-crank")
+GRAVITY = (
+    "np.array([(arm.m1 * arm.lc1 + arm.m2 * arm.l1) * arm.g * np.cos(q[0])"
+    " + arm.m2 * arm.lc2 * arm.g * np.cos(q[0] + q[1]),"
+    " arm.m2 * arm.lc2 * arm.g * np.cos(q[0] + q[1])])"
+)
 FACTORS = (-1.0, 0.0, 0.5, 0.99, 1.0, 1.0, 1.0, 2.0)
 
 
@@ -87,10 +103,42 @@ def test_sentences_on_wrong_entries_are_true(name, answer):
 
 def test_a_reversed_gravity_is_seen_to_go_the_other_way():
     both = played("p4-g_vec", UPWARD)
-    shift, _, ways, energy = sentences(both)
+    as_if, shift, _, ways, energy = sentences(both)
+    assert as_if == "It moves as if gravity pulled the other way."
     assert shift.startswith("After 0.5 s with your g_vec, the tip is ")
     assert re.fullmatch(r"In this time the tip should go .* down; yours goes .* up\.", ways)
     assert energy.startswith("The right motion keeps its energy")
+
+
+@pytest.mark.parametrize(
+    ("id", "body", "times", "said"),
+    [
+        ("p4-g_vec", f"return 0.5 * {GRAVITY}", 0.5, "as if gravity were 0.5 times as strong."),
+        ("p4-g_vec", "np.zeros(2)", 0.0, "It moves as if there were no gravity."),
+        (
+            "p2-C",
+            OTHER_SIGN_C,
+            -1.0,
+            "your C q̇ is as large as the right one, with the opposite sign.",
+        ),
+        ("p2-C", "np.zeros((2, 2))", 0.0, "your C q̇ is zero, and the right one is not."),
+        ("p3-M", "21 * pend.I", 21.0, "Along the right motion your M is 21 times the right one."),
+        ("spring-cart-g_vec", "0 * q", 0.0, "your g_vec is zero, and the right one is not."),
+    ],
+)
+def test_a_multiple_is_named_where_it_is_one(id, body, times, said):
+    both = played(id, body)
+    assert both.times == pytest.approx(times, abs=1e-12)
+    assert sentences(both)[0].endswith(said)
+    exact = [both.equations.term(known_check(id).name, x) for x in both.right.x[::7]]
+    assert np.any(exact)
+
+
+@pytest.mark.parametrize("body", ["0.5 * q", "np.array([1.0, 2.0])"])
+def test_no_multiple_is_named_where_there_is_none(body):
+    both = played("p4-g_vec", body)
+    assert both.times is None
+    assert "as if" not in " ".join(sentences(both))
 
 
 def test_the_title_says_where_it_starts():
