@@ -2,6 +2,7 @@
 
 import re
 
+import nbformat
 import numpy as np
 import pytest
 from playwright.sync_api import expect
@@ -146,6 +147,23 @@ def test_without_scripts_the_picture_and_its_text_are_what_one_sees(tab, file, t
         assert image.evaluate("image => image.naturalWidth") == 560
     expect(tab.locator("[data-still-only]").first).to_contain_text("A still picture: run the cell")
     expect(tab.get_by_text("The right motion keeps its energy").first).to_be_visible()
+
+
+def test_a_notebook_that_is_not_trusted_shows_the_still_picture(page, opened, course, tmp_path):
+    bundle = shown(known_check("cart-pole-M"), {"M": function("cart-pole-M", CART)})
+    cell = nbformat.v4.new_code_cell('watch("cart-pole-M")', execution_count=1)
+    cell.outputs = [nbformat.v4.new_output("display_data", data=bundle)]
+    kernel = {"name": "python3", "display_name": "Python 3 (ipykernel)", "language": "python"}
+    notebook = nbformat.v4.new_notebook(cells=[cell], metadata={"kernelspec": kernel})
+    nbformat.write(notebook, course / "watched.ipynb")
+    opened("watched.ipynb")
+    output = page.locator(".jp-OutputArea-output", has_text="from rest at x =")
+    picture = output.get_by_role("img", name=re.compile("from rest at x ="))
+    expect(picture).to_be_visible()
+    assert picture.evaluate("e => [e.tagName, e.naturalWidth]") == ["IMG", 560]
+    expect(output.locator("button, input, svg")).to_have_count(0)
+    expect(output).to_contain_text("A still picture: run the cell, or trust the notebook")
+    page.screenshot(path=tmp_path / "untrusted.png")
 
 
 def test_in_jupyterlab_a_student_is_offered_it_and_plays_it(page, opened, tmp_path):
