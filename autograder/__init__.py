@@ -5,6 +5,7 @@ from autograder.student.cell import check
 from autograder.student.hints import hint
 from autograder.student.look import look_at
 from autograder.student.own_arm import own_arm
+from autograder.student.watch import watch
 from autograder.student.worst_case import worst_case
 
-__all__ = ["check", "from_file", "hint", "look_at", "own_arm", "worst_case"]
+__all__ = ["check", "from_file", "hint", "look_at", "own_arm", "watch", "worst_case"]

@@ -11,6 +11,7 @@ import numpy as np
 from autograder.judging import card
 from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict
+from autograder.pictures.offers import offering
 from autograder.problems import CHECKS, known_check
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
 from autograder.student import below, failing, progress, worst_case
@@ -48,12 +49,12 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     does. NotCorrectError, after the card, where the verdict is not "correct"; UnknownCheckError
     where no check has this id.
     """
-    verdict = _naming_an_old_function(
-        verdict_on(known_check(id).id, sys._getframe(1).f_globals, fresh)
-    )
+    namespace = sys._getframe(1).f_globals
+    verdict = _naming_an_old_function(verdict_on(known_check(id).id, namespace, fresh))
     failing.note(verdict)
     progress.note(verdict)
     worst_case.remember(verdict)
+    verdict = offering(verdict, known_check(id), namespace)
     shown = card.mimebundle(verdict, below.lines(verdict))
     _show(shown)
     if said := reminder(id):

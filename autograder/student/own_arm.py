@@ -8,6 +8,7 @@ from autograder.problems import PROBLEMS_WITH_FAMILIES, arm_card
 from autograder.problems.material.conventions import BOOK, Convention, drawn
 from autograder.problems.material.given import code
 from autograder.protocol import OwnArm
+from autograder.student.display import show
 
 TYPE_IT = (
     "No name is known here. Until you give yours, you have the arm of the book. Put these two lines, "
@@ -57,7 +58,7 @@ def own_arm(
         _nameless.add(problem)
         print(TYPE_IT.format(problem=problem))
     whose = "the arm of the book" if given is None else f"the arm of {given.strip()}"
-    _show(arm_card.mimebundle(own, whose, arm, code(own, problem)))
+    show(arm_card.mimebundle(own, whose, arm, code(own, problem)))
     return own.own_arm(code(own, problem))
 
 
@@ -87,16 +88,3 @@ def _of_fetched(folder: Path) -> str | None:
         return getpass.getuser()
     except (KeyError, OSError):  # a container's user may have no name
         return None
-
-
-def _show(shown: dict[str, str]) -> None:
-    try:
-        from IPython import get_ipython
-        from IPython.display import display
-    except ImportError:
-        print(shown["text/plain"])
-        return
-    if get_ipython() is None:
-        print(shown["text/plain"])
-    else:
-        display(shown, raw=True)

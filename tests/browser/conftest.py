@@ -22,7 +22,8 @@ CHROMIUM = (
     "--disable-component-update",
     "--disable-sync",
 )
-PATIENCE = 60_000  # ms
+PATIENCE = 120_000  # ms
+SELF = ("file:", "data:")
 
 
 @pytest.fixture(scope="package")
@@ -95,3 +96,17 @@ def opened(page, address):
 def terminal(course):
     """What JupyterLab and its kernels have printed so far, beside the address."""
     return lambda: (course / "jupyter.log").read_text()
+
+
+@pytest.fixture
+def tab(page, request):
+    """A tab without a network; whether it runs scripts is the test's parameter."""
+    context = page.context.browser.new_context(java_script_enabled=getattr(request, "param", True))
+    context.route(re.compile(r"^(?!file:)"), lambda route: route.abort())
+    tab = context.new_page()
+    tab.set_default_timeout(20_000)
+    tab.trouble = []
+    tab.on("pageerror", lambda error: tab.trouble.append(str(error)))
+    tab.on("request", lambda r: tab.trouble.append(r.url) if r.url[:5] not in SELF else None)
+    yield tab
+    context.close()

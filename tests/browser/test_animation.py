@@ -1,7 +1,5 @@
 """An animation in a browser: it plays, its slider moves it, and without scripts its figure stays."""
 
-import re
-
 import nbformat
 import numpy as np
 import pytest
@@ -18,8 +16,6 @@ t = np.linspace(0, 3, 151)
 q = simulate(arm.state_derivative, [0.4, -0.7, 0.5, 1.0], [0, 0], t)[:, :2]
 """
 SHOW = 'Animation(arm, t, q, alt="A free arm falls and swings.")'
-
-SELF = ("file:", "data:")
 
 # Pixels of the canvas that are as grey as a link.
 LINKS = """canvas => {
@@ -46,20 +42,6 @@ def file(made, tmp_path_factory):
     path = tmp_path_factory.mktemp("animation") / "page.html"
     path.write_text(f"<!doctype html><meta charset='utf-8'>{page}<hr>{page}", encoding="utf-8")
     return path.as_uri()
-
-
-@pytest.fixture
-def tab(page, request):
-    """A tab without a network; javaScriptEnabled as the test's parameter says."""
-    context = page.context.browser.new_context(java_script_enabled=getattr(request, "param", True))
-    context.route(re.compile(r"^(?!file:)"), lambda route: route.abort())
-    tab = context.new_page()
-    tab.set_default_timeout(20_000)
-    tab.trouble = []
-    tab.on("pageerror", lambda error: tab.trouble.append(str(error)))
-    tab.on("request", lambda r: tab.trouble.append(r.url) if r.url[:5] not in SELF else None)
-    yield tab
-    context.close()
 
 
 class Player:

@@ -1,0 +1,3 @@
+"""Pictures for a student's notebook: the mechanism in motion, with the right equations and with the
+student's, and curves of theirs against the right ones.
+"""
