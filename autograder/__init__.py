@@ -2,8 +2,9 @@
 
 from autograder.protocol.languages import from_file
 from autograder.student.cell import check
+from autograder.student.derivation import derivation
 from autograder.student.hints import hint
 from autograder.student.look import look_at
 from autograder.student.own_arm import own_arm
 
-__all__ = ["check", "from_file", "hint", "look_at", "own_arm"]
+__all__ = ["check", "derivation", "from_file", "hint", "look_at", "own_arm"]

@@ -3,18 +3,21 @@
 from html import escape
 
 from autograder.problems import CHECKS, known_check
+from autograder.proofs import DERIVATIONS
 from autograder.student.own_arm import drawn_for
 
 _given: dict[str, int] = {}
 
 
 def hint(id: str | None = None) -> None:
-    """Show one more hint for the check `id`, below those you have seen. Hints cost no points.
+    """Show one more hint for the check or derivation `id`, below those you have seen. Hints cost no
+    points.
 
-    The count starts again with the kernel. UnknownCheckError where no check has this id.
+    The count starts again with the kernel. UnknownCheckError where nothing has this id.
     """
-    check = known_check(id, drawn_for(id))
-    id, hints = check.id, check.hints
+    proof = DERIVATIONS.get(id) if isinstance(id, str) else None
+    known = proof or known_check(id, drawn_for(id))
+    id, hints = known.id, known.hints
     given = min(_given.get(id, 0) + 1, len(hints))
     _given[id] = given
     if not hints:
@@ -23,7 +26,7 @@ def hint(id: str | None = None) -> None:
         left = f'Hint {given} of {len(hints)}. For the next one, run hint("{id}") again.'
     else:
         left = "That was the last hint."
-        if id in CHECKS:
+        if proof or id in CHECKS:
             left += " The matching lesson has the rest."
     _show(hints[:given], f"Hints for {id}", left)
 
