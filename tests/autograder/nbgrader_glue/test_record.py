@@ -200,7 +200,7 @@ def test_what_was_tested_is_not_trivial(pair):
         f"again; {COPY}",
         "p3-derivation has no answer; it may be in the student's own cell below",
         "p3-derivation has no answer; it may be in the student's own file IMG 1234.jpg",
-        "14 cells had lost their nbgrader settings",
+        "16 cells had lost their nbgrader settings",
         "edited_locked_cells 10 of 15 6 correct, 1 to be read the text of p3-setup had been",
         "files_beside 8 of 15 4 correct, 2 error in your code",
         f"empty could not be graded there is no {NOTEBOOK}",
