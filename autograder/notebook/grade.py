@@ -18,7 +18,7 @@ from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
 from autograder.notebook.sitting import Sitting
 from autograder.problems import check_for
-from autograder.proofs import DERIVATIONS, judge
+from autograder.proofs import DERIVATIONS, mark
 from autograder.proofs.marks import Marked
 from autograder.sandbox.room import Room
 from autograder.terminal import shown_name, shown_note
@@ -92,7 +92,7 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
                     cell.outputs.append(drawn.shown)
                 if derivation := DERIVATIONS.get(grade_id(cell) or ""):
                     given = sitting.lines_of(derivation.id)
-                    marked = judge(derivation, given, stream(seed, derivation.id))
+                    marked = mark(derivation, given, stream(seed, derivation.id))
                     cell.outputs.append(outputs.of_marks(marked))
                     marks.setdefault(derivation.cell, []).append(marked)
                 continue

@@ -5,6 +5,6 @@ reasons are given and nothing else is.
 """
 
 from autograder.proofs.derivations import DERIVATIONS
-from autograder.proofs.judge import judge
+from autograder.proofs.marking import mark
 
-__all__ = ["DERIVATIONS", "judge"]
+__all__ = ["DERIVATIONS", "mark"]

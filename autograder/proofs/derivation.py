@@ -27,13 +27,15 @@ class Row:
 class FalseStep:
     """A mistake as a false fact: a step that follows from it, and not from the reasons given, is it.
 
-    defines, property: as in a Reason. sentence: what is seen, and where to look; never the formula.
+    defines, property: as in a Reason. gone: what a line then no longer holds, if the sentence says so.
+    sentence: what is seen, and where to look; never the formula.
     """
 
     name: str
     sentence: str
     defines: tuple[tuple[str, str], ...] = ()
     property: str = ""
+    gone: str = ""
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,8 @@ class Misuse:
 class Derivation:
     """id: as students call it. cell: the grade_id of the proof beside it. start: what the first line
     equals. goal: what the last line must be, never shown; goal_said: in words, shown. relation: "=" or
-    ">". to_prove: reasons that assume what is to be proved. mistakes: tried in this order.
+    ">". least_lines: fewer do not show why. to_prove: reasons that assume what is to be proved.
+    mistakes: tried in this order.
     """
 
     id: str
@@ -65,6 +68,7 @@ class Derivation:
     rows: tuple[Row, ...]
     hints: tuple[str, ...]
     relation: str = "="
+    least_lines: int = 3
     to_prove: tuple[str, ...] = ()
     misused: tuple[Misuse, ...] = ()
     mistakes: tuple[FalseStep, ...] = ()

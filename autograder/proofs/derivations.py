@@ -12,7 +12,7 @@ _ENERGY_IS_NOT_ENOUGH = (
     "q̇ that stands in C. What is claimed here is about every entry of the matrix: which other "
     "fact does that need?"
 )
-_OF_ENERGY = (
+_OF_C = (
     FalseStep(
         "C is skew",
         "This step takes C itself to be skew-symmetric. Is it C that has this property, or "
@@ -34,35 +34,47 @@ _OF_ENERGY = (
         "M constant",
         "This step loses the change of M. M depends on q, and q moves.",
         (("Mdot", "0 M"),),
-    ),
-    FalseStep(
-        "no gravity",
-        "This step loses gravity, or counts it once too often. Look for it in each term.",
-        (("g", "0 qd"),),
-    ),
-    FalseStep(
-        "no torque",
-        "This step takes the motors to give no torque. Who has switched them off?",
-        (("u", "0 qd"),),
-    ),
-    FalseStep(
-        "gravity reversed",
-        "In this step gravity has the wrong sign. On which side of the equation of motion does "
-        "it stand?",
-        (("u", "M qdd + C qd - g"),),
-    ),
-    FalseStep(
-        "C reversed",
-        "In this step C q̇ has the wrong sign. On which side of the equation of motion does it "
-        "stand?",
-        (("u", "M qdd - C qd + g"),),
-    ),
-    FalseStep(
-        "K without its half",
-        "Look at the factor of the kinetic energy in this step.",
-        (("K", "qd' M qd"),),
+        gone="Mdot",
     ),
 )
+_K_WITHOUT_HALF = FalseStep(
+    "K without its half",
+    "Look at the factor of the kinetic energy in this step.",
+    (("K", "qd' M qd"),),
+)
+
+
+def _of_energy(friction: str = "") -> tuple[FalseStep, ...]:
+    """friction: what else is in the equation of motion, as " + f"."""
+    return (
+        FalseStep(
+            "gravity reversed",
+            "In this step gravity has the wrong sign. On which side of the equation of motion "
+            "does it stand?",
+            (("u", f"M qdd + C qd - g{friction}"),),
+        ),
+        FalseStep(
+            "C reversed",
+            "In this step C q̇ has the wrong sign. On which side of the equation of motion does "
+            "it stand?",
+            (("u", f"M qdd - C qd + g{friction}"),),
+        ),
+        *_OF_C,
+        FalseStep(
+            "no gravity",
+            "This step loses gravity, or counts it once too often. Look for it in each term.",
+            (("g", "0 qd"),),
+        ),
+        FalseStep(
+            "no torque",
+            "This step takes the motors to give no torque. Who has switched them off?",
+            (("qdd", f"-M^-1 (C qd + g{friction})"),),
+            gone="u",
+        ),
+        _K_WITHOUT_HALF,
+    )
+
+
 _MILESTONE_1 = "qd' M qdd + 1/2 qd' Mdot qd + qd' g"
 _MILESTONE_2 = "qd' u + 1/2 qd' (Mdot - 2 C) qd"
 
@@ -127,13 +139,7 @@ P1_POSITIVE = Derivation(
             gives=">=",
         ),
     ),
-    mistakes=(
-        FalseStep(
-            "K without its half",
-            "Look at the factor of the kinetic energy in this step.",
-            (("K", "qd' M qd"),),
-        ),
-    ),
+    mistakes=(_K_WITHOUT_HALF,),
 )
 P2_ENERGY = Derivation(
     id="p2-E",
@@ -154,7 +160,7 @@ P2_ENERGY = Derivation(
         "collect what stands between qd' and qd: which matrix is it, and what is known of it?",
     ),
     to_prove=(energy.BALANCE,),
-    mistakes=_OF_ENERGY,
+    mistakes=_of_energy(),
 )
 P2_SKEW = Derivation(
     id="p2-skew",
@@ -163,6 +169,7 @@ P2_SKEW = Derivation(
     start="(Mdot - 2 C) + (Mdot - 2 C)'",
     goal="0",
     goal_said="that Mdot - 2 C and its transpose add up to zero",
+    least_lines=2,
     rows=(Row(4, 1),),
     hints=(
         "A matrix is skew-symmetric if it and its transpose add up to zero. Begin with this sum "
@@ -174,9 +181,7 @@ P2_SKEW = Derivation(
     ),
     to_prove=(energy.SKEW,),
     misused=(Misuse(energy.BALANCE, _ENERGY_IS_NOT_ENOUGH),),
-    mistakes=tuple(
-        m for m in _OF_ENERGY if m.name in ("C is skew", "Ṁ = 2C", "Ṁ = C", "M constant")
-    ),
+    mistakes=_OF_C,
 )
 P3_LAGRANGE = Derivation(
     id="p3-L",
@@ -300,7 +305,7 @@ P5_ENERGY = Derivation(
             "stand?",
             (("u", "M qdd + C qd + g - f"),),
         ),
-        *_OF_ENERGY,
+        *_of_energy(" + f"),
     ),
 )
 DERIVATIONS = {

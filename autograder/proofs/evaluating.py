@@ -81,7 +81,7 @@ def _value(
         case Quotient(over, under):
             top, bottom = of(over), of(under)
             if bottom.shape != (1, 1):
-                raise LineError(f"You divide by {_kind(bottom)}; only a number divides.")
+                raise LineError(f"You divide by {kind(bottom)}; only a number divides.")
             return _product(top, _inverse(bottom))
         case Power(base, exponent):
             return _power(of(base), exponent)
@@ -91,7 +91,7 @@ def _value(
         case Wave(function, inner):
             value = of(inner)
             if value.shape != (1, 1):
-                raise LineError(f"{function} is taken of a number, not of {_kind(value)}.")
+                raise LineError(f"{function} is taken of a number, not of {kind(value)}.")
             made = np.sin(value.numbers) if function == "sin" else np.cos(value.numbers)
             return Value(made, np.maximum(1.0, value.size))
         case Unknown(inner, by):
@@ -107,7 +107,7 @@ def _sum(terms: list[Value]) -> Value:
     total = terms[0]
     for term in terms[1:]:
         if term.shape != total.shape:
-            raise LineError(f"You add {_kind(term)} to {_kind(total)}.")
+            raise LineError(f"You add {kind(term)} to {kind(total)}.")
         total = Value(total.numbers + term.numbers, total.size + term.size)
     return total
 
@@ -117,7 +117,7 @@ def _product(a: Value, b: Value) -> Value:
         return Value(a.numbers * b.numbers, a.size * b.size)
     if a.shape[1] != b.shape[0]:
         hint = " A scalar product is a' b." if a.shape == b.shape and a.shape[1] == 1 else ""
-        raise LineError(f"The product of {_kind(a)} and {_kind(b)} does not fit.{hint}")
+        raise LineError(f"The product of {kind(a)} and {kind(b)} does not fit.{hint}")
     return Value(a.numbers @ b.numbers, a.size @ b.size)
 
 
@@ -125,7 +125,7 @@ def _power(base: Value, exponent: int) -> Value:
     if exponent == -1:
         return _inverse(base)
     if base.shape[0] != base.shape[1]:
-        raise LineError(f"There is no power of {_kind(base)}. The square of a length is a' a.")
+        raise LineError(f"There is no power of {kind(base)}. The square of a length is a' a.")
     made = base
     for _ in range(exponent - 1):
         made = _product(made, base)
@@ -134,7 +134,7 @@ def _power(base: Value, exponent: int) -> Value:
 
 def _inverse(base: Value) -> Value:
     if base.shape[0] != base.shape[1]:
-        raise LineError(f"There is no inverse of {_kind(base)}.")
+        raise LineError(f"There is no inverse of {kind(base)}.")
     try:
         made = np.linalg.inv(base.numbers)
     except np.linalg.LinAlgError:
@@ -143,7 +143,8 @@ def _inverse(base: Value) -> Value:
     return Value(made, abs(made) * np.maximum(1.0, condition)[:, None, None])
 
 
-def _kind(value: Value) -> str:
+def kind(value: Value) -> str:
+    """What it is, in words."""
     rows, columns = value.shape
     if value.shape == (1, 1):
         return "a number"

@@ -5,7 +5,7 @@ from difflib import get_close_matches
 import numpy as np
 
 from autograder.problems import UnknownCheckError
-from autograder.proofs import DERIVATIONS, card, judge
+from autograder.proofs import DERIVATIONS, card, mark
 from autograder.proofs.derivation import Derivation
 from autograder.protocol import handed_in, one_line
 from autograder.student.cell import VISIBLE_SEED
@@ -20,7 +20,7 @@ def derivation(id: str | None = None, lines: object = ()) -> None:
     this id.
     """
     known = known_derivation(id)
-    _show(card.mimebundle(judge(known, handed_in(lines), np.random.default_rng(VISIBLE_SEED))))
+    _show(card.mimebundle(mark(known, handed_in(lines), np.random.default_rng(VISIBLE_SEED))))
 
 
 def known_derivation(id: object) -> Derivation:

@@ -1,7 +1,7 @@
-"""Judges a derivation line by line, by numbers, and says what is still to be shown."""
+"""Marks a derivation line by line, by numbers, and says what is still to be shown."""
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from autograder.proofs.derivation import (
     Misuse,
     Row,
 )
+from autograder.proofs.evaluating import kind
 from autograder.proofs.expression import Derivative, Name, Node, walk
 from autograder.proofs.lines import Line, nearest
 from autograder.proofs.marks import Marked, MarkedLine
@@ -27,12 +28,12 @@ MOST_DIAGNOSED = 6
 ROUNDING = 1e-11  # of the magnitudes that were added up
 
 
-def judge(derivation: Derivation, given: HandedIn, rng: np.random.Generator) -> Marked:
+def mark(derivation: Derivation, given: HandedIn, rng: np.random.Generator) -> Marked:
     """The lines marked, each against the line before it, in random states of random mechanisms."""
     if given.problem:
         return Marked(derivation, problem=given.problem)
     lines = [Line.read(parts, derivation.reason_names) for parts in given.lines]
-    return _Judge(derivation, rng).judged(lines)
+    return _Marking(derivation, rng).marked(lines)
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ class _Step:
     after: Node
 
 
-class _Judge:
+class _Marking:
     def __init__(self, derivation: Derivation, rng: np.random.Generator):
         self._derivation = derivation
         self._subject = derivation.subject
@@ -52,7 +53,7 @@ class _Judge:
         self._start = derivation.read(derivation.start)
         self._goal = derivation.read(derivation.goal)
 
-    def judged(self, lines: list[Line]) -> Marked:
+    def marked(self, lines: list[Line]) -> Marked:
         marked: list[MarkedLine] = []
         earned: set[Row] = set()
         before, holding, last, strict = self._start, True, self._start, False
@@ -71,6 +72,12 @@ class _Judge:
                 earned.update(self._earned_by(after))
         done = holding and bool(lines) and self._is_goal(last, strict)
         still = "" if done else self._still(last, holding, bool(lines))
+        least = self._derivation.least_lines
+        if done and len(lines) < least:
+            done, still = (
+                False,
+                f"The end is reached in one go: show why, in {least} lines or more.",
+            )
         if len(lines) > MOST_LINES:
             done, still = False, f"Only the first {MOST_LINES} lines are read."
         rows = self._derivation.rows
@@ -146,6 +153,8 @@ class _Judge:
         return tuple(given)
 
     def _unneeded(self, step: _Step, given: tuple[Reason, ...]) -> str:
+        if given and self._holds(step, ()):
+            return f"The line is right, and follows by algebra alone; {_named(given)} is not used in it."
         for reason in given:
             rest = tuple(other for other in given if other is not reason)
             if self._holds(step, rest):
@@ -165,8 +174,6 @@ class _Judge:
         others = [reason for reason in self._subject.reasons if reason not in given]
         allowed = [reason for reason in others if reason.name not in derivation.to_prove]
         named = _named(given)
-        if given and self._holds(step, ()):
-            return f"The line is right, and follows by algebra alone; {named} is not used in it."
         for other in allowed:
             if self._holds(step, (other,)):
                 return f"The line is right, but not by {named}: it needs {other.kind}."
@@ -183,17 +190,20 @@ class _Judge:
         return ""
 
     def _mistake(self, step: _Step, given: tuple[Reason, ...], true: bool) -> FalseStep | None:
-        """The first mistake with which, and with the reasons given, the step would follow; or else with
-        one more reason, or with all that is true, if the step itself is not.
+        """The first mistake with which the step would follow: alone, with the reasons given, with one
+        more, or with all that is true, if the step itself is not.
         """
         subject = self._subject
         others = [reason for reason in subject.reasons if reason not in given]
-        known: list[tuple[tuple[Reason, ...], tuple[str, ...]]] = [(given, ())]
+        held = _names(step.after, subject.rates)
+        known: list[tuple[tuple[Reason, ...], tuple[str, ...]]] = [((), ()), (given, ())]
         known += [((*given, other), ()) for other in others]
         if not true:
             known.append(((subject.everything,), tuple(subject.truth)))
         for facts, properties in known:
             for mistake in self._derivation.mistakes:
+                if mistake.gone in held:
+                    continue
                 false = Reason(mistake.name, "", "", mistake.defines)
                 more = (mistake.property,) if mistake.property else ()
                 if self._holds(step, (*facts, false), (*properties, *more)):
@@ -252,8 +262,8 @@ class _Judge:
             return f"Mend the lines marked ✗. To be shown: {said}."
         if self._same(last, self._goal):
             return f"Still to be shown: {said}. So far you have ≥."
-        goal = _names(self._goal)
-        left = sorted(_names(last) - goal)
+        rates = self._subject.rates
+        left = sorted(_names(last, rates) - _names(self._goal, rates))
         more = f" Your last line still holds {', '.join(left)}." if left else ""
         return f"All lines hold. Still to be shown: {said}.{more}"
 
@@ -264,15 +274,16 @@ class _Judge:
             before, after = self._value(step.before, world), self._value(step.after, world)
         except LineError as error:
             return str(error)
-        if before.shape != after.shape:
-            return "one side is a number, the other is not, or their shapes differ"
         difference, bound = _difference(before, after)
+        if difference is None:
+            return f"it is {kind(after)}, and the line before is {kind(before)}"
         off = abs(difference) - bound if step.relation == "=" else bound - difference
         at = np.unravel_index(np.argmax(off), off.shape)
-        where = f"entry [{at[1]}, {at[2]}] of " if before.shape != (1, 1) else ""
+        where = f"entry [{at[1]}, {at[2]}] of " if off.shape[1:] != (1, 1) else ""
+        there = [np.broadcast_to(value.numbers, off.shape)[at] for value in (before, after)]
         return (
-            f"in a random state of a random mechanism, {where}the line before is "
-            f"{before.numbers[at]:.3g}, and this one {after.numbers[at]:.3g}"
+            f"in a random state of a random mechanism, {where}the line before is {there[0]:.3g}, and "
+            f"this one {there[1]:.3g}"
         )
 
 
@@ -290,11 +301,15 @@ def _named(reasons: tuple[Reason, ...]) -> str:
     return " and ".join(f'"{reason.name}"' for reason in reasons) or ALGEBRA
 
 
-def _names(node: Node) -> set[str]:
+def _names(node: Node, rates: Mapping[str, str]) -> set[str]:
+    """The names in a line, a rate by its own; "a derivative" for any other derivative."""
     found = set()
     for part in walk(node):
-        if isinstance(part, Name):
-            found.add(part.name)
-        elif isinstance(part, Derivative):
-            found.add("a derivative")
+        match part:
+            case Derivative(Name(name), "t") if name in rates:
+                found.add(rates[name])
+            case Derivative():
+                found.add("a derivative")
+            case Name(name):
+                found.add(name)
     return found
