@@ -20,7 +20,7 @@ from autograder.proofs.expression import (
 )
 from autograder.proofs.parsing import LineError
 
-MOST_NODES = 4000
+MOST_NODES = 2000
 ZERO, ONE = Number(0.0), Number(1.0)
 
 
@@ -45,17 +45,17 @@ class Calculus:
         self._rates = rates
         self._constants = constants
         self._rules = rules
-        self._made = 0
+        self.length = 0  # of what was written out last, in nodes
         self._open: set[str] = set()  # names whose definitions are being written out
 
     def written_out(self, node: Node) -> Node:
         """The same without Derivative and without defined names. LineError beyond MOST_NODES."""
-        self._made = 0
+        self.length = 0
         return self._written(node)
 
     def _count(self) -> None:
-        self._made += 1
-        if self._made > MOST_NODES:
+        self.length += 1
+        if self.length > MOST_NODES:
             raise LineError("This line is too long when its derivatives are written out.")
 
     @contextmanager

@@ -25,6 +25,7 @@ from autograder.protocol.proofs import MOST_LINES
 
 # Wrong lines for which all other reasons and mistakes are tried: people mend the first ones first.
 MOST_DIAGNOSED = 6
+MOST_WORK = 60_000  # nodes valued for one derivation, about a second
 ROUNDING = 1e-11  # of the magnitudes that were added up
 
 
@@ -34,6 +35,10 @@ def mark(derivation: Derivation, given: HandedIn, rng: np.random.Generator) -> M
         return Marked(derivation, problem=given.problem)
     lines = [Line.read(parts, derivation.reason_names) for parts in given.lines]
     return _Marking(derivation, rng).marked(lines)
+
+
+class _TooMuchError(Exception):
+    """MOST_WORK is done."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +53,7 @@ class _Marking:
         self._derivation = derivation
         self._subject = derivation.subject
         self._rng = rng
-        self._diagnosed = 0
+        self._diagnosed, self._limited = 0, False
         self._worlds: dict[object, World] = {}
         self._start = derivation.read(derivation.start)
         self._goal = derivation.read(derivation.goal)
@@ -113,7 +118,7 @@ class _Marking:
     def _said(self, step: _Step, line: Line) -> str:
         """What is wrong with a step; "" where it holds by its reasons."""
         given = self._given(line.reasons)
-        subject, derivation = self._subject, self._derivation
+        derivation = self._derivation
         circular = [reason.name for reason in given if reason.name in derivation.to_prove]
         if circular:
             return f'"{circular[0]}" is what is to be proved; here it is assumed.'
@@ -123,11 +128,22 @@ class _Marking:
             if misuse.reason in line.reasons and self._is_misuse(step, given, misuse):
                 return misuse.sentence
         self._diagnosed += 1
-        if self._diagnosed > MOST_DIAGNOSED:
-            return f"This does not follow by {_named(given)}. Mend the lines above first."
+        if self._diagnosed <= MOST_DIAGNOSED:
+            self._limited = True
+            try:
+                return self._why(step, given)
+            except _TooMuchError:
+                pass
+            finally:
+                self._limited = False
+        return f"This does not follow by {_named(given)}. Mend the lines above first."
+
+    def _why(self, step: _Step, given: tuple[Reason, ...]) -> str:
+        """Why a step does not follow by its reasons. _TooMuchError if that takes too long to find."""
         if said := self._other_reasons(step, given):
             return said
-        true = self._holds(step, (subject.everything,), subject.truth)
+        everything = (self._subject.everything,), self._subject.truth
+        true = self._holds(step, *everything)
         if found := self._mistake(step, given, true):
             return found.sentence
         if true:
@@ -136,6 +152,9 @@ class _Marking:
                 "other reasons: put the steps between on lines of their own."
             )
         return f"This does not follow from the line before: {self._witness(step)}."
+
+    def _work(self) -> int:
+        return sum(world.work for world in self._worlds.values())
 
     def _given(self, names: tuple[str, ...]) -> tuple[Reason, ...]:
         if not names:
@@ -211,6 +230,8 @@ class _Marking:
         return None
 
     def _holds(self, step: _Step, given: tuple[Reason, ...], more: Iterable[str] = ()) -> bool:
+        if self._limited and self._work() > MOST_WORK:
+            raise _TooMuchError
         world = self._world(given, more)
         try:
             before, after = self._value(step.before, world), self._value(step.after, world)

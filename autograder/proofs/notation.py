@@ -14,10 +14,11 @@ _LATEX = (
     (r"\\[,;:! ]|\\quad", " "),
     (r"\^\s*(?:\{\s*(?:T|\\top|\\intercal)\s*\}|\\top|\\intercal|T(?![A-Za-z0-9]))", "'"),
     (r"\\[dt]?frac\s*(\d)\s*(\d)", r"((\1)/(\2))"),
-    (r"\\ddot\s*\{?\s*q_?(\d?)\s*\}?", r" q\1dd "),
-    (r"\\dot\s*\{?\s*q_?(\d?)\s*\}?", r" q\1d "),
-    (r"\\dot\s*\{?\s*([A-Z])\s*\}?", r" \1dot "),
-    (r"\\ell", "l"),
+    (r"\\(d?dot)\s*\{\s*([A-Za-z])\s*\}", r"\\\1 \2"),
+    (r"\\ddot\s*q", " qdd "),
+    (r"\\dot\s*q", " qd "),
+    (r"\\dot\s*([A-Z])", r" \1dot "),
+    (r"\\ell", " l"),
     (r"\\(cos|sin)", r" \1 "),
     (r"\\cdot|\\times", "*"),
     (r"\\geq?(?![A-Za-z])", ">="),
@@ -27,7 +28,7 @@ _LATEX = (
 )
 _SIGNS = {
     "½": "(1/2)", "²": "^2", "³": "^3", "⁻¹": "^-1", "ᵀ": "'", "−": "-", "–": "-", "·": "*",
-    "×": "*", "≥": ">=", "∂": "d", "ℓ": "l", "₁": "1", "₂": "2", "′": "'", "’": "'", "⊤": "'",
+    "×": "*", "≥": ">=", "∂": "d", "ℓ": " l", "₁": "1", "₂": "2", "′": "'", "’": "'", "⊤": "'",
     "**": "^", "@": "*", "$": " ", "&": " ",
 }  # fmt: skip
 _DOTTED = (
@@ -56,5 +57,4 @@ def plain(text: str) -> str:
     # As people write derivatives: d/dt (…), dP/dt is a name's alone.
     text = re.sub(r"\bd([KPELM])\s*/\s*dt\b", r" \1dot ", text)
     text = re.sub(r"\bd([KPL])\s*/\s*d(qd|q)\b", r" d/d\2(\1) ", text)
-    text = re.sub(r"\bq(\d)d(d?)\b", r"q\1d\2", text)
     return text.replace("\\", " \\ ").strip()

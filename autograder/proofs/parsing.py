@@ -65,10 +65,14 @@ def relation_and_sides(text: str) -> tuple[str, str, str]:
 class Parser:
     """Reads expressions in given names.
 
-    rates: the name of a rate → the name it is the rate of (Mdot → M).
+    rates: the name of a rate → the name it is the rate of (Mdot → M). variables: those of partial
+    derivatives.
     """
 
-    def __init__(self, names: Collection[str], rates: Mapping[str, str]):
+    def __init__(
+        self, names: Collection[str], rates: Mapping[str, str], variables: Collection[str]
+    ):
+        self._variables = frozenset(variables)
         self._names = frozenset(names)
         self._rates = rates
 
@@ -175,7 +179,7 @@ class Parser:
             return Number(float(value))
         if kind == "by":
             by = "t" if value == "ddt" else value.rpartition("/")[2].strip()[1:]
-            if by != "t" and by not in self._names:
+            if by not in ("t", *self._variables):
                 raise LineError(f"There is no derivative by {by} here.")
             self._differentiated += 1
             if self._differentiated > MOST_DERIVATIVES:

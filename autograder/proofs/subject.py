@@ -57,7 +57,7 @@ class Subject:
         # A rate is read as the derivative that it is, but for one that partial derivatives hold still.
         backwards = {r: name for name, r in self.rates.items() if r not in self.variables}
         names = [name for name in self.meanings if name not in backwards]
-        object.__setattr__(self, "parser", Parser(names, backwards))
+        object.__setattr__(self, "parser", Parser(names, backwards, self.variables))
 
     def reason(self, name: str) -> Reason | None:
         return next((reason for reason in self.reasons if reason.name == name), None)
@@ -75,6 +75,7 @@ class World:
         self, subject: Subject, rng: np.random.Generator, given: tuple[Reason, ...], more=()
     ):
         """more: names of properties that also hold."""
+        self.work = 0  # nodes that were valued
         self._rng = rng
         self._numbers = subject.draw(rng, frozenset([*(reason.name for reason in given), *more]))
         defined = {name: text for reason in given for name, text in reason.defines}
@@ -88,9 +89,12 @@ class World:
         self._linear: dict[tuple[str, int], np.ndarray] = {}
 
     def value(self, node: Node) -> Value:
-        """LineError where it has none."""
+        """LineError where it has none, or where its derivatives are too long."""
         if id(node) not in self._values:
-            written = self._calculus.written_out(node)
+            try:
+                written = self._calculus.written_out(node)
+            finally:
+                self.work += self._calculus.length
             self._values[id(node)] = node, value_of(written, self._numbers, self._unknown)
         return self._values[id(node)][1]
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from autograder.mechanisms import MECHANISMS
-from autograder.proofs import DERIVATIONS, mark
+from autograder.proofs import DERIVATIONS, mark, marking
 from autograder.proofs.energy import CHAIN, FREE, SYMMETRY, WITH_FRICTION, N
 from autograder.proofs.parsing import relation_and_sides
 from autograder.proofs.subject import WORLDS, World
@@ -98,10 +99,15 @@ def test_drawn_mechanisms_have_the_jets_of_mechanisms(seed):
     np.testing.assert_allclose(W @ qd, Mdot @ qd, rtol=1e-9, atol=1e-9)
 
 
-TRUE = [("qd' M qdd", "qdd' M qd", "symmetry of M"), ("Pdot", "qd' dPdq", "chain rule"),
-        ("d/dt(M qd)", "Mdot qd + M qdd", "product rule"), ("2 C", "Mdot + W - W'", "Christoffel symbols"),
-        ("qd' (Mdot - 2 C) qd", "0", "skew-symmetry"), ("u - g", "M qdd + C qd", "equation of motion"),
-        ("d/dt(M^-1 g)", "-M^-1 Mdot M^-1 g + M^-1 d/dt(g)", "product rule")]  # fmt: skip
+TRUE = [
+    ("qd' M qdd", "qdd' M qd", "symmetry of M"),
+    ("Pdot", "qd' dPdq", "chain rule"),
+    ("d/dt(M qd)", "Mdot qd + M qdd", "product rule"),
+    ("2 C", "Mdot + W - W'", "Christoffel symbols"),
+    ("qd' (Mdot - 2 C) qd", "0", "skew-symmetry"),
+    ("u - g", "M qdd + C qd", "equation of motion"),
+    ("d/dt(M^-1 g)", "-M^-1 Mdot M^-1 g + M^-1 d/dt(g)", "product rule"),
+]
 SCALARS = ("K", "qd' g", "u' C qdd", "P^2", "g' M^-1 u")
 
 
@@ -122,4 +128,5 @@ def test_a_true_step_holds_in_any_dress_and_a_false_one_in_none(step, scalar, fa
 def stepped(before: str, after: str, reason: str) -> str:
     started = replace(DERIVATIONS["p2-E"], start=before, to_prove=(), mistakes=())
     given = handed_in([(f"= {after}", reason)])
-    return mark(started, given, np.random.default_rng(5)).lines[0].said
+    with patch.object(marking, "MOST_DIAGNOSED", 0):  # why a line does not hold takes the time
+        return mark(started, given, np.random.default_rng(5)).lines[0].said
