@@ -10,7 +10,8 @@ import numpy as np
 from autograder.judging import card
 from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict
-from autograder.problems import CHECKS, known_check
+from autograder.problems import CHECKS, UnknownCheckError, known_check
+from autograder.proofs import DERIVATIONS
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
 from autograder.student.definitions import watched
 from autograder.student.own_arm import drawn_for, reminder
@@ -41,6 +42,8 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     does. NotCorrectError, after the card, where the verdict is not "correct"; UnknownCheckError
     where no check has this id.
     """
+    if isinstance(id, str) and id in DERIVATIONS:
+        raise UnknownCheckError(f"no check judges {id!r}: call derivation with its lines")
     verdict = _naming_an_old_function(
         verdict_on(known_check(id).id, sys._getframe(1).f_globals, fresh)
     )

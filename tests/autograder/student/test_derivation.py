@@ -10,7 +10,7 @@ import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output
 
-from autograder import derivation, hint
+from autograder import check, derivation, hint
 from autograder.problems import UnknownCheckError
 from autograder.proofs import DERIVATIONS, card, mark
 from autograder.protocol import handed_in
@@ -57,6 +57,11 @@ def test_an_unknown_id_is_answered_in_one_line(id):
     ) as said:
         derivation(id)
     assert len(said.value._render_traceback_()) == 1
+
+
+def test_check_says_that_its_lines_are_marked_elsewhere():
+    with pytest.raises(UnknownCheckError, match="no check judges 'p2-E': call derivation"):
+        check("p2-E")
 
 
 def test_hints(capsys, monkeypatch):
