@@ -119,10 +119,11 @@ MAY_IMPORT = {
     "mechanisms": (),
     "mutation": ("digest", "files", "protocol", "judging", "mechanisms"),
     "authoring": ("files", "judging", "mechanisms", "mutation", "notebook", "pictures"),
+    "proofs": ("protocol",),
     "problems": ("protocol", "judging", "mechanisms", "mutation"),
     "pictures": ("protocol", "judging", "mechanisms", "mutation", "problems"),
-    "student": ("hints_seen", "protocol", "judging", "pictures", "problems"),
-    "notebook": ("digest", "terminal", "protocol", "sandbox", "judging", "problems"),
+    "student": ("hints_seen", "protocol", "judging", "pictures", "problems", "proofs"),
+    "notebook": ("digest", "terminal", "protocol", "sandbox", "judging", "problems", "proofs"),
     "report": ("terminal", "protocol", "judging", "problems", "notebook"),
     "pipeline": ("digest", "files", "terminal", "protocol", "sandbox", "judging", "notebook"),
     "nbgrader_glue": (

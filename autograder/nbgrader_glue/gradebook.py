@@ -13,6 +13,7 @@ from nbgrader import api, utils
 from sqlalchemy import select
 
 from autograder.nbgrader_glue.folders import QUIET
+from autograder.notebook.suggestion import suggestion_of
 
 COPIED = ("name", "cell_type", "locked", "source", "checksum")
 
@@ -92,16 +93,21 @@ class Rows:
         grade_of = {self._names[grade.cell_id]: grade for grade in grades}
         comment_of = {self._names[comment.cell_id]: comment for comment in comments}
         for cell in graded.cells:
+            suggestion = suggestion_of(cell)
             if utils.is_grade(cell):
                 grade = _found(grade_of, cell)
                 score = utils.determine_grade(cell, QUIET)[0]
                 grade.auto_score = None if score is None else float(score)
                 # A person should look at a manual score again, as the answer may have changed.
                 grade.needs_manual_grade = grade.manual_score is not None or score is None
+                if suggestion:
+                    grade.auto_score, grade.needs_manual_grade = suggestion.points, True
             if utils.is_solution(cell) or utils.is_task(cell):
                 same = cell.metadata.nbgrader.get("checksum") == utils.compute_checksum(cell)
                 empty = same and not utils.is_task(cell)
-                _found(comment_of, cell).auto_comment = "No response." if empty else None
+                said = ["No response."] if empty else []
+                said += [suggestion.comment] if suggestion else []
+                _found(comment_of, cell).auto_comment = " ".join(said) or None
         notebook.late_submission_penalty = self._late_penalty(student, submission, notebook.id)
         self._db.flush()
         standing = self._standing(submission, notebook, grades, comments)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import nbformat
 from nbformat import NotebookNode
-from nbgrader.preprocessors import NbGraderPreprocessor
+from nbgrader.preprocessors import NbGraderPreprocessor, SaveAutoGrades
 from traitlets import Unicode
 
 from autograder.files import put_in_place
@@ -17,6 +17,7 @@ from autograder.notebook.beside import Beside
 from autograder.notebook.grade import grade, is_judged
 from autograder.notebook.repair import repair
 from autograder.notebook.scores import with_verdicts
+from autograder.notebook.suggestion import suggestion_of
 from autograder.terminal import shown_name, shown_note
 
 
@@ -90,6 +91,31 @@ class Judge(FromSource):
         graded = grade(nb, source, seed, self.beside(names), student=student)
         _warn(self.log, names["student"], graded.notes)
         return with_verdicts(graded), resources
+
+
+class SaveSuggestions(SaveAutoGrades):
+    """For `autograde`, instead of nbgrader's SaveAutoGrades: saves what marked lines suggest, too. A
+    person still has to read the answer.
+    """
+
+    def _add_score(self, cell, resources):
+        super()._add_score(cell, resources)
+        if suggestion := suggestion_of(cell):
+            grade = self.gradebook.find_grade(*self._place(cell))
+            grade.auto_score, grade.needs_manual_grade = suggestion.points, True
+            self.gradebook.db.commit()
+
+    def _add_comment(self, cell, resources):
+        super()._add_comment(cell, resources)
+        if suggestion := suggestion_of(cell):
+            comment = self.gradebook.find_comment(*self._place(cell))
+            said = filter(None, [comment.auto_comment, suggestion.comment])
+            comment.auto_comment = " ".join(said)
+            self.gradebook.db.commit()
+
+    def _place(self, cell):
+        name = cell.metadata["nbgrader"]["grade_id"]
+        return name, self.notebook_id, self.assignment_id, self.student_id
 
 
 def _warn(log: Logger, student: str, notes: Iterable[str]) -> None:

@@ -26,7 +26,13 @@ from autograder.notebook.recognise import grade_id
 # This module or `repair` does the work of these steps, whatever their settings.
 REPLACED = (
     *("ClearOutput", "DeduplicateIds", "OverwriteKernelspec", "OverwriteCells"),
-    *("CheckCellMetadata", "SaveAutoGrades", "ClearOutputPreprocessor", "RepairCells"),
+    *(
+        "CheckCellMetadata",
+        "SaveAutoGrades",
+        "SaveSuggestions",
+        "ClearOutputPreprocessor",
+        "RepairCells",
+    ),
 )
 # Steps that run as they are, on the judged notebook.
 RUN = ("IgnorePattern", "ClearMetadataPreprocessor", "LimitOutput")

@@ -29,13 +29,13 @@ def sanitize_preprocessors() -> list[str]:
 
 
 def autograde_preprocessors() -> list[str]:
-    """nbgrader's own, with Judge instead of Execute."""
+    """nbgrader's own, with Judge instead of Execute, and SaveSuggestions instead of SaveAutoGrades."""
     return [
         f"{OURS}.Judge",
         "nbgrader.preprocessors.IgnorePattern",
         "nbconvert.preprocessors.ClearMetadataPreprocessor",
         "nbgrader.preprocessors.LimitOutput",
-        "nbgrader.preprocessors.SaveAutoGrades",
+        f"{OURS}.SaveSuggestions",
         "nbgrader.preprocessors.AssignLatePenalties",
         "nbgrader.preprocessors.CheckCellMetadata",
     ]

@@ -2,7 +2,7 @@
 
 import hashlib
 import logging
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
@@ -18,6 +18,8 @@ from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
 from autograder.notebook.sitting import Sitting
 from autograder.problems import check_for
+from autograder.proofs import DERIVATIONS, mark
+from autograder.proofs.marks import Marked
 from autograder.sandbox.room import Room
 from autograder.terminal import shown_name, shown_note
 
@@ -29,12 +31,14 @@ NOTHING = Beside()
 @dataclass(frozen=True)
 class Graded:
     """A judged notebook: its cells with the outputs of this run, a verdict for each grade cell by
-    grade_id, and notes for the instructor on what was put right.
+    grade_id, and notes for the instructor on what was put right. marks: the marked derivations of
+    each answer that a person reads, by its grade_id.
     """
 
     notebook: NotebookNode
     verdicts: dict[str, Verdict]
     notes: tuple[str, ...]
+    marks: dict[str, list[Marked]] = field(default_factory=dict)
 
 
 def grade(
@@ -65,6 +69,7 @@ def grade(
 def _graded(submission, source, seed, beside, said, student) -> Graded:
     notebook, notes = repair(submission, source, said, beside.documents)
     verdicts: dict[str, Verdict] = {}
+    marks: dict[str, list[Marked]] = {}
     seed = of_content(seed, notebook, beside)
     allowance = outputs.Allowance()
     drawn = drawn_for(source, student)
@@ -87,6 +92,11 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
                 cell.outputs += _explanations(cell.outputs, beside)
                 if drawn is not None and grade_id(cell) == drawn.set_up.cell:
                     cell.outputs.append(drawn.shown)
+                if derivation := DERIVATIONS.get(grade_id(cell) or ""):
+                    given = sitting.lines_of(derivation.id)
+                    marked = mark(derivation, given, stream(seed, derivation.id))
+                    cell.outputs.append(outputs.of_marks(marked))
+                    marks.setdefault(derivation.cell, []).append(marked)
                 continue
             name = grade_id(cell) or ""
             try:
@@ -104,7 +114,7 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
                 log.error("%s: %s", shown_name(name), shown_note(verdict.problem))
                 notes.append(f"{name} could not be judged: {verdict.problem}")
             verdicts[name] = verdict.without_inputs()
-    return Graded(notebook, verdicts, tuple(notes))
+    return Graded(notebook, verdicts, tuple(notes), marks)
 
 
 def _explanations(shown, beside) -> list[NotebookNode]:

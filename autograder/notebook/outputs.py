@@ -11,6 +11,8 @@ from nbformat import NotebookNode
 
 from autograder.judging import card
 from autograder.judging.verdict import Verdict
+from autograder.proofs import card as proof_card
+from autograder.proofs.marks import Marked
 from autograder.protocol import shortened
 
 SHOWN = ("text/plain", "text/latex", "image/png")
@@ -58,6 +60,11 @@ def of_verdict(verdict: Verdict) -> NotebookNode:
         "rows": [{"text": row.text, "met": row.met} for row in verdict.rows],
     }
     return display(card.mimebundle(verdict), {VERDICT: said})
+
+
+def of_marks(marked: Marked) -> NotebookNode:
+    """The card of a derivation."""
+    return display(proof_card.mimebundle(marked))
 
 
 def read_verdict(output: dict) -> dict | None:

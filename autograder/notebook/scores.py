@@ -12,11 +12,15 @@ from autograder.notebook import outputs
 from autograder.notebook.form import without_surrogates
 from autograder.notebook.grade import Graded, is_judged
 from autograder.notebook.recognise import grade_id
+from autograder.notebook.suggestion import suggest
 
 
 def with_verdicts(graded: Graded) -> NotebookNode:
-    """The judged notebook, with outputs of its grade cells from which nbgrader reads the scores."""
+    """The judged notebook, with outputs of its grade cells from which nbgrader reads the scores, and
+    what its derivations suggest to the person who reads the rest.
+    """
     for cell in graded.notebook.cells:
+        suggest(cell, graded.marks.get(grade_id(cell) or "", []))
         if is_judged(cell):
             points = cell.metadata["nbgrader"]["points"]
             cell.execution_count = 1

@@ -16,7 +16,9 @@ from autograder.protocol import (
     Call,
     Fault,
     FaultKind,
+    HandedIn,
     Reply,
+    decode_handed_in,
     one_line,
     shortened,
 )
@@ -30,6 +32,7 @@ import json
 from protocol.languages import missing
 print(json.dumps(missing()))
 """
+LINES = "__import__('autograder').print_lines({id!r})"
 
 
 class Sitting:
@@ -86,6 +89,16 @@ class Sitting:
         if last and not self._is_over():
             replies[-1] = Reply(fault=explained(calls[0].name, last, self._cells))
         return replies
+
+    def lines_of(self, id: str) -> HandedIn:
+        """The lines of a derivation that the notebook's cells handed in, as plain data."""
+        printed = [
+            str(output.get("text"))
+            for output in self.run(LINES.format(id=id))
+            if output.get("output_type") == "stream" and output.get("name") == "stdout"
+        ]
+        given = decode_handed_in("".join(printed))
+        return given or HandedIn(problem="The grader could not read these lines.")
 
     def naming_an_earlier(self, check: Check, verdict: Verdict) -> Verdict:
         """The verdict; if it is on an earlier function than the notebook's last, it says so."""

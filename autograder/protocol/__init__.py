@@ -23,6 +23,7 @@ from .calls import (
 )
 from .looks import Look
 from .own_arm import OwnArm
+from .proofs import HandedIn, decode_handed_in, encode_handed_in, handed_in
 from .readings import MOST_NUMBERS, FaultKind, NotNumbersError
 from .riddles import Riddle
 from .riddles import sentence as sentence_of
@@ -38,6 +39,7 @@ __all__ = [
     "Fault",
     "FaultKind",
     "Function",
+    "HandedIn",
     "Look",
     "NotNumbersError",
     "OwnArm",
@@ -48,9 +50,12 @@ __all__ = [
     "answer",
     "answer_all",
     "decode_call",
+    "decode_handed_in",
     "decode_reply",
     "encode_call",
+    "encode_handed_in",
     "encode_reply",
+    "handed_in",
     "kind_of",
     "message_of",
     "numbers_at",

@@ -3,20 +3,23 @@
 from html import escape
 
 from autograder.problems import CHECKS, known_check
+from autograder.proofs import DERIVATIONS
 from autograder.student import failing, hint_counts
 from autograder.student.own_arm import drawn_for
 
 
 def hint(id: str | None = None) -> None:
-    """Show one more hint for the check `id`, below those you have seen. Hints cost no points.
+    """Show one more hint for the check or derivation `id`, below those you have seen. Hints cost no
+    points.
 
     Without an id, for the check that failed last. How many you have seen is kept beside the notebook
-    and handed in with it; a new kernel first shows these again. UnknownCheckError where no check has
-    this id, or where none is given and none has failed.
+    and handed in with it; a new kernel first shows these again. UnknownCheckError where nothing has
+    this id, or where none is given and no check has failed.
     """
     id = failing.last() if id is None else id
-    check = known_check(id, drawn_for(id))
-    id, hints = check.id, check.hints
+    proof = DERIVATIONS.get(id) if isinstance(id, str) else None
+    known = proof or known_check(id, drawn_for(id))
+    id, hints = known.id, known.hints
     seen = hint_counts.seen(id)
     again = hint_counts.is_first_call(id) and seen > 0
     given = min(seen if again else seen + 1, len(hints))
@@ -31,7 +34,7 @@ def _left(id: str, given: int, most: int) -> str:
         return "There are no hints for this check."
     if given < most:
         return f'Hint {given} of {most}. For the next one, run hint("{id}") again.'
-    if id in CHECKS:
+    if id in CHECKS or id in DERIVATIONS:
         return "That was the last hint. The matching lesson has the rest."
     return "That was the last hint."
 

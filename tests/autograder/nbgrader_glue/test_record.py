@@ -14,6 +14,7 @@ from nbgrader.api import Gradebook
 from autograder.cli import main
 from autograder.notebook import beside
 from tests.autograder import courses
+from tests.autograder.course_problems import problem
 from tests.autograder.courses import NOTEBOOK, P3, files, rows, submit
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import cell_of
@@ -23,6 +24,7 @@ WHOLE = ("right", "wrong", "partly_right", "blank", "crashing", "mangled")
 ON_TIME, LATE = "2026-03-01 10:00:00 UTC", "2026-03-09 10:00:00 UTC"
 
 
+SOURCE = problem(P3).source
 COPY = "p3-pendulum-Copy1.ipynb"
 
 
@@ -140,6 +142,7 @@ def pair(tmp_path_factory):
     submit(theirs, "excused", p3_pendulum.partly_right(release), LATE)
     with_figure = p3_pendulum.right(release)
     with_figure.cells.append(new_code_cell("plt.plot([1.0, 0.5]);"))
+    cell_of(with_figure, "answer-p3-L").source = cell_of(SOURCE, "answer-p3-L").source
     folder = submit(theirs, "with_files", with_figure).parent
     (folder / "pendulum.svg").write_text("the student's own")
     (folder / "data").mkdir()
@@ -185,10 +188,24 @@ def test_what_was_tested_is_not_trivial(pair):
     assert sum(filter(None, scores)) == 10
 
 
+def test_marked_lines_suggest_points_and_a_person_still_reads(pair):
+    """The same in both courses, as the rows are."""
+    with Gradebook(courses.database(pair.ours)) as gradebook:
+        grade = gradebook.find_grade("p3-derivation", P3, P3, "with_files")
+        comment = gradebook.find_comment("p3-derivation", P3, P3, "with_files")
+        assert (grade.auto_score, grade.needs_manual_grade) == (1.0, True)
+        assert comment.auto_comment == (
+            "p3-L: all 5 lines hold. The lines suggest 1 of 5 points: row 3 of the table."
+        )
+        without = gradebook.find_grade("p3-derivation", P3, P3, "right")
+        assert (without.auto_score, without.needs_manual_grade) == (None, True)
+
+
 @pytest.mark.parametrize(
     "line",
     [
         "right 10 of 15 6 correct, 1 to be read",
+        "with_files 11 of 15 6 correct, 1 to be read",
         f"invalid could not be graded {NOTEBOOK} is not valid JSON: ask the student for it again",
         "format_3 10 of 15 6 correct, 1 to be read the notebook was in format 3; it was converted",
         f"other_name 10 of 15 6 correct, 1 to be read there is no {NOTEBOOK}; Pendulum final (2).ipynb",
@@ -200,7 +217,7 @@ def test_what_was_tested_is_not_trivial(pair):
         f"again; {COPY}",
         "p3-derivation has no answer; it may be in the student's own cell below",
         "p3-derivation has no answer; it may be in the student's own file IMG 1234.jpg",
-        "14 cells had lost their nbgrader settings",
+        "16 cells had lost their nbgrader settings",
         "edited_locked_cells 10 of 15 6 correct, 1 to be read the text of p3-setup had been",
         "files_beside 8 of 15 4 correct, 2 error in your code",
         f"empty could not be graded there is no {NOTEBOOK}",

@@ -16,6 +16,23 @@ def hint(id=None):
     """Do nothing: nobody reads hints here."""
 
 
+_lines = {}
+
+
+def derivation(id=None, lines=()):
+    """Keep the lines for the grader, which marks them outside the sandbox."""
+    from protocol import handed_in
+
+    _lines[str(id)] = handed_in(lines)
+
+
+def print_lines(id):
+    """Called by the grader: the lines that were handed in last, as JSON."""
+    from protocol import HandedIn, encode_handed_in
+
+    print(encode_handed_in(_lines.get(id, HandedIn())))
+
+
 _drawn = {}
 
 

@@ -1,0 +1,59 @@
+"""What the marked lines suggest to the person who reads an answer: points, and a comment.
+
+It travels in the metadata of the answer's cell, to where nbgrader's rows are written. Whatever a
+submission has there is removed first.
+"""
+
+from dataclasses import dataclass
+
+from nbformat import NotebookNode
+
+from autograder.proofs.marks import Marked
+
+KEY = "armdyn_suggestion"
+
+
+@dataclass(frozen=True)
+class Suggestion:
+    """points: of the answer, until a person gives others. comment: no word of it is the student's."""
+
+    points: float
+    comment: str
+
+
+def suggest(cell: NotebookNode, marks: list[Marked]) -> None:
+    """Write into a cell what the marks suggest; nothing where no line was handed in."""
+    cell.metadata.pop(KEY, None)
+    if any(marked.lines for marked in marks):
+        most = float(cell.metadata["nbgrader"]["points"])
+        points = min(sum(marked.points for marked in marks), most)
+        cell.metadata[KEY] = {"points": points, "comment": _comment(marks, points, most)}
+
+
+def suggestion_of(cell: NotebookNode) -> Suggestion | None:
+    said = cell.metadata.get(KEY)
+    return Suggestion(float(said["points"]), str(said["comment"])) if said else None
+
+
+def _comment(marks: list[Marked], points: float, most: float) -> str:
+    rows = sorted({row.number for marked in marks for row in marked.earned})
+    which = f": row{'s' if len(rows) > 1 else ''} {_listed(rows)} of the table" if rows else ""
+    said = " ".join(f"{_said(marked)}." for marked in marks if marked.lines)
+    return f"{said} The lines suggest {points:g} of {most:g} points{which}."
+
+
+def _said(marked: Marked) -> str:
+    wrong = [number for number, line in enumerate(marked.lines, 1) if not line.holds]
+    if not wrong:
+        end = "" if marked.done else ", and do not reach the end yet"
+        return f"{marked.derivation.id}: all {len(marked.lines)} lines hold{end}"
+    plural = len(wrong) > 1
+    return (
+        f"{marked.derivation.id}: line{'s' if plural else ''} {_listed(wrong)} of {len(marked.lines)} "
+        f"{'do' if plural else 'does'} not hold"
+    )
+
+
+def _listed(numbers: list[int]) -> str:
+    *first, last = map(str, numbers)
+    return f"{', '.join(first)} and {last}" if first else last

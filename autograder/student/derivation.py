@@ -1,0 +1,46 @@
+"""`derivation`, which a student's cell calls with the lines of a proof, and which marks them."""
+
+from difflib import get_close_matches
+
+import numpy as np
+
+from autograder.problems import UnknownCheckError
+from autograder.proofs import DERIVATIONS, card, mark
+from autograder.proofs.derivation import Derivation
+from autograder.protocol import handed_in, one_line
+from autograder.student.cell import VISIBLE_SEED
+
+
+def derivation(id: str | None = None, lines: object = ()) -> None:
+    """Mark the lines of the derivation `id`, and show the card. Nothing is raised for a wrong line.
+
+    lines: a list, or a function that gives one, of ("formula", "reason") or ("formula", "reason",
+    "reason"). A formula is text, or an expression of SymPy's. Without lines, the card says where the
+    derivation starts, and which names and reasons it has. UnknownCheckError where no derivation has
+    this id.
+    """
+    known = known_derivation(id)
+    _show(card.mimebundle(mark(known, handed_in(lines), np.random.default_rng(VISIBLE_SEED))))
+
+
+def known_derivation(id: object) -> Derivation:
+    """The derivation of this id; where there is none, UnknownCheckError, with the nearest."""
+    name = id if isinstance(id, str) else ""
+    if name in DERIVATIONS:
+        return DERIVATIONS[name]
+    near = get_close_matches(name[:60], DERIVATIONS, 1)
+    meant = f"; did you mean {near[0]!r}?" if near else f"; they are {', '.join(DERIVATIONS)}"
+    raise UnknownCheckError(f"there is no derivation {one_line(name, 60)!r}{meant}")
+
+
+def _show(bundle: dict[str, str]) -> None:
+    try:
+        from IPython import get_ipython
+        from IPython.display import display
+    except ImportError:
+        print(bundle["text/plain"])
+        return
+    if get_ipython() is None:
+        print(bundle["text/plain"])
+    else:
+        display(bundle, raw=True)
