@@ -46,6 +46,11 @@ class Given:
     problem: str = ""
     failed: Failed | None = None
 
+    @classmethod
+    def sound(cls, numbers: Numbers, values: list) -> "Given":
+        """Of numbers that are all finite."""
+        return cls(numbers, values, len(numbers[0]) * (False,))
+
     def but_spoilt(self, others: Numbers) -> Numbers:
         """The quantities, with others for those that hang on a number that is not finite."""
         return [
@@ -77,7 +82,7 @@ class Reading:
         try:
             if not bad:
                 numbers = self.quantities(calls, values)
-                return Given(numbers, values, len(numbers[0]) * (False,))
+                return Given.sound(numbers, values)
             found = partial(self.quantities, calls, values)
         except UnfitError as error:
             unfit = self._unfit(calls, values)

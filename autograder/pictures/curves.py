@@ -146,7 +146,7 @@ def drift(check: Check, function: Callable, call: Call, calls: list[Call]) -> Cu
     """E(t) − E(0) of a motion that the right equations give, from the first state of the call."""
     of = generated(check)
     assert of is not None
-    m, (x0, arm) = of.mechanism, (np.asarray(call.args[0], dtype=float)[0], call.args[-1])
+    m, (x0, arm) = of.mechanism.full, (np.asarray(call.args[0], dtype=float)[0], call.args[-1])
     resisted = bool(m.friction) and all(hasattr(arm, term.coefficient) for term in m.friction)
     equations = Equations(m, arm, friction=resisted)
     t = np.linspace(0.0, SECONDS, ROWS)

@@ -10,7 +10,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from autograder.judging.check import Check
-from autograder.judging.quantities import UnfitError, finite
+from autograder.judging.partial import is_finite, where_not_finite
+from autograder.judging.quantities import UnfitError
 from autograder.mechanisms import Mechanism
 from autograder.mutation.friction import torques
 from autograder.mutation.references import reference
@@ -91,7 +92,9 @@ def students(check: Check, function: Callable, shape: tuple[int, ...]) -> Callab
 
     def value(*args):
         try:
-            number = finite(read(Call(check.name, args), function(*map(real, args))))
+            number = read(Call(check.name, args), function(*map(real, args)))
+            if not is_finite(number):
+                raise UnfitError(f"{where_not_finite(number)}, which is not a finite number")
         except (NotNumbersError, UnfitError) as error:
             raise NoMotionError(f"{check.signature} returned {shortened(str(error))}") from None
         except (Exception, SystemExit) as error:

@@ -82,7 +82,7 @@ def compared(check: Check, function: Callable, call: Call) -> Comparison:
     """Both motions from the state of a call of an M, C, g_vec or f; from rest, where it has no q̇."""
     of = generated(check)
     assert of is not None
-    m, arm, n = of.mechanism, call.args[-1], of.mechanism.n
+    m, arm, n = of.mechanism.full, call.args[-1], of.mechanism.n
     if of.answer == "f":
         x0, u = (np.ravel(value).astype(float) for value in call.args[:2])
     else:

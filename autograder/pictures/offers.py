@@ -1,8 +1,9 @@
 """Which answers have a picture, and the sentence on a card that offers it. Light: every card asks."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from html import escape
 
+from autograder.judging.card import Line
 from autograder.judging.check import Check
 from autograder.judging.verdict import State, Verdict
 from autograder.mutation.generated import Generated
@@ -27,16 +28,16 @@ def answer_of(check: Check) -> str:
     return check.name if check.name in ("simulate", "rk4_step") else ""
 
 
-def offering(verdict: Verdict, check: Check, namespace: Mapping) -> Verdict:
-    """The verdict; where it is on wrong numbers of which there is a picture, its last line offers that.
+def offer(verdict: Verdict, check: Check, namespace: Mapping) -> list[Line]:
+    """The line of a card on wrong numbers of which there is a picture; none where there is not.
 
     namespace: the student's: without the name `watch` in it, the line brings the import too.
     """
     name = answer_of(check)
     if not name or verdict.state not in WRONG or verdict.witness is None:
-        return verdict
+        return []
     brought = "" if "watch" in namespace else "from autograder import watch; "
     moves = f"See what your {check.name} does to the motion" if name in MOVES else ""
     said = moves or f"See {CURVES[name]}, yours and the right one"
     call = f'{brought}watch("{check.id}")'
-    return replace(verdict, next_step=f"{verdict.next_step} {said}: {call}".lstrip())
+    return [Line(f"{said}: {call}", f"{escape(said)}: <code>{escape(call)}</code>")]

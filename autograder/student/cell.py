@@ -11,7 +11,7 @@ import numpy as np
 from autograder.judging import card
 from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict
-from autograder.pictures.offers import offering
+from autograder.pictures.offers import offer
 from autograder.problems import CHECKS, UnknownCheckError, known_check
 from autograder.proofs import DERIVATIONS
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
@@ -57,8 +57,8 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     failing.note(verdict)
     progress.note(verdict)
     worst_case.remember(verdict)
-    verdict = offering(verdict, known_check(id), namespace)
-    shown = card.mimebundle(verdict, below.lines(verdict))
+    pictured = offer(verdict, known_check(id), namespace)
+    shown = card.mimebundle(verdict, [*pictured, *below.lines(verdict)])
     _show(shown)
     if said := reminder(id):
         print(said)

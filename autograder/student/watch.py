@@ -7,7 +7,6 @@ import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check
 from autograder.judging.verdict import State
-from autograder.judging.witness import shown_call
 from autograder.pictures.offers import CURVES, MOVES, WRONG, answer_of
 from autograder.problems import known_check
 from autograder.protocol import Call
@@ -50,7 +49,8 @@ def shown(check: Check, namespace: Mapping) -> dict[str, str]:
         return mimebundle(heading, [Shown("", (said,))])
     # The same calls as the card's: a visible check draws them from the same seed each time.
     calls = check.calls(np.random.default_rng(VISIBLE_SEED), VISIBLE_CASES)
-    worst = next(call for call in calls if shown_call(call) == verdict.witness.call)
+    worst = verdict.witness.of
+    assert worst is not None
     return mimebundle(heading, list(_pictures(check, namespace[check.name], worst, calls)))
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from autograder.judging.check import VISIBLE_CASES
+from autograder.judging.given import Given
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from autograder.protocol import Reply
@@ -16,7 +17,7 @@ def verdicts_on_mistakes(check):
         calls = check.calls(np.random.default_rng(1), VISIBLE_CASES)
         expected = check._quantities_of(check.reference, calls)
         given = check._quantities_of(mistake.wrong, calls)
-        yield check.judge(calls, expected, given)
+        yield check.judge(calls, expected, Given.sound(given, len(calls) * [None]))
 
 
 @pytest.mark.parametrize("id", [id for id in CHECKS if CHECKS[id].mistakes])
@@ -58,7 +59,8 @@ def test_a_right_answer_is_led_further_and_a_wrong_one_is_not():
     for check in CHECKS.values():
         calls = check.calls(np.random.default_rng(0), VISIBLE_CASES)
         numbers = check._quantities_of(check.reference, calls)
-        assert check.judge(calls, numbers, numbers).further == check.further
+        given = Given.sound(numbers, len(calls) * [None])
+        assert check.judge(calls, numbers, given).further == check.further
     wrong = CHECKS["p3-M"].run(
         lambda calls: [Reply(value=np.zeros((1, 1))) for _ in calls], np.random.default_rng(0)
     )

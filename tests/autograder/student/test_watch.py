@@ -12,11 +12,12 @@ import pytest
 import autograder
 from autograder import watch
 from autograder.judging.check import VISIBLE_CASES
+from autograder.judging.given import Given
 from autograder.judging.verdict import State
 from autograder.judging.witness import shown_call
 from autograder.pictures.differences import title
 from autograder.pictures.motion import compared
-from autograder.pictures.offers import offering
+from autograder.pictures.offers import offer
 from autograder.problems import CHECKS, UnknownCheckError, known_check
 from autograder.student.cell import VISIBLE_SEED, verdict_on
 from autograder.student.watch import shown
@@ -89,16 +90,17 @@ def test_cards_of_wrong_answers_offer_what_there_is(id):
     calls = check.calls(rng, VISIBLE_CASES)
     expected = check._quantities_of(check.reference, calls)
     wrong = [tuple(1.5 * part + 0.25 for part in case) for case in expected]
-    verdict = check.judge(calls, expected, wrong)
+    nothing = len(calls) * [None]
+    verdict = check.judge(calls, expected, Given.sound(wrong, nothing))
     assert verdict.state is State.INCORRECT
-    offered = offering(verdict, check, {"watch": watch})
-    assert (offered != verdict) == (id in WITH_PICTURES)
-    assert offered.next_step.endswith(f': watch("{id}")') == (id in WITH_PICTURES)
-    bare = offering(verdict, check, {})
-    assert ("from autograder import watch; " in bare.next_step) == (id in WITH_PICTURES)
-    right = check.judge(calls, expected, expected)
+    offered = offer(verdict, check, {"watch": watch})
+    assert all(line.text.endswith(f': watch("{id}")') for line in offered)
+    assert bool(offered) == (id in WITH_PICTURES)
+    bare = offer(verdict, check, {})
+    assert all("from autograder import watch; " in line.text for line in bare)
+    right = check.judge(calls, expected, Given.sound(expected, nothing))
     for other in (right, replace(verdict, state=State.ERROR)):
-        assert offering(other, check, {}) == other
+        assert offer(other, check, {}) == []
 
 
 def test_offering_loads_nothing_that_a_card_has_not_loaded():
