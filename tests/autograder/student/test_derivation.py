@@ -14,7 +14,7 @@ from autograder import check, derivation, hint
 from autograder.problems import UnknownCheckError
 from autograder.proofs import DERIVATIONS, card, mark
 from autograder.protocol import handed_in
-from autograder.student import hints
+from autograder.student import hint_counts
 from tests.autograder.proofs.models import models
 
 
@@ -64,8 +64,9 @@ def test_check_says_that_its_lines_are_marked_elsewhere():
         check("p2-E")
 
 
-def test_hints(capsys, monkeypatch):
-    monkeypatch.setattr(hints, "_given", {})
+def test_hints(capsys, monkeypatch, tmp_path):
+    monkeypatch.setattr(hint_counts, "_here", {})
+    monkeypatch.chdir(tmp_path)
     for _ in range(3):
         hint("p2-skew")
     printed = capsys.readouterr().out
