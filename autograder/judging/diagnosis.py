@@ -29,7 +29,8 @@ class Mistake:
 
     wrong: takes the arguments of the student's function and gives what the mistaken one returns.
     sentence: says where to look, never the formula. whole: it is said only of an answer that it explains
-    altogether, as "twice the right one" is. combines: whether it may be one of two mistakes.
+    altogether, as "twice the right one" is. combines: whether it may be one of two mistakes. of_all:
+    whether it is said only where it explains all that is judged, alone or together with another one.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Mistake:
     sentence: str
     whole: bool = False
     combines: bool = True
+    of_all: bool = False
 
 
 class Catalogue(Protocol):
@@ -78,6 +80,23 @@ class Wrong:
             left = left[same]
         return self.mistakes[left[0]] if len(left) else None
 
+    def add_up(
+        self,
+        shown: tuple[Mistake, ...],
+        criteria: tuple[Criterion, ...],
+        expected: Numbers,
+        given: Numbers,
+    ) -> bool:
+        """Whether the errors of these mistakes add up to those given, in all criteria."""
+        places = [next(i for i, m in enumerate(self.mistakes) if m is one) for one in shown]
+        layout = layouts(given, expected)
+        right, theirs = rows(layout, expected), rows(layout, given)
+        for k, criterion in enumerate(criteria):
+            total = right[k] + np.sum(self.rows[k][places] - right[k], axis=0)
+            if not layout[k].same(total, theirs[k], criterion.allows(met=False)):
+                return False
+        return True
+
 
 def sentences(
     criteria: tuple[Criterion, ...],
@@ -105,10 +124,14 @@ def sentences(
         kept = [i for i in order if not wrong.mistakes[i].whole
                 and (not criterion.is_property or wrong.mistakes[i].sentence in said)]  # fmt: skip
         known = [wrong.mistakes[i] for i in kept]
-        row = layout[k].row
-        shown = _shown(
-            layout[k], row(right), row(theirs), known, wrong.rows[k][kept], criterion.allows(False)
-        )
+        row, allowed = layout[k].row, criterion.allows(False)
+        shown = _shown(layout[k], row(right), row(theirs), known, wrong.rows[k][kept], allowed)
+        if any(m.of_all for m in shown) and not wrong.add_up(shown, criteria, expected, given):
+            others = [i for i in kept if not wrong.mistakes[i].of_all]
+            known = [wrong.mistakes[i] for i in others]
+            shown = _shown(
+                layout[k], row(right), row(theirs), known, wrong.rows[k][others], allowed
+            )
         # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.
         if len(shown) > 1 and _is_one_number(theirs) and not _is_one_number(right):
             shown = ()

@@ -47,7 +47,8 @@ def mistakes_of(mechanism: Mechanism, answer: str) -> list[Mistake]:
             m.name,
             partial(_one, mechanism, answer, k),
             sentence(m, mechanism, ANSWERS[answer]),
-            whole=m.is_of_whole or (answer == "C" and not m.is_of_a_product),
+            whole=m.is_of_whole,
+            of_all=answer == "C" and not m.is_of_a_product,
             combines=m.operator not in ("doubled", "halved"),
         )
         for k, m in enumerate(catalogue_of(mechanism, answer).mutants)

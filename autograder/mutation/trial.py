@@ -1,6 +1,8 @@
 """Tries the checks of a mechanism: right answers in several styles, and every mistake."""
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -13,6 +15,9 @@ from autograder.mutation.checks import check_of
 from autograder.mutation.generated import Generated
 from autograder.mutation.styles import STYLES
 from autograder.protocol import Call, Reply, read, real
+
+# So many lines of each kind stand in a summary.
+MOST = 10
 
 
 def nothing_to_ask(mechanism: Mechanism, answer: str) -> str:
@@ -30,21 +35,52 @@ def nothing_to_ask(mechanism: Mechanism, answer: str) -> str:
     return f"{of} of {mechanism.name} is 0 for every motion: ask for something else"
 
 
-def tried(
-    mechanism: Mechanism, asks: Sequence[str] = tuple(ANSWERS), names: bool = False
-) -> Iterator[tuple[str, bool]]:
-    """Line by line what students will read, each with whether it is as it should be.
+@dataclass(frozen=True)
+class Line:
+    """What an instructor reads. good: whether it is as it should be. detail: one of very many."""
 
-    names: with the name of each mistake, by which a teacher's own sentence finds it.
+    text: str
+    good: bool = True
+    detail: bool = False
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A mistake that was handed in: its answer and name, its sentence, and what the check said."""
+
+    answer: str
+    name: str
+    sentence: str
+    said: tuple[str, ...]
+
+    @property
+    def is_named(self) -> bool:
+        return self.said == (self.sentence,)
+
+    @property
+    def shown(self) -> str:
+        return " ".join(self.said) or f"(nothing is said of {self.name})"
+
+
+def tried(
+    mechanism: Mechanism,
+    asks: Sequence[str] = tuple(ANSWERS),
+    names: bool = False,
+    found: list[Tried] | None = None,
+) -> Iterator[Line]:
+    """Line by line what was tried, and what students will read of each mistake.
+
+    names: with the name of each mistake, by which a teacher's own sentence finds it. found: gets what
+    was said of each, for `summary`.
     """
     answers = tuple(f"{answer}: " for answer in ANSWERS)
     for row in dict(mechanism.sentences):
         if not row.startswith(answers):
-            yield f"the sentence for {row!r} is for none of {', '.join(ANSWERS)}", False
+            yield Line(f"the sentence for {row!r} is for none of {', '.join(ANSWERS)}", False)
     for answer in asks:
         check = check_of(mechanism, answer)
         if why := nothing_to_ask(mechanism, answer):
-            yield f"{check.id}: {why}", True
+            yield Line(f"{check.id}: {why}")
             continue
         wrong_styles = [
             style
@@ -52,21 +88,43 @@ def tried(
             if _asked(check, partial(_right, check, given)).state is not State.CORRECT
         ]
         refused = f", but not {', '.join(wrong_styles)}" if wrong_styles else ""
-        yield f"{check.id}: the right answer is correct{refused}", not wrong_styles
+        yield Line(f"{check.id}: the right answer is correct{refused}", not wrong_styles)
         made = Generated(mechanism, answer)
         for row in made.unused():
-            yield f"  the sentence for {f'{answer}: {row}'!r} fits no mistake", False
-        known = made.mistakes()
-        for k, mistake in enumerate(known):
-            verdict = _asked(check, partial(_given, check, k))
-            named = verdict.diagnosis == (mistake.sentence,)
-            yield (
-                f"  {' '.join(verdict.diagnosis) or f'(nothing is said of {mistake.name})'}",
-                named,
-            )
+            yield Line(f"  the sentence for {f'{answer}: {row}'!r} fits no mistake", False)
+        here = []
+        for k, mistake in enumerate(made.mistakes()):
+            said = _asked(check, partial(_given, check, k)).diagnosis
+            here.append(Tried(answer, mistake.name, mistake.sentence, said))
+            yield Line(f"  {here[-1].shown}", here[-1].is_named, detail=True)
             if names:
-                yield f"      {answer}: {mistake.name}", True
-        yield f"  {len(known)} mistakes", True
+                yield Line(f"      {answer}: {mistake.name}", detail=True)
+        yield Line(f"  {len(here)} mistakes, {sum(one.is_named for one in here)} of them named")
+        if found is not None:
+            found += here
+
+
+def summary(found: Sequence[Tried]) -> Iterator[Line]:
+    """All mistakes in a few lines: how many are named, which are not, and what is said most."""
+    nameless = [one for one in found if not one.is_named]
+    answers = dict.fromkeys(one.answer for one in found)
+    yield Line(
+        f"{len(found)} mistakes in {_count(len(answers), 'answer')}; {len(found) - len(nameless)} are "
+        "told apart and named by their own sentences"
+    )
+    for one in nameless[:MOST]:
+        yield Line(f"  not named: {one.answer}: {one.name}: {one.shown}", False)
+    if len(nameless) > MOST:
+        yield Line(f"  and {len(nameless) - MOST} more that are not named")
+    often = Counter(one.sentence for one in found).most_common(MOST)
+    if often:
+        yield Line("What is said most:")
+    for sentence, times in often:
+        yield Line(f"{times:6d} × {sentence}")
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"
 
 
 def _right(check: Check, style: Callable, calls: list[Call]) -> list:

@@ -19,7 +19,7 @@ from autograder.judging.verdict import State
 from autograder.notebook.outputs import read_verdict
 from autograder.problems import check_for
 from autograder.protocol import one_line
-from autograder.terminal import shown_note
+from autograder.terminal import shown_note, shown_points
 
 MOST_LINES = 10  # mistakes in the terminal; the page has all of them
 
@@ -100,6 +100,7 @@ def page(assignment: str, most: float, students: list[Student]) -> str:
     scores = [student.points for student in students if student.points is not None]
     template = resources.files(__package__).joinpath("page.html").read_text(encoding="utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
+    environment.filters["points"] = shown_points
     return environment.from_string(template).render(
         assignment=assignment,
         most=most,
@@ -121,7 +122,8 @@ def summary(most: float, students: list[Student]) -> str:
     scores = [student.points for student in students if student.points is not None]
     lines = [f"{len(scores)} of {len(students)} graded"]
     if scores:
-        lines[0] += f", mean {mean(scores):.3g}, median {median(scores):.3g} of {most:g} points"
+        middle = f"mean {shown_points(mean(scores))}, median {shown_points(median(scores))}"
+        lines[0] += f", {middle} of {shown_points(most)} points"
     for one in mistakes_made(students)[:MOST_LINES]:
         lines.append(
             f"{len(one.students):4d} × {shown_note(f'{one.check}: {one.name or one.sentence}')}"
