@@ -90,7 +90,8 @@ def mistaken(
     for name, wrong in chosen:
         bodies = {answer: _derived(wrong, answer, mechanism) for answer in asked}
         graded = grade(_with(source, bodies), source, "rehearsal", Beside(mechanisms=files))
-        said, differ = [], []
+        said: list[str] = []
+        differ: list[str] = []
         for answer, body in bodies.items():
             expected = _judged_here(mechanism, answer, body)
             got = graded.verdicts[f"{mechanism.name}-{answer}"]

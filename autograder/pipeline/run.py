@@ -216,9 +216,9 @@ def table(lines: list[Line]) -> str:
     """The lines as a table: student, score, states, notes."""
     rows = [("student", "score", "states", "notes")]
     for line in lines:
-        score = (
-            "" if line.score is None else f"{shown_points(line.score)} of {shown_points(line.most)}"
-        )
+        score = ""
+        if line.score is not None and line.most is not None:
+            score = f"{shown_points(line.score)} of {shown_points(line.most)}"
         states = line.states or "could not be graded"
         first, *others = [shown_note(note) for note in line.notes] or [""]
         rows.append((shown_name(line.student), score, states, first))
