@@ -2,12 +2,13 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check
+from autograder.judging.diagnosis import Mistake
 from autograder.judging.verdict import State, Verdict
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
@@ -16,6 +17,8 @@ from autograder.mutation.generated import Generated
 from autograder.mutation.styles import STYLES
 from autograder.protocol import Call, Reply, read, real
 
+# Of the calls for which mistakes are tried.
+SEED = 20260101
 # So many lines of each kind stand in a summary.
 MOST = 10
 
@@ -93,8 +96,10 @@ def tried(
         for row in made.unused():
             yield Line(f"  the sentence for {f'{answer}: {row}'!r} fits no mistake", False)
         here = []
-        for k, mistake in enumerate(made.mistakes()):
-            said = _asked(check, partial(_given, check, k)).diagnosis
+        once = _Once(made, check.calls(np.random.default_rng(SEED), VISIBLE_CASES))
+        knowing = replace(check, catalogue=once)
+        for mistake, values in once.made:
+            said = _asked(knowing, partial(_listed, values)).diagnosis
             here.append(Tried(answer, mistake.name, mistake.sentence, said))
             yield Line(f"  {here[-1].shown}", here[-1].is_named, detail=True)
             if names:
@@ -123,6 +128,24 @@ def summary(found: Sequence[Tried]) -> Iterator[Line]:
         yield Line(f"{times:6d} × {sentence}")
 
 
+def _listed(values: Sequence | np.ndarray, calls: list[Call]) -> list:
+    """What a mistake returns for all calls."""
+    return list(values)
+
+
+class _Once:
+    """A catalogue whose numbers for the calls of one seed are made once, for thousands of answers."""
+
+    def __init__(self, of: Generated, calls: list[Call]):
+        self._of, self.made = of, of(calls)
+
+    def mistakes(self) -> list[Mistake]:
+        return self._of.mistakes()
+
+    def __call__(self, calls: list[Call], /) -> list[tuple[Mistake, Sequence | np.ndarray]]:
+        return self.made
+
+
 def _count(number: int, word: str) -> str:
     return f"{number} {word}{'' if number == 1 else 's'}"
 
@@ -132,15 +155,8 @@ def _right(check: Check, style: Callable, calls: list[Call]) -> list:
     return [read(call, style(check.reference(*map(real, call.args)))) for call in calls]
 
 
-def _given(check: Check, k: int, calls: list[Call]) -> list:
-    """What the k-th mistake returns for all calls, in one step."""
-    assert check.catalogue is not None
-    _, values = check.catalogue(calls)[k]
-    return list(values)
-
-
 def _asked(check: Check, answers: Callable[[list[Call]], list]) -> Verdict:
     def ask(calls: list[Call]) -> list[Reply]:
         return [Reply(value=value) for value in answers(calls)]
 
-    return check.run(ask, np.random.default_rng(20260101), VISIBLE_CASES)
+    return check.run(ask, np.random.default_rng(SEED), VISIBLE_CASES)
