@@ -117,7 +117,7 @@ MAY_IMPORT = {
     "judging": ("protocol",),
     "mechanisms": (),
     "mutation": ("digest", "files", "protocol", "judging", "mechanisms"),
-    "authoring": ("files", "judging", "mechanisms", "mutation", "notebook"),
+    "authoring": ("files", "protocol", "judging", "mechanisms", "mutation", "notebook"),
     "problems": ("protocol", "judging", "mechanisms", "mutation"),
     "student": ("protocol", "judging", "problems"),
     "notebook": ("digest", "terminal", "protocol", "sandbox", "judging", "problems"),
