@@ -57,8 +57,17 @@ def main(arguments: list[str] | None = None) -> int:
     )
     trying.add_argument("mechanism", help="its name, such as cart-pole, or a file with MECHANISM")
     trying.add_argument("--asks", help="try these answers alone, as M,C (default: all)")
+    trying.add_argument("--all", action="store_true", help="print every mistake's sentence, too")
     trying.add_argument(
-        "--names", action="store_true", help="show each mistake's name, for sentences of your own"
+        "--names",
+        action="store_true",
+        help="as --all, with each mistake's name, for sentences of your own",
+    )
+    trying.add_argument("--to", metavar="FILE", help="write every mistake's sentence to this file")
+    trying.add_argument(
+        "--every",
+        action="store_true",
+        help="hand in every mistake in the energies to the real grader, not a few; this takes long",
     )
     new = commands.add_parser(
         "new-problem", help="write the problem of a mechanism to solutions/, ready to be released"
@@ -78,7 +87,7 @@ def main(arguments: list[str] | None = None) -> int:
         return lab(arguments[1:])
     given = parser.parse_args(arguments)
     if given.command == "try":
-        return try_mechanism(Path.cwd(), given.mechanism, given.asks, given.names)
+        return try_mechanism(Path.cwd(), given)
     root = Path.cwd()
     if not (root / "nbgrader_config.py").exists():
         return _complain(
@@ -140,29 +149,46 @@ def open_recorder(root: Path, assignment: str) -> "AbstractContextManager[Record
     return recorder.Recorder(root, assignment)
 
 
-def try_mechanism(root: Path, name: str, asks: str | None, names: bool = False) -> int:
+def try_mechanism(root: Path, given: argparse.Namespace) -> int:
     """Try a mechanism's checks; the exit status is 1 if a mistake is not named by its sentence."""
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.authoring.course import NoMechanismError, files_of, found
-    from autograder.authoring.rehearsal import rehearsed
+    from autograder.authoring.rehearsal import mistaken, rehearsed
+    from autograder.files import put_in_place
     from autograder.mechanisms.file import MechanismFileError
     from autograder.mutation.answers import ANSWERS
-    from autograder.mutation.trial import tried
+    from autograder.mutation.trial import Line, Tried, summary, tried
 
     try:
-        mechanism = found(root, name)
-        files = files_of(root, name, mechanism)
+        mechanism = found(root, given.mechanism)
+        files = files_of(root, given.mechanism, mechanism)
     except (NoMechanismError, MechanismFileError) as error:
         return _complain(str(error))
-    asked = list(ANSWERS) if asks is None else _listed(asks)
+    asked = list(ANSWERS) if given.asks is None else _listed(given.asks)
     if unknown := [answer for answer in asked if answer not in ANSWERS]:
         return _complain(f"there is no answer {unknown[0]!r}; known are {', '.join(ANSWERS)}")
-    failed = 0
-    lines = chain(tried(mechanism, asked, names), rehearsed(mechanism, files, asked))
-    for line, is_as_it_should_be in lines:
-        say(line if is_as_it_should_be else f"! {line}")
-        failed += not is_as_it_should_be
-    if failed:
+    made: list[Tried] = []
+    shown: list[Line] = []
+    parts = (
+        tried(mechanism, asked, given.names, made),
+        (line for line in summary(made)),
+        rehearsed(mechanism, files, asked),
+        mistaken(mechanism, files, asked, given.every),
+    )
+    for line in chain(*parts):
+        shown.append(line)
+        if not line.detail:
+            say(line.text if line.good else f"! {line.text}")
+    every = [line.text if line.good else f"! {line.text}" for line in shown]
+    if given.all or given.names:
+        say("\n".join(["", "All of it:", *every]))
+    if given.to:
+        try:
+            put_in_place(Path(given.to), "\n".join(every) + "\n")
+        except OSError as error:
+            return _complain(f"{given.to} cannot be written: {error}")
+        say(f"All of it: {given.to}")
+    if failed := sum(not line.good for line in shown if not line.detail):
         return _complain(f"{failed} lines, marked with !, are not as they should be", 1)
     return 0
 

@@ -24,6 +24,12 @@ def plain(text: str) -> str:
     )
 
 
+def shown_points(points: float) -> str:
+    """Points as a person writes them: 9, 8.5, 8.97."""
+    rounded = round(points, 2) + 0.0  # and no -0.0
+    return f"{rounded:.2f}".rstrip("0").rstrip(".")
+
+
 def shown_name(student: str) -> str:
     """A student's id, whatever it holds, as part of one line."""
     return one_line(student, MOST_OF_A_NAME)

@@ -118,7 +118,9 @@ MAY_IMPORT = {
     "judging": ("protocol",),
     "mechanisms": (),
     "mutation": ("digest", "files", "protocol", "judging", "mechanisms"),
-    "authoring": ("files", "judging", "mechanisms", "mutation", "notebook", "pictures"),
+    "authoring": (
+        *("files", "protocol", "judging", "mechanisms", "mutation", "notebook", "pictures"),
+    ),
     "proofs": ("protocol",),
     "problems": ("protocol", "judging", "mechanisms", "mutation"),
     "pictures": ("protocol", "judging", "mechanisms", "mutation", "problems"),

@@ -6,6 +6,7 @@ or those of two mistakes at once. If none matches, `findings` says what is true 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -29,7 +30,8 @@ class Mistake:
 
     wrong: takes the arguments of the student's function and gives what the mistaken one returns.
     sentence: says where to look, never the formula. whole: it is said only of an answer that it explains
-    altogether, as "twice the right one" is. combines: whether it may be one of two mistakes.
+    altogether, as "twice the right one" is. combines: whether it may be one of two mistakes. of_all:
+    whether it is said only where it explains all that is judged, alone or together with another one.
     """
 
     name: str
@@ -37,6 +39,7 @@ class Mistake:
     sentence: str
     whole: bool = False
     combines: bool = True
+    of_all: bool = False
 
 
 class Catalogue(Protocol):
@@ -85,6 +88,23 @@ class Wrong:
             left = left[same]
         return self.mistakes[left[0]] if len(left) else None
 
+    def add_up(
+        self,
+        shown: tuple[Mistake, ...],
+        criteria: tuple[Criterion, ...],
+        expected: Numbers,
+        given: Numbers,
+    ) -> bool:
+        """Whether the errors of these mistakes add up to those given, in all criteria."""
+        places = [next(i for i, m in enumerate(self.mistakes) if m is one) for one in shown]
+        layout = layouts(given, expected)
+        right, theirs = rows(layout, expected), rows(layout, given)
+        for k, criterion in enumerate(criteria):
+            total = right[k] + np.sum(self.rows[k][places] - right[k], axis=0)
+            if not layout[k].same(total, theirs[k], criterion.allows(met=False)):
+                return False
+        return True
+
 
 def sentences(
     criteria: tuple[Criterion, ...],
@@ -121,12 +141,15 @@ def sentences(
             kept = [i for i in kept if borne_out[i]]
         # Two mistakes may cancel each other in what is right; one alone cannot.
         alone = criterion.is_truth | ~spoils[kept]
-        known = [wrong.mistakes[i] for i in kept]
         row = layout[k].row
-        shown = _shown(
-            layout[k], row(right), row(theirs), known, wrong.rows[k][kept], alone,
-            criterion.allows(False),
-        )  # fmt: skip
+        among = partial(
+            _shown, layout[k], row(right), row(theirs), tolerance=criterion.allows(False)
+        )
+        shown = among(*_chosen(wrong, k, kept), alone)
+        if any(m.of_all for m in shown) and not wrong.add_up(shown, criteria, expected, given):
+            others = [not wrong.mistakes[i].of_all for i in kept]
+            kept = [i for i, ok in zip(kept, others, strict=True) if ok]
+            shown = among(*_chosen(wrong, k, kept), alone[others])
         # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.
         if len(shown) > 1 and _is_one_number(theirs) and not _is_one_number(right):
             shown = ()
@@ -138,6 +161,11 @@ def sentences(
             said.append(found or ("" if any(said) else elsewhere(k)))
         of_each[k] = tuple(dict.fromkeys(filter(None, said[before:])))
     return of_each
+
+
+def _chosen(wrong: Wrong, k: int, places: list[int]) -> tuple[list[Mistake], np.ndarray]:
+    """Some mistakes, with their numbers of criterion k."""
+    return [wrong.mistakes[i] for i in places], wrong.rows[k][places]
 
 
 def _is_one_number(values: list[np.ndarray]) -> bool:

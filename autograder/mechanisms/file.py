@@ -7,6 +7,7 @@ from pathlib import Path
 
 from autograder.mechanisms.kinetic import refuse_other_than_positive
 from autograder.mechanisms.mechanism import Mechanism
+from autograder.mechanisms.unused import refuse_unused
 
 SYMBOLS = (
     "an energy is made of m.symbol for a parameter m, x.symbol and x.velocity for a coordinate x, and "
@@ -34,6 +35,7 @@ def mechanism_of(text: str, shown: str, name: str = "") -> Mechanism:
         own = namespace.get("MECHANISM")
         if isinstance(own, Mechanism):
             refuse_other_than_positive(own)
+            refuse_unused(own)
     except Exception as error:  # whatever the lecturer's file raises
         line = _line(error, shown, text)
         at = f"{shown}, line {line}" if line else shown

@@ -1,7 +1,5 @@
 """A mechanism: its coordinates, parameters and energies, from which M, C, g and all else follow."""
 
-import keyword
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
@@ -11,10 +9,18 @@ import sympy as sp
 
 from autograder.mechanisms.friction import FrictionTerm, refuse_other_than_friction
 from autograder.mechanisms.outline import Coordinate, Outline, Parameter, Part
-from autograder.mechanisms.shapes import SHAPES, Shape, arm
+from autograder.mechanisms.refusals import (
+    refuse_bad_drawing,
+    refuse_bad_energies,
+    refuse_bad_name,
+    refuse_bad_names,
+    refuse_bad_units_and_ranges,
+    refuse_doubles,
+    sentences_of,
+    tuple_of,
+)
+from autograder.mechanisms.shapes import Shape, arm
 from autograder.mechanisms.units import refuse_other_than_joules
-
-UNITS_OF_COORDINATES = ("rad", "m")
 
 
 @dataclass(frozen=True)
@@ -54,119 +60,19 @@ class Mechanism(Outline):
 
     def __post_init__(self):
         where = f"mechanism {self.name!r}"
-        object.__setattr__(self, "sentences", _pairs(where, self.sentences))
-        if not re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", str(self.name)):
-            raise ValueError(
-                f"{where}: needs a name of small letters, digits and hyphens, as cart-pole"
-            )
+        object.__setattr__(self, "sentences", sentences_of(where, self.sentences))
+        refuse_bad_name(where, self.name)
         for field, kind in _KINDS.items():
-            given = getattr(self, field)
-            if not isinstance(given, Sequence) or not all(isinstance(e, kind) for e in given):
-                raise ValueError(
-                    f"{where}: {field} needs a tuple of {kind.__name__}, as ({kind.__name__}(…),); "
-                    f"it is {given!r}"
-                )
-            object.__setattr__(self, field, tuple(given))
-        for entry in [*self.coordinates, *self.parameters]:
-            name = str(getattr(entry, "name", ""))
-            if not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*", name) or keyword.iskeyword(name):
-                raise ValueError(
-                    f"{where}: the name {name!r} needs letters and digits alone, and to be no word of "
-                    "Python's"
-                )
-        names = [c.name for c in self.coordinates] + [p.name for p in self.parameters]
-        names += [c.velocity.name for c in self.coordinates]
-        _once(where, "symbols", names)
-        terms = [term.name for term in (*self.kinetic, *self.potential)]
-        _once(where, "energy terms", terms)
-        _once(where, "terms", [*terms, *(term.name for term in self.friction)])
-        for coordinate in self.coordinates:
-            if coordinate.unit not in UNITS_OF_COORDINATES:
-                raise ValueError(
-                    f"{where}: {coordinate.name} has the unit {coordinate.unit!r}, needs rad or m"
-                )
-            if coordinate.name == "q" and len(self.coordinates) > 1:
-                raise ValueError(
-                    f"{where}: 'q' is the vector of all its coordinates; give this one another name"
-                )
-        for p in self.parameters:
-            if not p.unit or not isinstance(p.unit, str):
-                raise ValueError(f"{where}: {p.name} needs a unit, as kg")
-            if (
-                not all(isinstance(x, int | float) for x in (p.low, p.high))
-                or not 0 < p.low < p.high
-            ):
-                raise ValueError(
-                    f"{where}: {p.name} is drawn from {p.low} to {p.high}; needs 0 < low < high"
-                )
-        for term in self.kinetic:
-            self._refuse_foreign(where, "K", term)
-            self._refuse_other_than_quadratic(where, term)
-        for term in self.potential:
-            self._refuse_foreign(where, "P", term)
-            held = sorted(s.name for s in sp.sympify(term.energy).free_symbols & set(self.qd))
-            if held:
-                raise ValueError(
-                    f"{where}: {term.name!r} of P holds {', '.join(held)}, a velocity; P is a "
-                    "function of the coordinates alone"
-                )
+            object.__setattr__(self, field, tuple_of(where, field, kind, getattr(self, field)))
+        refuse_bad_names(where, self)
+        refuse_bad_units_and_ranges(where, self)
+        refuse_bad_energies(where, self)
         for friction in self.friction:
             refuse_other_than_friction(where, friction, self)
-        _once(where, "coefficients of friction", [term.symbol.name for term in self.friction])
+        coefficients = [term.symbol.name for term in self.friction]
+        refuse_doubles(where, "coefficients of friction", coefficients)
         refuse_other_than_joules(where, self)
-        self._try_points(where)
-
-    def _refuse_foreign(self, where: str, energy: str, term: EnergyTerm) -> None:
-        try:
-            symbols = sp.sympify(term.energy).free_symbols
-        except (sp.SympifyError, TypeError, AttributeError) as error:
-            raise ValueError(
-                f"{where}: {term.name!r} of {energy} is no expression ({error}); it is made of "
-                "m.symbol, x.symbol and x.velocity"
-            ) from None
-        known = {*self.q, *self.qd, *(p.symbol for p in self.parameters)}
-        unknown = sorted(s.name for s in symbols - known)
-        if unknown:
-            raise ValueError(
-                f"{where}: {term.name!r} holds {', '.join(unknown)}, which is neither a "
-                "coordinate, nor a velocity, nor a parameter of the mechanism"
-            )
-
-    def _refuse_other_than_quadratic(self, where: str, term: EnergyTerm) -> None:
-        """Tried in numbers, as that is quick: twice the velocities give four times the energy."""
-        rng = np.random.default_rng(0)
-        at = {s: rng.uniform(0.5, 1.0) for s in sp.sympify(term.energy).free_symbols}
-
-        def energy(factor):
-            faster = {s: factor * x if s in self.qd else x for s, x in at.items()}
-            return complex(sp.sympify(term.energy).xreplace(faster).evalf())
-
-        once = energy(1.0)
-        if not np.allclose(
-            [energy(2.0), energy(-3.0)], [4 * once, 9 * once], rtol=1e-9, atol=1e-12
-        ):
-            raise ValueError(f"{where}: {term.name!r} of K is not quadratic in the velocities")
-
-    def _try_points(self, where: str) -> None:
-        rng = np.random.default_rng(0)
-        try:
-            points = np.array(self.points(self.placed(rng), self.drawn(rng)), dtype=float)
-        except Exception as error:  # whatever the author's function raises
-            raise ValueError(f"{where}: points raised {type(error).__name__}: {error}") from error
-        if points.ndim != 2 or points.shape[1] != 2:
-            raise ValueError(
-                f"{where}: points gave {points.shape}, needs one (x, y) for each point"
-            )
-
-        if self.draws is None:
-            return
-        try:
-            drawn = list(self.draws(self.placed(rng), self.drawn(rng)))
-        except Exception as error:
-            raise ValueError(f"{where}: draws raised {type(error).__name__}: {error}") from error
-        if not drawn or not all(isinstance(shape, SHAPES) for shape in drawn):
-            kinds = ", ".join(kind.__name__ for kind in SHAPES)
-            raise ValueError(f"{where}: draws gave {drawn}, needs a list of {kinds}")
+        refuse_bad_drawing(where, self)
 
     def shapes(self, q: np.ndarray, given: SimpleNamespace) -> list[Shape]:
         """What the picture of one position is made of."""
@@ -226,32 +132,6 @@ _KINDS = {
     "potential": EnergyTerm,
     "friction": FrictionTerm,
 }
-
-
-def _pairs(where: str, sentences: object) -> tuple[tuple[str, str], ...]:
-    """A teacher's sentences as pairs, so that a mechanism stays hashable."""
-    given = list(sentences.items()) if isinstance(sentences, Mapping) else sentences
-    if not isinstance(given, list | tuple) or not all(
-        isinstance(pair, tuple) and len(pair) == 2 and all(isinstance(text, str) for text in pair)
-        for pair in given
-    ):
-        raise ValueError(
-            f"{where}: sentences needs a dict of texts, as "
-            f'{{"M: dropped / the spring": "What else …?"}}; it is {sentences!r}'
-        )
-    for mistake, _ in given:
-        if ": " not in mistake:
-            raise ValueError(
-                f'{where}: the sentence for {mistake!r} does not say of which answer; write "M: '
-                f"{mistake}\" or another answer's name"
-            )
-    return tuple(given)
-
-
-def _once(where: str, kind: str, names: list[str]) -> None:
-    for name in names:
-        if names.count(name) > 1:
-            raise ValueError(f"{where}: two of its {kind} are {name!r}")
 
 
 def _angle(rng) -> float:

@@ -52,7 +52,8 @@ def mistakes_of(mechanism: Outline, answer: str) -> list[Mistake]:
             m.name,
             _Wrong(mechanism, answer, k),
             said,
-            whole=m.is_of_whole or (answer == "C" and not m.is_of_a_product),
+            whole=m.is_of_whole,
+            of_all=answer == "C" and not m.is_of_a_product,
             combines=m.operator not in ("doubled", "halved"),
         )
         for k, (m, said) in enumerate(zip(mutants, kept.entry(parts, made, read), strict=True))

@@ -22,7 +22,7 @@ from autograder.pipeline.worker import judge, load
 from autograder.protocol import one_line
 from autograder.sandbox.room import share
 from autograder.sandbox.ways import use_shared
-from autograder.terminal import shown_name, shown_note
+from autograder.terminal import shown_name, shown_note, shown_points
 
 CACHE = Path("course") / "cache-of-results"
 LOCK = Path("course") / "grading.lock"
@@ -216,7 +216,9 @@ def table(lines: list[Line]) -> str:
     """The lines as a table: student, score, states, notes."""
     rows = [("student", "score", "states", "notes")]
     for line in lines:
-        score = "" if line.score is None else f"{line.score:g} of {line.most:g}"
+        score = ""
+        if line.score is not None and line.most is not None:
+            score = f"{shown_points(line.score)} of {shown_points(line.most)}"
         states = line.states or "could not be graded"
         first, *others = [shown_note(note) for note in line.notes] or [""]
         rows.append((shown_name(line.student), score, states, first))

@@ -12,7 +12,7 @@ from autograder.judging.verdict import State
 from autograder.report import figures
 from autograder.report.mistakes import example_of, made_together, mistakes_made
 from autograder.report.students import Class, Student
-from autograder.terminal import shown_note
+from autograder.terminal import shown_note, shown_points
 
 MOST_LINES = 10  # mistakes in the terminal; the page has all of them
 MOST_MADE = 3  # with an example
@@ -75,8 +75,9 @@ def term_summary(classes: list[Class]) -> str:
 def _how_many(of: Class) -> str:
     said = f"{len(of.scores)} of {len(of.students)} graded"
     if of.scores:
-        said += f", mean {mean(of.scores):.3g}, median {median(of.scores):.3g}"
-        said += f" of {of.most:g} points"
+        middle = f"mean {shown_points(mean(of.scores))}, median {shown_points(median(of.scores))}"
+        said += f", {middle}"
+        said += f" of {shown_points(of.most)} points"
     return said
 
 
@@ -121,10 +122,12 @@ def _rendered(template: str, **values) -> str:
 @cache
 def _environment() -> jinja2.Environment:
     folder = resources.files(__package__)
-    return jinja2.Environment(
+    environment = jinja2.Environment(
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         loader=jinja2.FunctionLoader(
             lambda name: folder.joinpath(name).read_text(encoding="utf-8")
         ),
     )
+    environment.filters["points"] = shown_points
+    return environment

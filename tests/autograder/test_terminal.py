@@ -2,14 +2,15 @@
 
 import io
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from autograder import terminal
 from autograder.pipeline import run as pipeline
 from autograder.pipeline.run import Line
-from autograder.report import Student, summary
-from autograder.terminal import say
+from autograder.report import Student, page, summary
+from autograder.terminal import say, shown_points
 
 
 def printed(text: str, encoding: str) -> bytes:
@@ -18,6 +19,18 @@ def printed(text: str, encoding: str) -> bytes:
     say(text, to)
     to.flush()
     return raw.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("points", "shown"),
+    [(8.966666666666667, "8.97"), (28.0, "28"), (8.5, "8.5"), (0.0, "0"), (-0.001, "0"),
+     (100.0, "100"), (0.1 + 0.2, "0.3"), (1234.5678, "1234.57")],
+)  # fmt: skip
+def test_points_are_rounded_as_a_person_would(points, shown):
+    assert shown_points(points) == shown
+    assert f"ada      {shown} of 28" in pipeline.table([Line("ada", points, 28.0)])
+    assert f"mean {shown}, median {shown} of 28 points" in summary(28.0, [Student("ada", points)])
+    assert f'<td class="number">{shown}</td>' in page("p1", 28.0, [Student("ada", points)])
 
 
 def test_a_terminal_gets_nothing_to_obey():

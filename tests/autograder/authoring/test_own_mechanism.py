@@ -1,16 +1,18 @@
 """A mechanism of one's own stands beside its problem's notebook: written, released, judged by it."""
 
 import json
+import re
 
 import nbformat
 import pytest
 
 from autograder.authoring.course import found
-from autograder.authoring.rehearsal import STYLES, rehearsed
+from autograder.authoring.rehearsal import STYLES, mistaken, rehearsed
 from autograder.authoring.template import template
 from autograder.cli import main
 from autograder.mechanisms import MECHANISMS
 from autograder.mechanisms.file import MechanismFileError, mechanism_of
+from autograder.mutation.trial import Line
 from autograder.notebook.beside import Beside
 from autograder.problems import check_for
 from autograder.student.cell import NotCorrectError, check
@@ -124,6 +126,12 @@ def test_a_course_may_change_a_mechanism_of_the_kit(root):
             SLED.replace('"sled"', '"sledge"'),
             "its mechanism is called 'sledge'; write name=\"sled\"",
         ),
+        (
+            SLED.replace("parameters=(m, k)", "parameters=(m, k, r)").replace(
+                "k = Param", 'r = Parameter("r", "m", "of nothing", 0.1, 0.2)\nk = Param'
+            ),
+            f"line {STIFFNESS}: ValueError: mechanism 'sled': the parameter 'r' is in no energy, in no",
+        ),
         ("MECHANISM = 1", "needs MECHANISM = Mechanism(…)"),
     ],
 )
@@ -132,6 +140,29 @@ def test_a_broken_file_names_the_line(text, said):
         mechanism_of(text, "sled.py", "sled")
     assert said in str(error.value)
     assert "sled.py" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("[(0.0, 0.0), (q[0], 0.0)]", "[(0.0, 0.0), (q[0] + arm.r, 0.0)]"),
+        ("points=points,", "points=points,\n    draws=lambda q, arm: [Mass((arm.r, q[0]))],"),
+        ("points=points,", "points=points,\n    friction=(DRAG,),"),
+    ],
+)
+def test_a_parameter_may_stand_in_a_place_or_in_the_friction_alone(before, after):
+    text = SLED.replace("parameters=(m, k)", "parameters=(m, k, r)").replace(
+        "k = Param",
+        "from autograder.mechanisms import FrictionTerm\n"
+        "from autograder.mechanisms.friction import coefficient\n"
+        "from autograder.mechanisms.shapes import Mass\n"
+        'r = Parameter("r", "m", "radius", 0.1, 0.2)\n'
+        'DRAG = FrictionTerm("the drag", "x", "drag", "N·s/m²", '
+        'coefficient("drag", "x") * r.symbol * x.velocity)\nk = Param',
+    )
+    assert mechanism_of(text.replace(before, after), "sled.py", "sled").n == 1
+    with pytest.raises(MechanismFileError, match="the parameter 'r' is in no energy"):
+        mechanism_of(text, "sled.py", "sled")
 
 
 def test_a_file_is_read_once_and_judges_its_own_problem_only():
@@ -166,11 +197,23 @@ def test_a_students_check_finds_the_file_beside_the_notebook(tmp_path, monkeypat
 
 def test_right_answers_in_every_style_pass_the_real_grader():
     lines = list(rehearsed(mechanism_of(SLED, "sled.py", "sled"), {"sled.py": SLED}))
-    assert lines[1:] == [(f"  {style}: full points", True) for style in STYLES]
+    assert lines[1:] == [Line(f"  {style}: full points") for style in STYLES]
     # The grader judges by the file that it is given, so there the same answers are wrong.
     lines = list(rehearsed(mechanism_of(SLED, "sled.py", "sled"), {"sled.py": OTHER}))
-    assert not any(is_right for _, is_right in lines[1:])
-    assert "sled-M: incorrect" in lines[1][0]
+    assert not any(line.good for line in lines[1:])
+    assert "sled-M: incorrect" in lines[1].text
+
+
+def test_mistakes_in_an_energy_get_from_the_real_grader_what_a_check_says_here():
+    own = mechanism_of(SLED, "sled.py", "sled")
+    head, *lines = mistaken(own, {"sled.py": SLED}, ["M", "g_vec", "f"])
+    assert re.fullmatch(r"sled, 3 of \d+ mistakes in its energies handed in and graded:", head.text)
+    assert all(line.good for line in lines)
+    assert "  dropped / the motion of the sled: 2 of 3 answers wrong" in lines[0].text
+    assert "    Your M has everything but the motion of the sled." in [one.text for one in lines]
+    # A grader that judges by another file says something else.
+    other = mistaken(own, {"sled.py": OTHER}, ["M"])
+    assert not all(line.good for line in other)
 
 
 def test_the_grader_takes_the_courses_file(tmp_path):

@@ -13,14 +13,13 @@ import sympy as sp
 from autograder.authoring.model_answer import model_answer
 from autograder.authoring.picture import WIDTH, picture
 from autograder.authoring.problem import (
-    POINTS,
     USUAL,
-    WHAT,
     ProblemError,
     notebook,
     usual_asks,
     write_problem,
 )
+from autograder.authoring.tasks import POINTS, WHAT
 from autograder.mechanisms import MECHANISMS, Coordinate, EnergyTerm, Mechanism, Parameter
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.references import reference

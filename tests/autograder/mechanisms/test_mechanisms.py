@@ -19,6 +19,7 @@ from autograder.mechanisms import (
 )
 from autograder.mechanisms.friction import coefficient
 from autograder.mechanisms.kinetic import refuse_other_than_positive
+from autograder.mechanisms.unused import refuse_unused
 from autograder.mutation.references import reference
 
 EVERY = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=list(MECHANISMS))
@@ -328,3 +329,11 @@ def test_one_of_several_coordinates_is_not_called_q():
 def test_friction_of_what_is_no_coordinate(joint):
     with pytest.raises(ValueError, match="joint_friction needs a coordinate and its words"):
         joint_friction(joint)
+
+
+@EVERY
+def test_no_parameter_stands_nowhere(mechanism):
+    refuse_unused(mechanism)
+    idle = Parameter("zz", "m", "length of nothing", 0.1, 0.2)
+    with pytest.raises(ValueError, match="the parameter 'zz' is in no energy"):
+        refuse_unused(replace(mechanism, parameters=(*mechanism.parameters, idle)))

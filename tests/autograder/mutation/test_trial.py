@@ -6,9 +6,10 @@ import pytest
 
 from autograder.cli import main
 from autograder.mechanisms import MECHANISMS
+from autograder.mechanisms.file import mechanism_in
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.mistakes import mistakes_of
-from autograder.mutation.trial import nothing_to_ask
+from autograder.mutation.trial import Line, Tried, nothing_to_ask, summary
 
 OWN = """
     import sympy as sp
@@ -31,7 +32,7 @@ OWN = """
 def test_a_mechanism_of_ones_own(tmp_path, capsys):
     path = tmp_path / "block.py"
     path.write_text(textwrap.dedent(OWN), encoding="utf-8")
-    assert main(["try", str(path)]) == 0
+    assert main(["try", str(path), "--all"]) == 0
     shown = capsys.readouterr().out
     assert "block-M: the right answer is correct\n" in shown
     assert "In your g, the spring has the wrong sign" not in shown  # that is the sign of the whole
@@ -70,6 +71,38 @@ def test_a_teachers_own_sentence_is_said(tmp_path, capsys):
         "  What moves when the spring moves?\n      M: dropped / the motion of the block\n" in shown
     )
     assert "!   the sentence for 'g_vec: nothing' fits no mistake" in shown
+
+
+def test_a_summary_stands_first_and_the_rest_in_a_file(tmp_path, capsys):
+    """Few lines for hundreds of mistakes; the file has each."""
+    path, to = tmp_path / "block.py", tmp_path / "all.txt"
+    path.write_text(textwrap.dedent(OWN), encoding="utf-8")
+    assert main(["try", str(path), "--asks", "M,g_vec,f", "--to", str(to)]) == 0
+    shown = capsys.readouterr().out
+    known = {a: mistakes_of(mechanism_in(path), a) for a in ("M", "g_vec", "f")}
+    count = sum(map(len, known.values()))
+    assert f"{count} mistakes in 3 answers; {count} are told apart and named" in shown
+    assert "What is said most:\n" in shown
+    assert f"All of it: {to}\n" in shown
+    assert len(shown.splitlines()) < 45
+    written = to.read_text(encoding="utf-8")
+    for mistakes in known.values():
+        for mistake in mistakes:
+            assert f"  {mistake.sentence}\n" in written
+    assert main(["try", str(path), "--asks", "M", "--to", str(tmp_path)]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_a_summary_tells_what_is_not_named():
+    one = Tried("M", "dropped / the spring", "The spring is missing.", ("Something else.",))
+    good = [Tried("M", f"no. {k}", "Said.", ("Said.",)) for k in range(4)]
+    head, nameless, *rest = summary([one, *good])
+    assert head == Line("5 mistakes in 1 answer; 4 are told apart and named by their own sentences")
+    assert nameless == Line("  not named: M: dropped / the spring: Something else.", False)
+    assert [line.text for line in rest][:2] == ["What is said most:", "     4 × Said."]
+    many = [line for line in summary(25 * [one]) if not line.good]
+    assert len(many) == 10
+    assert Line("  and 15 more that are not named") in list(summary(25 * [one]))
 
 
 def test_some_answers_alone(tmp_path, capsys):

@@ -6,6 +6,7 @@ import pytest
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.checks import check_of
+from autograder.mutation.mistakes import mistakes_of
 from autograder.mutation.references import reference
 from autograder.problems import CHECKS
 from tests.autograder.mutation.test_mistakes import judged
@@ -75,21 +76,43 @@ def test_the_worst_case_of_a_column_has_the_unit_of_its_row(row, units):
         assert judged(check, wrong).witness.off.split()[:2] == ["2.3", unit]
 
 
-@pytest.mark.parametrize("name", ["cart-pole", "planar-2r", "furuta", "turn-and-slide"])
-def test_what_is_said_of_C_is_true_of_more_than_C_times_q_dot(name):
-    """Half of C − Cᵀ on a cart-pole has the C q̇ of a Christoffel symbol that it does not have."""
-    mechanism = MECHANISMS[name]
-    right = reference(mechanism, "C")
-    check = check_of(mechanism, "C")
+def test_what_is_said_of_C_is_true_of_more_than_C_times_q_dot():
+    """Each mistake in C with a matrix added that sends q̇ to 0: C q̇ is the mistake's, and C is not."""
+    check = check_of(CART, "C")
+    claims = [m for m in mistakes_of(CART, "C") if m.of_all]
+    assert len(claims) > 20
+    for mistake in claims[::3]:
 
-    def skew(times):
-        return lambda q, qd, arm: times * (right(q, qd, arm) - right(q, qd, arm).T)
+        def wrong(q, qd, arm, mistake=mistake):
+            nothing = np.outer([0.7, 1.9], [-qd[1], qd[0]])  # times q̇ it is 0
+            return mistake.wrong(q, qd, arm) + nothing
 
-    (one,) = judged(check, skew(1)).diagnosis
+        said = judged(check, wrong).diagnosis
+        assert mistake.sentence not in said
+        assert any("not skew-symmetric" in one for one in said), mistake.name
+
+
+def test_two_entries_of_C_are_still_named_together():
+    mechanism = MECHANISMS["planar-2r"]
+
+    def wrong(q, qd, arm):
+        h = -arm.m2 * arm.l1 * arm.lc2 * np.sin(q[1])
+        return [[0, h * (qd[0] + qd[1])], [h * qd[0], 0]]
+
+    said = judged(check_of(mechanism, "C"), wrong).diagnosis
+    assert len(said) == 2
+    assert all(" C11" in one or " C21" in one for one in said)
+
+
+@pytest.mark.parametrize("name", ["cart-pole", "planar-2r", "furuta"])
+def test_C_less_its_transpose_is_named(name):
+    right = reference(MECHANISMS[name], "C")
+
+    def skew(q, qd, arm):
+        return right(q, qd, arm) - right(q, qd, arm).T
+
+    (one,) = judged(check_of(MECHANISMS[name], "C"), skew).diagnosis
     assert one.startswith("You return C less its transpose")
-    for said in judged(check, skew(0.75)).diagnosis:
-        assert "derivatives in your Christoffel symbol" not in said
-        assert "A right C q̇ is not enough" not in said
 
 
 def test_a_right_C_times_q_dot_is_said_where_it_is_right():

@@ -11,10 +11,10 @@ import pytest
 
 import autograder
 from autograder import watch
+from autograder.judging.call_text import shown_call
 from autograder.judging.check import VISIBLE_CASES
 from autograder.judging.given import Given
 from autograder.judging.verdict import State
-from autograder.judging.witness import shown_call
 from autograder.pictures.differences import title
 from autograder.pictures.motion import compared
 from autograder.pictures.offers import offer
@@ -41,7 +41,7 @@ def test_it_plays_from_the_worst_case_of_the_card():
     check = known_check("p1-M")
     verdict = verdict_on("p1-M", namespace)
     calls = check.calls(np.random.default_rng(VISIBLE_SEED), VISIBLE_CASES)
-    worst = [call for call in calls if shown_call(call) == verdict.witness.call]
+    worst = [call for call in calls if shown_call(call, check.signature) == verdict.witness.call]
     assert len(worst) == 1
     start = title(compared(check, namespace["M"], worst[0]))
     assert start in shown(check, namespace)["text/plain"]
