@@ -4,6 +4,7 @@ The numbers of all of them come from one tape. They are derived where none are k
 """
 
 from collections.abc import Sequence
+from functools import cached_property
 from types import SimpleNamespace
 
 import numpy as np
@@ -50,7 +51,7 @@ class Catalogue:
         tape = Tape.from_data(data["tape"])
         return found, Numbers(self.mechanism, self.answer, terms, of_term, tape)
 
-    @property
+    @cached_property
     def mutants(self) -> list[Mutant]:
         return [mutant for mutant, _ in self._kept]
 

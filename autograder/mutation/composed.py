@@ -1,6 +1,6 @@
 """All mistakes of an answer that is made of others: its own, and those of its parts that show in it."""
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -65,7 +65,7 @@ class Composed:
                 raise ValueError("a place is outside its group")
         return found
 
-    @property
+    @cached_property
     def mutants(self) -> list[Mutant]:
         return [
             group.mutants[k]

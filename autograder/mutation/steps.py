@@ -134,7 +134,11 @@ def solved(M: np.ndarray, rest: np.ndarray) -> np.ndarray:
     """M⁻¹ times vectors, (…, n); not a number where a wrong M has no inverse."""
     good = _invertible(M)
     some = np.where(good[..., np.newaxis], M, np.eye(M.shape[-1]))
-    return np.where(good, np.linalg.solve(some, rest[..., np.newaxis])[..., 0], np.nan)
+    if M.ndim == 3 and rest.ndim == 3:  # many vectors for each M, which is then taken apart once
+        found = np.moveaxis(np.linalg.solve(some, np.moveaxis(rest, 0, -1)), -1, 0)
+    else:
+        found = np.linalg.solve(some, rest[..., np.newaxis])[..., 0]
+    return np.where(good, found, np.nan)
 
 
 def _inverse(M: np.ndarray) -> np.ndarray:

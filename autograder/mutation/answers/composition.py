@@ -26,12 +26,12 @@ def throughout(
     inertia: "list[Mutant]", g: "list[Mutant]"
 ) -> "tuple[list[Mutant], list[int], list[int]]":
     """Mistakes that are made in M and in g alike, such as an angle in degrees; their places in both."""
-    kinds = dict.fromkeys((m.operator, m.put, m.instead_of) for m in inertia if not m.is_step)
+    in_inertia, in_g = _everywhere(inertia), _everywhere(g)
     pairs = [
         (i, j)
-        for kind in kinds
-        for i in _everywhere(inertia, kind)
-        for j in _everywhere(g, kind) or _everywhere(g, _as_angle(*kind))
+        for kind, places in in_inertia.items()
+        for i in places
+        for j in in_g.get(kind) or in_g.get(_as_angle(*kind), [])
     ]
     mutants = [
         replace(
@@ -52,15 +52,19 @@ def _as_angle(operator: str, put: str, instead_of: str) -> tuple[str, str, str]:
     return ("wrong angle", *angles[operator]) if operator in angles else (operator, put, instead_of)
 
 
-def _everywhere(mutants: "list[Mutant]", kind: tuple[str, str, str]) -> list[int]:
-    """The mistakes of this kind in all terms alike, or else in the one term that allows it."""
-    found = [
-        k
-        for k, m in enumerate(mutants)
-        if (m.operator, m.put, m.instead_of) == kind and not m.entry and not m.is_step
-    ]
-    alike = [k for k in found if not mutants[k].term]
-    return alike or (found if len({mutants[k].term for k in found}) == 1 else [])
+def _everywhere(mutants: "list[Mutant]") -> dict[tuple[str, str, str], list[int]]:
+    """By their kinds the mistakes in all terms alike, or else in the one term that allows it."""
+    found: dict[tuple[str, str, str], list[int]] = {}
+    for k, m in enumerate(mutants):
+        if not m.is_step:
+            found.setdefault((m.operator, m.put, m.instead_of), [])
+            if not m.entry:
+                found[m.operator, m.put, m.instead_of].append(k)
+    for kind, places in found.items():
+        alike = [k for k in places if not mutants[k].term]
+        one_term = len({mutants[k].term for k in places}) == 1
+        found[kind] = alike or (places if one_term else [])
+    return found
 
 
 @dataclass(frozen=True)

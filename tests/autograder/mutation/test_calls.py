@@ -16,6 +16,7 @@ from autograder.mutation.checks import check_of
 from autograder.mutation.generated import Generated
 from autograder.mutation.mistakes import mistakes_of, numbers_of
 from autograder.mutation.shared import shared
+from autograder.mutation.steps import solved
 from autograder.protocol import Reply
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -81,6 +82,19 @@ def test_a_check_evaluates_all_calls_at_once(answer, monkeypatch):
     verdict = check.run(ask, np.random.default_rng(1))
     assert verdict.state.name in ("INCORRECT", "PARTLY_CORRECT"), verdict.problem
     assert len(asked) == (1 if answer == "energy_drift" else 2)
+
+
+def test_many_torques_are_solved_as_each_is():
+    rng = np.random.default_rng(5)
+    M, torques = rng.normal(size=(4, 3, 3)), rng.normal(size=(6, 4, 3))
+    M[2, 1] = 2 * M[2, 0]  # no inverse
+    found = solved(M, torques)
+    for k, case in np.ndindex(6, 4):
+        if case == 2:
+            assert np.isnan(found[k, case]).all()
+        else:
+            np.testing.assert_allclose(M[case] @ found[k, case], torques[k, case], atol=1e-12)
+    np.testing.assert_allclose(solved(np.array([M, 2 * M]), torques[:2])[0], found[0], rtol=1e-12)
 
 
 def test_what_is_shared_follows_from_its_arguments():
