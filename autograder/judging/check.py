@@ -15,7 +15,7 @@ from types import FunctionType
 
 import numpy as np
 
-from autograder.judging import changes, dependence
+from autograder.judging import changes, dependence, findings
 from autograder.judging.criterion import Criterion, relative_errors
 from autograder.judging.diagnosis import Catalogue, Mistake, Wrong, sentences
 from autograder.judging.faults import NUMBERS, describe_fault, describe_second_fault
@@ -242,7 +242,9 @@ class Check:
             criterion = self.criteria[k]
             if not criterion.unit or criterion.is_property or (found := tried()) is None:
                 return ""
-            return dependence.sentence(criterion.text, k, *found)
+            _, _, (again, *_) = found
+            unsteady = findings.of_repeats(criterion, given[-1][k], again[k])
+            return unsteady or dependence.sentence(criterion.text, k, *found)
 
         @cache
         def parts() -> list[tuple[Term, Numbers]]:

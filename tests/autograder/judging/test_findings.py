@@ -143,6 +143,5 @@ def test_two_entries_that_should_be_one(seed, apart):
     assume("every value" not in of_numbers(ASKED, right, symmetric, []))
     assert of_numbers(ASKED, right, symmetric, []) == ""
     skewed = [value + np.array([apart, 0]) for value in symmetric]
-    assert (
-        of_numbers(ASKED, right, skewed, []) == "Your torque differ from each other. Should they?"
-    )
+    said = "The entries of your torque differ from each other. Should they?"
+    assert of_numbers(ASKED, right, skewed, []) == said
