@@ -95,11 +95,23 @@ def sentences(
     """
     said: list[str] = []
     layout = layouts(given, expected)
-    given_rows = rows(layout, given)
-    order, spoils = _likeliest_first(
-        criteria, layout, rows(layout, expected), given_rows, met, wrong
-    )
-    borne_out = _borne_out(rows(layout, expected), given_rows, wrong)
+    expected_rows, given_rows = rows(layout, expected), rows(layout, given)
+    order, spoils = _likeliest_first(criteria, layout, expected_rows, given_rows, met, wrong)
+    borne_out = _borne_out(expected_rows, given_rows, wrong)
+    nothing = not any(np.any(part) for case in given for part in case)
+
+    def together(k: int, first: int, second: int) -> bool:
+        """Whether two mistakes that explain criterion k together show in no other as something else."""
+        for other, of in enumerate(layout):
+            if other == k or criteria[other].is_property or criteria[other].is_truth:
+                continue
+            right = expected_rows[other]
+            sums = wrong.rows[other][first] + wrong.rows[other][second] - right
+            tolerance = criteria[other].allows(met[other])
+            if not (of.same(right, sums, tolerance) or of.same(given_rows[other], sums, tolerance)):
+                return False
+        return True
+
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
@@ -111,12 +123,20 @@ def sentences(
         alone = criterion.is_truth | ~spoils[kept]
         known = [wrong.mistakes[i] for i in kept]
         row = layout[k].row
+
+        def both(first: int, second: int, k: int = k, kept: list = kept) -> bool:
+            return together(k, kept[first], kept[second])
+
         shown = _shown(
-            layout[k], row(right), row(theirs), known, wrong.rows[k][kept], alone,
+            layout[k], row(right), row(theirs), known, wrong.rows[k][kept], alone, both,
             criterion.allows(False),
         )  # fmt: skip
         # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.
-        if len(shown) > 1 and _is_one_number(theirs) and not _is_one_number(right):
+        # And nothing but zeros shows a mistake only where this explains the whole answer.
+        same = _is_one_number(theirs) or not any(map(np.any, theirs))
+        if (len(shown) > 1 and same and not _is_one_number(right)) or (
+            nothing and not criterion.is_truth
+        ):
             shown = ()
         said += [mistake.sentence for mistake in shown]
         if not shown:
@@ -176,7 +196,10 @@ def mistakes_shown(
     wrong = np.array([layout.row(known.values) for known in mistakes])
     known = [one.of for one in mistakes]
     every = np.ones(len(known), dtype=bool)
-    return _shown(layout, layout.row(expected), layout.row(given), known, wrong, every, tolerance)
+    return _shown(
+        layout, layout.row(expected), layout.row(given), known, wrong, every,
+        lambda first, second: True, tolerance,
+    )  # fmt: skip
 
 
 def _shown(
@@ -186,9 +209,10 @@ def _shown(
     mistakes: list[Mistake],
     wrong: np.ndarray,
     alone: np.ndarray,
+    together: Callable[[int, int], bool],
     tolerance: float,
 ) -> tuple[Mistake, ...]:
-    """alone: which of them may be the only one."""
+    """alone: which of them may be the only one. together: which two of them may be both."""
     if not mistakes:
         return ()
     off = ~layout.same(expected, wrong, tolerance)
@@ -207,9 +231,9 @@ def _shown(
             & ~layout.same(sums, expected, tolerance)
             & ~layout.same(wrong[places[i]], wrong[places[j]], tolerance)
         )
-        if np.any(found):
-            at = np.argmax(found)
-            return mistakes[places[i[at]]], mistakes[places[j[at]]]
+        for at in np.flatnonzero(found):
+            if together(places[i[at]], places[j[at]]):
+                return mistakes[places[i[at]]], mistakes[places[j[at]]]
     return ()
 
 

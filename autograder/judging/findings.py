@@ -45,8 +45,8 @@ def of_numbers(
     error = float(np.max(relative_errors(right, theirs)))
     if 0 < error <= NEAR and any(map(np.any, right)):
         return (
-            f"Your {text} is right to {_percent(error)}, but not exactly. Where do you approximate: "
-            "with a difference for a derivative, a small angle, a rounded constant?"
+            f"In your {text}, the values are right to {_percent(error)}, but not exactly. Where do you "
+            "approximate: with a difference for a derivative, a small angle, a rounded constant?"
         )
     return ""
 
@@ -56,8 +56,8 @@ def of_repeats(criterion: Criterion, first: np.ndarray, second: np.ndarray) -> s
     if np.shape(first) == np.shape(second) and criterion.met(relative_errors([first], [second])):
         return ""
     return (
-        f"Called twice with the same arguments, your function gives another {criterion.text}. Does it "
-        "draw random numbers, or use what an earlier call left behind?"
+        f"Called twice with the same arguments, your function does not return the same "
+        f"{criterion.text}. Does it draw random numbers, or use what an earlier call left behind?"
     )
 
 

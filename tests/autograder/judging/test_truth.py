@@ -298,8 +298,8 @@ def test_what_is_found_in_numbers_is_so(wrong, seed):
     assert not ("differ from each other" in found and not apart)
     if "In your M12 and M21, every value is 0" in found:
         assert not any(m[0, 1] or m[1, 0] for m in theirs)
-    if "Your M12 and M21 is right to" in found:
-        percent = float(found.partition("M21 is right to ")[2].partition(" %")[0])
+    if "In your M12 and M21, the values are right to" in found:
+        percent = float(found.partition("M21, the values are right to ")[2].partition(" %")[0])
         size = [abs(m[0, 1]) for m in right]
         least = [max(own, 0.05 * max(size)) for own in size]
         worst = max(e / own for e, own in zip(mixed, least, strict=True))
@@ -330,5 +330,27 @@ def test_an_answer_that_differs_from_call_to_call_is_called_so():
         return [Reply(value=rng.normal(size=(2, 2)) + 3) for _ in calls]
 
     said = " ".join(MATRIX.run(ask, np.random.default_rng(SEED)).diagnosis)
-    assert "Called twice with the same arguments, your function gives another M11" in said
+    assert (
+        "Called twice with the same arguments, your function does not return the same M11" in said
+    )
     assert "depend on" not in said
+
+
+@pytest.mark.parametrize(
+    ("check_id", "spoil", "said"),
+    [
+        # Each is the sum of two mistakes' errors in one criterion, by chance, and not in the others.
+        ("p1-M", lambda M: M + 1, ()),
+        ("p4-g_vec", lambda g: g * [-1, 1], ("every value has the wrong sign",)),
+        ("p4-g_vec", lambda g: g * [0, 1], ("every value is 0",)),
+        ("p1-inertia_from_links", lambda M: 0 * M, ("every value is 0", "every value is 0")),
+        ("p5-f", lambda x: 0 * x, ("every value is 0", "every value is 0")),
+        ("c6-regressor", lambda Y: 0 * Y, ("every value is 0",) * 5),
+    ],
+)
+def test_two_mistakes_that_add_up_by_chance_are_not_named(check_id, spoil, said):
+    check = CHECKS[check_id]
+    right = [np.asarray(_evaluated(check.reference, call), float) for call in calls_of(check)]
+    found = diagnosis(check, [spoil(value) for value in right])
+    assert len(found) == len(said)
+    assert all(own in sentence for own, sentence in zip(said, found, strict=True)), found
