@@ -14,7 +14,7 @@ from itertools import chain, groupby
 
 import numpy as np
 
-from autograder.judging import changes, dependence
+from autograder.judging import changes, dependence, findings
 from autograder.judging.at_points import AtPoints
 from autograder.judging.call_text import given_by
 from autograder.judging.criterion import Criterion, relative_errors
@@ -252,7 +252,9 @@ class Check:
             criterion = self.criteria[k]
             if not criterion.unit or criterion.is_property or (found := tried()) is None:
                 return ""
-            return dependence.sentence(criterion.text, k, *found)
+            _, _, (again, *_) = found
+            unsteady = findings.of_repeats(criterion, given[-1][k], again[k])
+            return unsteady or dependence.sentence(criterion.text, k, *found)
 
         @cache
         def parts() -> list[tuple[Term, Numbers]]:

@@ -15,6 +15,8 @@ from autograder.judging.criterion import TOLERANCE
 from autograder.judging.quantities import Numbers
 from autograder.protocol import Call
 
+# What moves by no more than this share of the size does not move.
+ROUNDING = 1e-9
 # With more numbers than these, as of a motion's samples, one alone says nothing.
 MOST = 30
 # Of more arguments than so many, three are named.
@@ -53,11 +55,13 @@ def sentence(text: str, k: int, tried: list[Probe], right: Numbers, theirs: Numb
 
     right, theirs: the quantities of the unchanged call, then of the probes.
     """
-    needed, used = (_moving(k, tried, numbers) for numbers in (right, theirs))
-    extra = [of for of in used if of not in needed]
-    missing = [of for of in needed if of not in used]
+    # What moves a little, as friction of a joint that creeps, is said neither to move nor not to.
+    needed, used = (_moving(k, tried, numbers, TOLERANCE) for numbers in (right, theirs))
+    may_need, may_use = (_moving(k, tried, numbers, ROUNDING) for numbers in (right, theirs))
+    extra = [of for of in used if of not in may_need]
+    missing = [of for of in needed if of not in may_use]
     fields = {of for of in needed if "." in of}
-    if fields and not any("." in of for of in used):
+    if fields and not any("." in of for of in may_use):
         (owner, *_) = {of.partition(".")[0] for of in fields}
         return (
             f"In your {text}, the values do not depend on {owner} at all. Did you write the numbers of "
@@ -72,14 +76,14 @@ def sentence(text: str, k: int, tried: list[Probe], right: Numbers, theirs: Numb
     return f"In your {text}, {', and '.join(said)}." if said else ""
 
 
-def _moving(k: int, tried: list[Probe], numbers: Numbers) -> list[str]:
-    """The arguments whose change moves quantity k, each once, in their order."""
+def _moving(k: int, tried: list[Probe], numbers: Numbers, least: float) -> list[str]:
+    """The arguments whose change moves quantity k by more than this share, each once, in their order."""
     before = np.asarray(numbers[0][k])
     found: dict[str, None] = {}
     for probe, after in zip(tried, numbers[1:], strict=True):
         now = np.asarray(after[k])
         size = max(np.max(np.abs(before), initial=0.0), np.max(np.abs(now), initial=0.0))
-        if now.shape != before.shape or np.any(np.abs(now - before) > TOLERANCE * size):
+        if now.shape != before.shape or np.any(np.abs(now - before) > least * size):
             found[probe.of] = None
     return list(found)
 

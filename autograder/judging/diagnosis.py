@@ -6,7 +6,6 @@ or those of two mistakes at once. If none matches, `findings` says what is true 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -123,12 +122,24 @@ def sentences(
     said: list[str] = []
     of_each: list[tuple[str, ...]] = [()] * len(criteria)
     layout = layouts(given, expected)
-    given_rows = rows(layout, given)
-    order, spoils = _likeliest_first(
-        criteria, layout, rows(layout, expected), given_rows, met, wrong
-    )
+    expected_rows, given_rows = rows(layout, expected), rows(layout, given)
+    order, spoils = _likeliest_first(criteria, layout, expected_rows, given_rows, met, wrong)
     likely = [i for i in order if not wrong.mistakes[i].whole]
-    borne_out = _borne_out(rows(layout, expected), given_rows, wrong)
+    borne_out = _borne_out(expected_rows, given_rows, wrong)
+    nothing = not any(np.any(part) for case in given for part in case)
+
+    def together(k: int, first: int, second: int) -> bool:
+        """Whether two mistakes that explain criterion k together show in no other as something else."""
+        for other, of in enumerate(layout):
+            if other == k or criteria[other].is_property or criteria[other].is_truth:
+                continue
+            right = expected_rows[other]
+            sums = wrong.rows[other][first] + wrong.rows[other][second] - right
+            tolerance = criteria[other].allows(met[other])
+            if not (of.same(right, sums, tolerance) or of.same(given_rows[other], sums, tolerance)):
+                return False
+        return True
+
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
@@ -139,19 +150,25 @@ def sentences(
             kept = [i for i in likely if wrong.mistakes[i].sentence in said]
         if criterion.is_truth:
             kept = [i for i in kept if borne_out[i]]
-        # Two mistakes may cancel each other in what is right; one alone cannot.
-        alone = criterion.is_truth | ~spoils[kept]
         row = layout[k].row
-        among = partial(
-            _shown, layout[k], row(right), row(theirs), tolerance=criterion.allows(False)
-        )
-        shown = among(*_chosen(wrong, k, kept), alone)
+
+        def shown_by(kept: list[int], k: int = k, row=row, right=right, theirs=theirs):
+            # Two mistakes may cancel each other in what is right; one alone cannot.
+            return _shown(
+                layout[k], row(right), row(theirs), [wrong.mistakes[i] for i in kept],
+                wrong.rows[k][kept], criteria[k].is_truth | ~spoils[kept],
+                lambda i, j: together(k, kept[i], kept[j]), criteria[k].allows(False),
+            )  # fmt: skip
+
+        shown = shown_by(kept)
         if any(m.of_all for m in shown) and not wrong.add_up(shown, criteria, expected, given):
-            others = [not wrong.mistakes[i].of_all for i in kept]
-            kept = [i for i, ok in zip(kept, others, strict=True) if ok]
-            shown = among(*_chosen(wrong, k, kept), alone[others])
+            shown = shown_by([i for i in kept if not wrong.mistakes[i].of_all])
         # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.
-        if len(shown) > 1 and _is_one_number(theirs) and not _is_one_number(right):
+        # And nothing but zeros shows a mistake only where this explains the whole answer.
+        same = _is_one_number(theirs) or not any(map(np.any, theirs))
+        if (len(shown) > 1 and same and not _is_one_number(right)) or (
+            nothing and not criterion.is_truth
+        ):
             shown = ()
         said += [mistake.sentence for mistake in shown]
         if not shown:
@@ -161,11 +178,6 @@ def sentences(
             said.append(found or ("" if any(said) else elsewhere(k)))
         of_each[k] = tuple(dict.fromkeys(filter(None, said[before:])))
     return of_each
-
-
-def _chosen(wrong: Wrong, k: int, places: list[int]) -> tuple[list[Mistake], np.ndarray]:
-    """Some mistakes, with their numbers of criterion k."""
-    return [wrong.mistakes[i] for i in places], wrong.rows[k][places]
 
 
 def _is_one_number(values: list[np.ndarray]) -> bool:
@@ -217,7 +229,10 @@ def mistakes_shown(
     wrong = np.array([layout.row(known.values) for known in mistakes])
     known = [one.of for one in mistakes]
     every = np.ones(len(known), dtype=bool)
-    return _shown(layout, layout.row(expected), layout.row(given), known, wrong, every, tolerance)
+    return _shown(
+        layout, layout.row(expected), layout.row(given), known, wrong, every,
+        lambda first, second: True, tolerance,
+    )  # fmt: skip
 
 
 def _shown(
@@ -227,9 +242,10 @@ def _shown(
     mistakes: list[Mistake],
     wrong: np.ndarray,
     alone: np.ndarray,
+    together: Callable[[int, int], bool],
     tolerance: float,
 ) -> tuple[Mistake, ...]:
-    """alone: which of them may be the only one."""
+    """alone: which of them may be the only one. together: which two of them may be both."""
     if not mistakes:
         return ()
     off = ~layout.same(expected, wrong, tolerance)
@@ -248,9 +264,9 @@ def _shown(
             & ~layout.same(sums, expected, tolerance)
             & ~layout.same(wrong[places[i]], wrong[places[j]], tolerance)
         )
-        if np.any(found):
-            at = np.argmax(found)
-            return mistakes[places[i[at]]], mistakes[places[j[at]]]
+        for at in np.flatnonzero(found):
+            if together(places[i[at]], places[j[at]]):
+                return mistakes[places[i[at]]], mistakes[places[j[at]]]
     return ()
 
 

@@ -39,15 +39,26 @@ def of_numbers(
         return f"In your {text}, every value {said}"
     if off := terms_off(right, theirs, terms, tolerance):
         return f"In your {text}, {_joined([in_words(term, times) for term, times in off])}."
-    if _are_equal(right) and not _are_equal(theirs):
-        return f"Your {text} differ from each other. Should they?"
+    if _are_equal(right) and any(map(np.any, right)) and not _are_equal(theirs):
+        whose = f"Your {text}" if criterion.entries else f"The entries of your {text}"
+        return f"{whose} differ from each other. Should they?"
     error = float(np.max(relative_errors(right, theirs)))
-    if error <= NEAR:
+    if 0 < error <= NEAR and any(map(np.any, right)):
         return (
-            f"Your {text} is right to {_percent(error)}, but not exactly. Where do you approximate: "
-            "with a difference for a derivative, a small angle, a rounded constant?"
+            f"In your {text}, the values are right to {_percent(error)}, but not exactly. Where do you "
+            "approximate: with a difference for a derivative, a small angle, a rounded constant?"
         )
     return ""
+
+
+def of_repeats(criterion: Criterion, first: np.ndarray, second: np.ndarray) -> str:
+    """What to say where two calls with the same arguments gave other numbers; "" where they did not."""
+    if np.shape(first) == np.shape(second) and criterion.met(relative_errors([first], [second])):
+        return ""
+    return (
+        f"Called twice with the same arguments, your function does not return the same "
+        f"{criterion.text}. Does it draw random numbers, or use what an earlier call left behind?"
+    )
 
 
 def _factor(right: list, theirs: list, tolerance: float) -> str:
@@ -76,7 +87,7 @@ def _are_equal(cases: list) -> bool:
     """Whether in each case several entries are one number, as M12 and M21 are."""
     spread = [np.full(np.shape(value), np.ravel(value)[:1]) for value in cases]
     same = np.all(relative_errors(spread, cases) <= TOLERANCE)
-    return bool(same and np.size(cases[0]) > 1 and np.any(cases[0]))
+    return bool(same and np.size(cases[0]) > 1)
 
 
 def _joined(parts: list[str]) -> str:
@@ -89,4 +100,6 @@ def _signed(factor: float) -> str:
 
 
 def _percent(error: float) -> str:
-    return f"{100 * error:.1g} %"
+    """The error in one digit, and never less than it is."""
+    unit = 10.0 ** math.floor(math.log10(100 * error))
+    return f"{math.ceil(100 * error / unit - 1e-9) * unit:.1g} %"

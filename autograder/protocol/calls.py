@@ -3,6 +3,7 @@
 import difflib
 import os
 import signal
+import sys
 import threading
 import time
 import traceback
@@ -196,7 +197,9 @@ def own_names(namespace: Mapping) -> list[str]:
 
 
 def _failing_line(error: BaseException) -> str:
-    """The last line of the student's own code on the way to the error, with its number."""
+    """The last line of the student's own code on the way to the error, with its number, and with its
+    cell's number where that is another cell than the function's.
+    """
     own = [
         frame
         for frame in traceback.extract_tb(error.__traceback__)
@@ -204,7 +207,16 @@ def _failing_line(error: BaseException) -> str:
     ]
     if not own:
         return ""
-    return shortened(f"line {own[-1].lineno}: {own[-1].line}".rstrip(": "))
+    line = f"line {own[-1].lineno}: {own[-1].line}".rstrip(": ")
+    cell = "" if own[-1].filename == own[0].filename else _cell(own[-1].filename)
+    return shortened(f"{cell}, {line}" if cell else line)
+
+
+def _cell(filename: str) -> str:
+    """ "cell In[3]" of a cell's file name, as its notebook numbers it; "" where IPython knows none."""
+    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    named = shell and shell.compile.format_code_name(filename)
+    return f"{named[0].lower()} {named[1]}" if named else "another cell"
 
 
 def kind_of(error: BaseException) -> str:

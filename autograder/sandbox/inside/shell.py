@@ -252,7 +252,8 @@ class RoomShell(InteractiveShell):
 
     def typed_lines(self, error, source):
         """Where an error comes from: the number of the line at which it stopped the running cell, and
-        the last line of the student's own that led to it; 0 and "" where they cannot be known.
+        the last line of the student's own that led to it, with its cell where that is another one; 0 and
+        "" where they cannot be known.
         """
         above = int(self.is_below_magic(source))
         # `%%capture` runs what is below it as a cell of its own, and `%%time` as a file of this name.
@@ -265,10 +266,12 @@ class RoomShell(InteractiveShell):
             here = frame.filename.startswith(cells)
             number = (frame.lineno or 0) + (above if here else 0)
             text = "".join(source.split("\n")[number - 1 : number]) if here else frame.line
-            typed.append((here, number, text))
-        at = next((number for here, number, _ in typed if here), 0)
-        _, number, text = typed[-1] if typed else (False, 0, "")
-        return at, f"line {number}: {text.strip()}" if text else ""
+            named = None if here else self.compile.format_code_name(frame.filename)
+            cell = f"{named[0].lower()} {named[1]}, " if named else ""
+            typed.append((here, number, text, cell))
+        at = next((number for here, number, *_ in typed if here), 0)
+        _, number, text, cell = typed[-1] if typed else (False, 0, "", "")
+        return at, f"{cell}line {number}: {text.strip()}" if text else ""
 
 
 def _no_input(*prompt, **options):

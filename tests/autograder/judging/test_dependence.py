@@ -150,3 +150,19 @@ def test_of_many_numbers_a_few_are_named():
     assert sentence == (
         "In your rate, the values depend on x[1], x[2], x[3] and 4 other numbers; the right ones do not."
     )
+
+
+@pytest.mark.parametrize("weak", [1e-3, 3e-5, 9e-6, 1e-6, 1e-8])
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_weak_dependence_is_said_neither_way_where_the_other_has_it_too(weak, swapped):
+    """As on the friction of a joint that creeps: near the limit one moves enough, and the other not."""
+
+    def small(q, arm):
+        return np.array(1.0 + weak * arm.m * q[0])
+
+    def large(q, arm):
+        return 20 * (small(q, arm) - 1.0) + 100.0
+
+    right, theirs = (large, small) if swapped else (small, large)
+    judging = check({"q[0]"}, reference=right, criteria=(Criterion("torque", "N·m"),))
+    assert not [sentence for sentence in said(judging, theirs) if "depend" in sentence]

@@ -131,7 +131,7 @@ def test_nearly_right_is_said_with_how_near(seed, size):
     right, noise = drawn(seed), np.random.default_rng(seed).uniform(0.2, 1, (8, 2))
     theirs = [r * (1 + size * e) for r, e in zip(right, noise, strict=True)]
     said = of_numbers(ASKED, right, theirs, [])
-    assert said.startswith("Your torque is right to 0.")
+    assert said.startswith("In your torque, the values are right to 0.")
 
 
 @given(SEEDS, st.floats(-2, 2).filter(lambda e: abs(e) > 0.01))
@@ -143,6 +143,5 @@ def test_two_entries_that_should_be_one(seed, apart):
     assume("every value" not in of_numbers(ASKED, right, symmetric, []))
     assert of_numbers(ASKED, right, symmetric, []) == ""
     skewed = [value + np.array([apart, 0]) for value in symmetric]
-    assert (
-        of_numbers(ASKED, right, skewed, []) == "Your torque differ from each other. Should they?"
-    )
+    said = "The entries of your torque differ from each other. Should they?"
+    assert of_numbers(ASKED, right, skewed, []) == said

@@ -164,6 +164,21 @@ class TestCalls:
         room.run("def f(q):\n    return q + (10^-3)")
         assert room.ask([Call("f", (1.0,))])[0].caret
 
+    def test_a_fault_in_another_cell_names_that_cell(self, room):
+        room.run("x = 1")
+        room.run("def inner(q):\n    return q[7]")
+        room.run("def f(q):\n    r = 1\n    s = 2\n    return inner(q)")
+        fault = room.ask([Call("f", (np.zeros(2),))])[0].fault
+        number = int(fault.line.partition("In[")[2].partition("]")[0])
+        assert fault.line == f"cell In[{number}], line 2: return q[7]"
+        room.run("def g(q):\n    return q[8]")
+        fault = room.ask([Call("g", (np.zeros(2),))])[0].fault
+        assert fault.line == "line 2: return q[8]"
+        *_, told = room.run("f([1])")
+        assert told["at"] == 1
+        assert told["line"] == f"cell In[{number}], line 2: return q[7]"
+        assert "def inner" in room.run(f"print(In[{number}])")[0]["text"]
+
     def test_slow_calls_that_keep_their_own_limit_are_answered(self, room, monkeypatch):
         monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.0)
         monkeypatch.setattr(sandbox, "CELL_SECONDS", 0.1)
