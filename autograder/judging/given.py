@@ -7,6 +7,8 @@ are judged that do not hang on these.
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from autograder.judging.call_text import given_by, shapes, shown_call
 from autograder.judging.faults import NUMBERS, describe_unfit
 from autograder.judging.partial import is_finite, partial, where_not_finite
@@ -67,6 +69,7 @@ class Reading:
 
     def given(self, calls: list[Call], replies: list[Reply]) -> Given:
         """What is judged in the replies; NoNumbersError where there is nothing to judge."""
+        replies = [_of_kind(call, reply) for call, reply in zip(calls, replies, strict=False)]
         faults = [k for k, reply in enumerate(replies) if reply.fault]
         if faults:
             raise self._of_faults(calls, replies, faults)
@@ -133,6 +136,16 @@ class Reading:
             except UnfitError:
                 found.append(k)
         return found or [0]
+
+
+def _of_kind(call: Call, reply: Reply) -> Reply:
+    """The reply; a fault where it holds what no reply to this call can, as one from the sandbox may."""
+    if reply.fault or call.parts:
+        return reply
+    shape = np.shape(reply.value) if isinstance(reply.value, np.ndarray) else None
+    if shape is None or (call.at and shape[:1] != (len(call.at),)):
+        return Reply(fault=Fault(FaultKind.GARBLED))
+    return reply
 
 
 def needed(call: Call) -> str:
