@@ -6,6 +6,7 @@ are judged that do not hang on these.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -142,8 +143,8 @@ def _of_kind(call: Call, reply: Reply) -> Reply:
     """The reply; a fault where it holds what no reply to this call can, as one from the sandbox may."""
     if reply.fault or call.parts:
         return reply
-    shape = np.shape(reply.value) if isinstance(reply.value, np.ndarray) else None
-    if shape is None or (call.at and shape[:1] != (len(call.at),)):
+    value: Any = reply.value
+    if isinstance(value, dict | list) or (call.at and np.shape(value)[:1] != (len(call.at),)):
         return Reply(fault=Fault(FaultKind.GARBLED))
     return reply
 
