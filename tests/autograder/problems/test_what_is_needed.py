@@ -6,6 +6,7 @@ from autograder.judging.verdict import State
 from tests.autograder.verdicts import judged
 
 NUMBERS = "it must return numbers."
+CALL_IT = "Call it: write its arguments behind it, in round brackets."
 EXPRESSION = "it must return a SymPy expression of its arguments."
 EXPRESSIONS = "it must return SymPy expressions of its arguments."
 TRUTH = "it must return True or False."
@@ -15,10 +16,16 @@ USE_SYMPY = "takes only numbers, and this is a SymPy expression: SymPy's own is 
 @pytest.mark.parametrize(
     ("check_id", "body", "said"),
     [
-        ("p3-g_vec", "'m g lc sin q'", f"returned the text 'm g lc sin q'; {NUMBERS}"),
+        (
+            "p3-g_vec",
+            "'m g lc sin q'",
+            f"returned the text 'm g lc sin q'; {NUMBERS} Without the quotes, Python would compute it.",
+        ),
+        ("p3-g_vec", "(-pend.m) ** 0.5", f"{NUMBERS} Is it a root of something negative?"),
+        ("p3-g_vec", "np.array([1j])", f"{NUMBERS} Is there a root of something negative?"),
         ("p3-g_vec", "np.array([True])", f"returned an array of True and False; {NUMBERS}"),
         ("p3-g_vec", "bool(abs(q[0]) < 9)", f"returned True; {NUMBERS}"),
-        ("p3-g_vec", "np.sin", f"returned the function sin itself; {NUMBERS}"),
+        ("p3-g_vec", "np.sin", f"returned the function sin itself; {NUMBERS} {CALL_IT}"),
         ("p3-g_vec", "sp.Eq(sp.Symbol('u'), 1)", f"returned the equation Eq(u, 1); {NUMBERS}"),
         ("p3-lagrangian", "'K - P'", f"returned the text 'K - P'; {EXPRESSION}"),
         ("p3-lagrangian", "sp.Eq(q, 1)", f"returned the equation Eq(q, 1); {EXPRESSION}"),
