@@ -64,10 +64,12 @@ def describe_unfit(signature: str, unfit: str, truth: bool, value, right) -> str
     unfit: what came, and what is needed. truth: whether True or False is. value: what came for a call;
     right: what should have.
     """
+    if isinstance(value, dict | list) or isinstance(right, dict | list):
+        return f"{signature} returned {unfit}."
     if truth and np.size(value) != 1:
         return (
-            f"{signature} returned {np.size(value)} values of True or False, in shape "
-            f"{np.shape(value)}; it must return one. When is the answer True: where all of them are?"
+            f"{signature} returned {np.size(value)} values, in shape {np.shape(value)}; it must return "
+            "one, True or False. Must all of them hold (np.all), or is one enough (np.any)?"
         )
     matrix, n = np.shape(value), np.size(right)
     if np.ndim(right) == 1 and n > 1 and matrix == (n, n):

@@ -6,6 +6,9 @@ are judged that do not hang on these.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
 
 from autograder.judging.call_text import given_by, shapes, shown_call
 from autograder.judging.faults import NUMBERS, describe_unfit
@@ -74,6 +77,7 @@ class Reading:
 
     def given(self, calls: list[Call], replies: list[Reply]) -> Given:
         """What is judged in the replies; NoNumbersError where there is nothing to judge."""
+        replies = [_of_kind(call, reply) for call, reply in zip(calls, replies, strict=False)]
         faults = [k for k, reply in enumerate(replies) if reply.fault]
         if faults:
             raise self._of_faults(calls, replies, faults)
@@ -140,6 +144,16 @@ class Reading:
             except UnfitError:
                 found.append(k)
         return found or [0]
+
+
+def _of_kind(call: Call, reply: Reply) -> Reply:
+    """The reply; a fault where it holds what no reply to this call can, as one from the sandbox may."""
+    if reply.fault or call.parts:
+        return reply
+    value: Any = reply.value
+    if isinstance(value, dict | list) or (call.at and np.shape(value)[:1] != (len(call.at),)):
+        return Reply(fault=Fault(FaultKind.GARBLED))
+    return reply
 
 
 def needed(call: Call) -> str:

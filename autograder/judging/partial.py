@@ -120,8 +120,5 @@ def _filled(value: np.ndarray, fill) -> np.ndarray:
 
 
 def _same(k: int, one: Numbers, other: Numbers) -> bool:
-    """Whether the numbers of criterion k are the same, finite ones, in every case."""
-    return all(
-        is_finite(a[k]) and np.shape(a[k]) == np.shape(b[k]) and np.array_equal(a[k], b[k])
-        for a, b in zip(one, other, strict=True)
-    )
+    """Whether the numbers of criterion k are the same in every case; a NaN is not even itself."""
+    return all(np.array_equal(a[k], b[k]) for a, b in zip(one, other, strict=True))

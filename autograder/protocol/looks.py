@@ -8,6 +8,7 @@ from contextlib import ExitStack
 from types import TracebackType
 
 from .calls import TimeLimitError, message_of, time_limit
+from .riddles import of_error, sentence
 from .words import one_line
 
 # Takes the id of the check in whose function an error was raised, if any; gives the one to blame.
@@ -81,7 +82,9 @@ class Look:
             return f"{who} {failure if raising else details}: {_cards(cards)}."
         blamed = self._blame(raising)
         if blamed is None:  # the functions are right, but not in a form that this cell can use
-            return f"{_name(raising) if raising else 'This cell'} {details}"
+            who = _name(raising) if raising else "This cell"
+            means = sentence(of_error(error, message_of(error)))
+            return f"{who} {details.removesuffix('.')}. {means}" if means else f"{who} {details}"
         if blamed == raising:
             return f"{_name(raising)} {failure}: {_cards([blamed])}."
         return f"This cell cannot use what {_name(blamed)} returns: {_cards([blamed])}."

@@ -189,6 +189,9 @@ def test_a_mistake_is_named_drawn_and_mended(inertia):
           - text: "Worst case:"
           - code: /M\\(.*l1=/
           - text: /gave .* kg·m².*, off by .* kg·m²/
+        - paragraph:
+          - text: "The arguments of the worst case:"
+          - code: from autograder import worst_case; q, arm = worst_case("p1-M")
         - paragraph: /Change your function/
         - paragraph:
           - text: Stuck? Run

@@ -220,6 +220,9 @@ def test_right_answers_get_no_blame_where_the_cell_fails_all_the_same(look_in):
     assert look_in("'p3-M'", RIGHT_M, "1 / 0") == (
         "This cell raises ZeroDivisionError: division by zero\n"
     )
+    said = look_in("'p3-M'", RIGHT_M, "bool(np.ones(2))")
+    assert said.startswith("This cell raises ValueError: The truth value of an array")
+    assert "a.all(). A condition needs one True or False, and this one is an array" in said
 
 
 def test_figures_of_a_failing_look_are_closed_and_no_others(look_in):

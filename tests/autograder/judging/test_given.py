@@ -1,11 +1,13 @@
 """What the card says of calls without numbers: which failed, how many, and which work."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from autograder.judging.check import VISIBLE_CASES
+from autograder.judging.partial import is_finite
 from autograder.judging.verdict import State, failing
 from autograder.problems import CHECKS
 from autograder.protocol import FaultKind, Reply, answer, calls
@@ -115,8 +117,8 @@ def test_a_matrix_where_a_vector_belongs_is_asked_after(body, said):
 
 def test_an_array_where_one_truth_value_belongs():
     assert shown("p1-is_spd", "A > 0").problem == (
-        "is_spd(A) returned 4 values of True or False, in shape (2, 2); it must return one. When is the "
-        "answer True: where all of them are?"
+        "is_spd(A) returned 4 values, in shape (2, 2); it must return one, True or False. Must all of "
+        "them hold (np.all), or is one enough (np.any)?"
     )
 
 
@@ -139,3 +141,30 @@ def test_a_forged_fault_gets_no_more_than_a_fault():
     verdict = check.run(ask, np.random.default_rng(0), VISIBLE_CASES)
     assert (verdict.state, verdict.credit) == (State.ERROR, 0)
     assert verdict.failed.tried == 0
+
+
+SHAPES = ((), (0,), (1,), (2,), (3,), (4,), (9,), (2, 2), (1, 2), (6, 2), (2, 3, 4))
+PARTS = ({}, [], {"l1": np.array(1.0)}, [{"l1": np.array([np.nan])}, np.array(0.0)])
+
+
+@pytest.mark.parametrize("check", CHECKS.values(), ids=CHECKS)
+def test_nothing_that_came_back_is_the_fault_of_the_check(check):
+    """Whatever the shape and whatever the numbers: it is the answer that is wrong."""
+    whole = [np.full(shape, number) for shape in SHAPES for number in (1.0, np.nan)]
+    parts = [*PARTS, *whole[:8]]  # as only a forged reply to most calls can be
+    if check.id != "p1-singular_arm":
+        parts = [*PARTS[:1], *whole]
+    made = check.calls(np.random.default_rng(0), VISIBLE_CASES)
+    for k, value in enumerate(parts):
+        other = parts[(7 * k + 3) % len(parts)]
+        for values in (len(made) * [value], [value, *(len(made) - 1) * [other]]):
+
+            def ask(asked, values=values):
+                return [Reply(value=value) for value in values][: len(asked)]
+
+            verdict = replace(check, catalogue=None, mistakes=(), terms=()).run(
+                ask, np.random.default_rng(0), VISIBLE_CASES
+            )
+            assert verdict.state is not State.CHECK_FAILED, (value, other, verdict.problem)
+            if verdict.state is State.CORRECT:
+                assert all(map(is_finite, values))

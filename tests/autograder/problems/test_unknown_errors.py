@@ -84,7 +84,8 @@ def test_only_symbols_call_for_sympys_functions():
     """The same error of NumPy, where the arguments are numbers and the symbol is the student's own."""
     verdict = judged("p3-g_vec", "np.cos(sp.Symbol('q'))")
     assert verdict.state is State.ERROR
-    assert "Use SymPy's" not in verdict.problem
+    assert "SymPy's own" not in verdict.problem
+    assert "The arguments are numbers" in verdict.problem
 
 
 def test_sympys_own_truth_is_one():

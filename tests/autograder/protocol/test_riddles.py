@@ -288,26 +288,28 @@ def test_nothing_of_the_students_runs_again():
     """Not even what stands between the names: it may print, take long, or fail otherwise."""
     body = (
         "class Sly:\n"
-        "    seen = []\n"
         "    def __getattr__(self, name):\n"
-        "        self.seen.append(name)\n"
-        "        return 1\n"
-        "    def __array__(self, *a, **k):\n"
-        "        self.seen.append('array')\n"
+        "        seen.append(name)\n"
+        "        return 0\n"
+        "    def __index__(self):\n"
+        "        seen.append('index')\n"
+        "        return 0\n"
+        "    def __array__(self, *given, **named):\n"
+        "        seen.append('array')\n"
         "        return np.ones(3)\n"
         "x = Sly()\n"
-        "f.sly = x\n"
-        "before = len(x.seen)\n"
-        "f.before = before\n"
-        "return J @ x.M[q[1]] if before else x @ J"
+        "try:\n"
+        "    {}\n"
+        "finally:\n"
+        "    seen.append('the end')\n"
     )
-    namespace = defined(body)
-    fault = protocol.answer(Call("f", tuple(ARGUMENTS.values())), namespace).fault
-    assert fault.kind is FaultKind.RAISED
-    once = list(namespace["f"].sly.seen)
-    with pytest.raises((TypeError, ValueError)):
-        namespace["f"](*ARGUMENTS.values())
-    assert namespace["f"].sly.seen == once
+    for failing in ("J[x] @ I", "J[x.row] @ I", "x @ I", "[x, x] @ I", "math.cos([x])"):
+        namespace = defined(body.format(failing))
+        namespace["seen"] = seen = []
+        fault = protocol.answer(Call("f", tuple(ARGUMENTS.values())), namespace).fault
+        assert fault.kind is FaultKind.RAISED
+        assert seen[-1] == "the end"
+        assert len(seen) > 1 or "math" in failing
 
 
 def test_words_are_short_and_on_one_line():

@@ -69,14 +69,14 @@ def test_the_criteria_of_is_spd_see_both_kinds():
 
 def test_worst_case_of_is_spd_is_a_matrix():
     for _, body, _ in TABLE["p1-is_spd"]:
-        assert judged("p1-is_spd", body).witness.call.startswith("is_spd([[")
+        assert judged("p1-is_spd", body).witness.call.startswith("is_spd(np.array([[")
 
 
 def test_worst_case_of_a_truth_value():
     verdict = judged("p1-is_spd", "True")
     asked = "(positive definite told from indefinite)"
     shown = " ".join(str(verdict).split())
-    assert f"gave True; the right answer is False {asked}. Change" in shown
+    assert f"gave True; the right answer is False {asked}. The arguments" in shown
     shown = " ".join(str(verdict.without_inputs()).split())
     assert f"Worst case: your function gave True; the right answer is False {asked}." in shown
 

@@ -46,7 +46,7 @@ UNFIT = {
     "p1-M": [("arm.I1", "it must return shape (2, 2)")],
     "p1-is_spd": [
         ("np.linalg.eigvalsh(A)[0] * 0 + 0.7", "0.7; it must return True or False"),
-        ("np.linalg.eigvalsh(A) > 0", "it must return one number"),
+        ("np.linalg.eigvalsh(A) > 0", "it must return one, True or False"),
         ("'yes'", "returned the text 'yes'; it must return True or False."),
         ("sp.Symbol('x') > 0", "returned the inequality x > 0; it must return True or False."),
     ],

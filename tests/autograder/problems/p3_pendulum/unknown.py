@@ -50,16 +50,19 @@ UNEXPLAINED = {
 NEARLY = {"p3-C": ["1e-4 * qd"], "p3-lagrangian": [f"({KINETIC} - {POTENTIAL}) * 1.0001"]}
 NUMBERS = "it must return numbers."
 EXPRESSION = "it must return a SymPy expression of its arguments."
-USE_SYMPY = (
-    "Its arguments are SymPy's symbols, and the functions of NumPy and of math take only numbers. "
-    "Use SymPy's own, such as sp.cos."
-)
+USE_SYMPY = "takes only numbers, and this is a SymPy expression: SymPy's own is sp.cos."
+CALL_IT = "Call it: write its arguments behind it, in round brackets."
 UNFIT = {
     "p3-g_vec": [
-        ("'m g lc sin q'", f"returned the text 'm g lc sin q'; {NUMBERS}"),
+        (
+            "'m g lc sin q'",
+            f"returned the text 'm g lc sin q'; {NUMBERS} Without the quotes, Python would compute it.",
+        ),
+        ("(-pend.m) ** 0.5", f"{NUMBERS} Is it a root of something negative?"),
+        ("np.array([1j])", f"{NUMBERS} Is there a root of something negative?"),
         ("np.array([True])", f"returned an array of True and False; {NUMBERS}"),
         ("bool(abs(q[0]) < 9)", f"returned True; {NUMBERS}"),
-        ("np.sin", f"returned the function sin itself; {NUMBERS}"),
+        ("np.sin", f"returned the function sin itself; {NUMBERS} {CALL_IT}"),
         ("sp.Eq(sp.Symbol('u'), 1)", f"returned the equation Eq(u, 1); {NUMBERS}"),
     ],
     "p3-lagrangian": [
