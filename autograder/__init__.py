@@ -5,5 +5,6 @@ from autograder.student.cell import check
 from autograder.student.hints import hint
 from autograder.student.look import look_at
 from autograder.student.own_arm import own_arm
+from autograder.student.solution import solution
 
-__all__ = ["check", "from_file", "hint", "look_at", "own_arm"]
+__all__ = ["check", "from_file", "hint", "look_at", "own_arm", "solution"]
