@@ -16,6 +16,8 @@ OPENS = ".worked-answers-open.json"  # the key WHEN → a time, or FULL_MARKS
 WHEN = "when"
 FULL_MARKS = "with full marks"
 MOST_BYTES = 4 << 20
+# nbgrader's feedback pages break code within words otherwise.
+LOOK = "margin: 0.3em 0; overflow-x: auto; white-space: pre; word-break: normal"
 OF_THE_BOOK = (
     "This is the answer for the arm of the book. Yours is described in another way, so that its "
     "formulas differ: what leads to them is the same."
@@ -56,9 +58,9 @@ def mimebundle(id: str, answer: str, is_text: bool, remark: str = "") -> dict[st
     said = f'<p style="margin: 0.3em 0">{escape(remark)}</p>' if remark else ""
     html = (
         f'<div class="armdyn-solution" role="group" aria-label="{escape(title)}"'
-        ' style="border-left: 5px solid #009E73; padding: 0.4em 0.9em; max-width: 46em">'
+        ' style="border-left: 5px solid #009E73; padding: 0.4em 0.9em; max-width: 60em">'
         f'<p style="margin: 0.2em 0"><strong>{escape(title)}</strong></p>{said}'
-        '<pre class="tex2jax_ignore mathjax_ignore" style="margin: 0.3em 0; overflow-x: auto">'
+        f'<pre class="tex2jax_ignore mathjax_ignore" style="{LOOK}">'
         f"<code>{escape(answer)}</code></pre></div>"
     )
     return {"text/plain": plain, "text/html": html}
