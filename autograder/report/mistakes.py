@@ -68,10 +68,10 @@ def made_together(made: list[Made], students: int) -> list[Together]:
             continue
         if _chance(len(both), len(first.students), len(second.students), students) < RARE:
             found.setdefault(tuple(sorted(both)), {}).update({first: None, second: None})
-    groups = [
-        Together(tuple(wrong), names, _expected(tuple(wrong), students))
-        for names, wrong in found.items()
-    ]
+    groups = []
+    for names, answers in found.items():
+        wrong = tuple(sorted(answers, key=lambda one: (one.check, one.sentence)))
+        groups.append(Together(wrong, names, _expected(wrong, students)))
     groups.sort(key=lambda one: (one.expected / len(one.students), one.students))
     return groups[:MOST_GROUPS]
 
