@@ -22,7 +22,7 @@ CHROMIUM = (
     "--disable-component-update",
     "--disable-sync",
 )
-PATIENCE = 60_000  # ms
+PATIENCE = 120_000  # ms
 
 
 @pytest.fixture(scope="package")
