@@ -5,6 +5,7 @@ import difflib
 import os
 import sys
 from contextlib import AbstractContextManager
+from datetime import datetime
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -50,6 +51,23 @@ def main(arguments: list[str] | None = None) -> int:
         "assignment",
         nargs="?",
         help="its name in solutions/, such as p1-inertia (default: all of the term)",
+    )
+    opening = commands.add_parser(
+        "open-solution",
+        help="let students see an assignment's worked answers with solution(), now or from a time on",
+    )
+    opening.add_argument(
+        "assignment", nargs="?", help="its name in solutions/ (default: all whose time has come)"
+    )
+    opening.add_argument(
+        "--on",
+        metavar="TIME",
+        help="from then on, as 2026-12-15 or 2026-12-15T12:00 (default: now)",
+    )
+    opening.add_argument(
+        "--full-marks",
+        action="store_true",
+        help="on the feedback pages, for each check of which a student has all points",
     )
     trying = commands.add_parser(
         "try",
@@ -98,6 +116,8 @@ def main(arguments: list[str] | None = None) -> int:
         return grade(root, given.assignment, given.jobs, given.scheduler, given.force)
     if given.command == "report":
         return report(root, given.assignment)
+    if given.command == "open-solution":
+        return open_solution(root, given.assignment, given.on, given.full_marks)
     if given.command == "new-problem":
         return new_problem(root, given.mechanism, given.asks)
     return problems(root)
@@ -253,6 +273,28 @@ def report(root: Path, assignment: str | None) -> int:
         return _complain(why or str(error))
     say(said)
     say(f"The whole page: {to.relative_to(root)}")
+    return 0
+
+
+def open_solution(root: Path, assignment: str | None, on: str | None, full_marks: bool) -> int:
+    """Open an assignment's worked answers to students; without a name, all whose time has come."""
+    from autograder import lean  # noqa: F401  before nbformat is imported
+    from autograder.nbgrader_glue.worked import open_answers, settings
+    from autograder.worked_answers import FULL_MARKS
+
+    if on is not None and full_marks:
+        return _complain("give --on or --full-marks, not both")
+    if assignment is None and (on is not None or full_marks):
+        return _complain("name the assignment whose answers open then")
+    if assignment is not None and (why := _unknown(root, _name_of(assignment))):
+        return _complain(why)
+    when = FULL_MARKS if full_marks else on or datetime.now().isoformat()
+    asked = settings(root) if assignment is None else {_name_of(assignment): when}
+    try:
+        for line in open_answers(root, asked):
+            say(line)
+    except (OSError, ValueError) as error:
+        return _complain(str(error))
     return 0
 
 

@@ -111,6 +111,7 @@ MAY_IMPORT = {
     "digest": (),
     "files": (),
     "hints_seen": ("files",),
+    "worked_answers": ("files",),
     "protocol": (),
     "sandbox/inside": (),
     "terminal": ("protocol",),
@@ -124,7 +125,9 @@ MAY_IMPORT = {
     "proofs": ("protocol",),
     "problems": ("protocol", "judging", "mechanisms", "mutation"),
     "pictures": ("protocol", "judging", "mechanisms", "mutation", "problems"),
-    "student": ("hints_seen", "protocol", "judging", "pictures", "problems", "proofs"),
+    "student": (
+        *("hints_seen", "worked_answers", "protocol", "judging", "pictures", "problems", "proofs"),
+    ),
     "notebook": ("digest", "terminal", "protocol", "sandbox", "judging", "problems", "proofs"),
     "report": ("terminal", "protocol", "judging", "problems", "notebook"),
     "pipeline": ("digest", "files", "terminal", "protocol", "sandbox", "judging", "notebook"),
@@ -132,9 +135,11 @@ MAY_IMPORT = {
         "digest",
         "files",
         "hints_seen",
+        "worked_answers",
         "terminal",
         "protocol",
         "sandbox",
+        "problems",
         "notebook",
         "report",
     ),
@@ -154,6 +159,7 @@ MAY_IMPORT = {
         "pipeline",
         "report",
         "terminal",
+        "worked_answers",
     ),
 }
 

@@ -178,10 +178,9 @@ class Check:
             met = [one and two for one, two in zip(right, later, strict=True)]
         remark = changes.remark(self.name, changed, met != right)
         credit = sum(c.share for c, ok in zip(self.criteria, met, strict=True) if ok)
-        whole: tuple[str, ...] = ()
-        of_each: list[tuple[str, ...]] = [()] * len(met)
+        said: list[tuple[str, ...]] = [()] * len(met)
         if all(met):
-            rows = self._rows(met, of_each)
+            rows = self._rows(met, said)
             return Verdict(self.id, State.CORRECT, 1.0, rows, remark=remark, further=self.further)
         # Only what it does to its arguments is wrong, where a first call is right.
         judged, when = (again, changes.SECOND) if again and all(right) else (given, "")
@@ -192,7 +191,7 @@ class Check:
         if not all(told):
             worst = self._witness(calls, expected, numbers, told, judged.values, when)
             if not when:
-                whole, of_each = self._diagnosis(calls, expected, numbers, told, ask)
+                said = self._diagnosis(calls, expected, numbers, told, ask)
         problem, failed = given.problem, given.failed
         if not problem and again and again.problem:
             problem, failed = f"On the second call, {again.problem}", again.failed
@@ -200,10 +199,10 @@ class Check:
             self.id,
             State.PARTLY_CORRECT if credit > 0 else State.INCORRECT,
             credit,
-            self._rows(met, of_each),
+            self._rows(met, said),
             worst,
             problem,
-            tuple(dict.fromkeys([*whole, *chain.from_iterable(of_each)])),
+            tuple(dict.fromkeys(chain.from_iterable(said))),
             remark,
             failed=failed,
             next_step="Change your function, run its cell, then run this cell again.",
@@ -233,16 +232,12 @@ class Check:
 
     def _diagnosis(
         self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool], ask: Ask | None
-    ) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-        """What to say of the whole answer, and of each criterion: nothing of one that is met."""
+    ) -> list[tuple[str, ...]]:
+        """What to say of each criterion: nothing of one that is met."""
         layout = layouts(given, expected)
         wrong = self._wrong(layout, calls)
         if mistake := wrong.explaining(self.criteria, layout, rows(layout, given), met):
-            said: tuple[str, ...] = (mistake.sentence,)
-            nothing: list[tuple[str, ...]] = [()] * len(met)
-            if met.count(False) > 1:
-                return said, nothing
-            return (), [() if ok else said for ok in met]
+            return [() if ok else (mistake.sentence,) for ok in met]
 
         @cache  # calls are made once, and only where something is left to explain
         def tried() -> tuple[list[dependence.Probe], Numbers, Numbers] | None:
@@ -261,7 +256,7 @@ class Check:
             terms = self.terms if isinstance(self.terms, tuple) else self.terms()
             return [(term, self._quantities_of(term.model, calls)) for term in terms]
 
-        return (), sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
+        return sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
 
     def _wrong(self, layout: list[Layout], calls: list[Call]) -> Wrong:
         """The numbers of every mistake."""

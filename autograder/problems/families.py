@@ -92,6 +92,11 @@ def on(own: Convention, check: Check) -> Check:
     return changed
 
 
+def differs(own: Convention | None, check: Check) -> bool:
+    """Whether this arm's right answer is another than that of the arm of the book."""
+    return own is not None and own != BOOK and on(own, check) is not check
+
+
 def _right(own: Convention, check: Check):
     """The right answer of a check on this arm."""
     match check.id:

@@ -5,26 +5,8 @@ import re
 import tokenize
 from collections.abc import Iterable
 
-from nbformat import NotebookNode
-
-from autograder.problems import check_for
-
 MOST_LINES, MOST_COLUMNS = 24, 100
 HIDDEN = "…"
-
-
-def answers_to(checks: Iterable[str], cells: list[NotebookNode]) -> dict[str, str]:
-    """The source of the last code cell that defines each check's function, by check."""
-    sources = [cell.source for cell in cells if cell.cell_type == "code"]
-    found = {}
-    for check in checks:
-        known = check_for(check)
-        name = re.escape(known.name if known else check.rpartition("-")[2])
-        defines = re.compile(rf"^(def\s+{name}\s*\(|{name}\s*=[^=])", re.MULTILINE)
-        defining = [source for source in sources if defines.search(source)]
-        if defining:
-            found[check] = defining[-1]
-    return found
 
 
 def anonymous(source: str, names: Iterable[str]) -> str:

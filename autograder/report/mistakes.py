@@ -10,8 +10,8 @@ from autograder.problems import check_for
 from autograder.report.answers import anonymous
 from autograder.report.students import Student
 
-MOST_PAIRS = 10
-# A pair is shown if chance brings so many together less often than this.
+MOST_GROUPS = 10
+# Two answers are shown if chance brings so many who gave both together less often than this.
 RARE = 0.01
 
 
@@ -30,13 +30,12 @@ class Made:
 
 @dataclass(frozen=True)
 class Together:
-    """Two wrong answers that several students share, to different checks.
+    """Wrong answers to two checks or more that the same students gave.
 
-    expected: how many would share them by chance, if to make one made the other no likelier.
+    expected: how many would have given all of them by chance, if to give one made no other likelier.
     """
 
-    first: Made
-    second: Made
+    wrong: tuple[Made, ...]
     students: tuple[str, ...]
     expected: float
 
@@ -56,22 +55,33 @@ def mistakes_made(students: Iterable[Student]) -> list[Made]:
 
 
 def made_together(made: list[Made], students: int) -> list[Together]:
-    """Pairs of mistakes in different checks that more students share than chance explains.
+    """The wrong answers to different checks that more students share than chance explains, rarest first.
 
-    students: of the class. Such pairs say that an explanation is missing, or that work was shared, or
-    nothing: mistakes that many make come together by themselves.
+    students: of the class. That answers are shared says that an explanation is missing, or that work was
+    shared, or nothing: mistakes that many make come together by themselves.
     """
-    found: list[tuple[float, int, int, Together]] = []
+    found: dict[tuple[str, ...], dict[Made, None]] = {}
     shared = [one for one in made if len(one.students) > 1]
     for first, second in combinations(shared, 2):
-        if first.check == second.check:
-            continue
         both = tuple(name for name in first.students if name in set(second.students))
-        counts = len(first.students), len(second.students)
-        if len(both) > 1 and (rare := _chance(len(both), *counts, students)) < RARE:
-            together = Together(first, second, both, counts[0] * counts[1] / students)
-            found.append((rare, -len(both), len(found), together))
-    return [together for *_, together in sorted(found, key=lambda one: one[:3])][:MOST_PAIRS]
+        if first.check == second.check or len(both) < 2:
+            continue
+        if _chance(len(both), len(first.students), len(second.students), students) < RARE:
+            found.setdefault(tuple(sorted(both)), {}).update({first: None, second: None})
+    groups = []
+    for names, answers in found.items():
+        wrong = tuple(sorted(answers, key=lambda one: (one.check, one.sentence)))
+        groups.append(Together(wrong, names, _expected(wrong, students)))
+    groups.sort(key=lambda one: (one.expected / len(one.students), one.students))
+    return groups[:MOST_GROUPS]
+
+
+def _expected(wrong: tuple[Made, ...], students: int) -> float:
+    """How many of a class would have given all these answers by chance; one of each check counts."""
+    fewest: dict[str, int] = {}
+    for one in wrong:
+        fewest[one.check] = min(len(one.students), fewest.get(one.check, students))
+    return students * math.prod(count / students for count in fewest.values())
 
 
 def _chance(both: int, first: int, second: int, students: int) -> float:

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import nbformat
 
+from autograder.notebook.answers import answers_to
 from autograder.notebook.outputs import read_verdict
 from autograder.protocol import one_line
-from autograder.report.answers import answers_to
 
 
 @dataclass(frozen=True)

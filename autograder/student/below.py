@@ -7,7 +7,7 @@ from autograder.judging.card import Line
 from autograder.judging.section import Section
 from autograder.judging.verdict import State, Verdict
 from autograder.problems import known_check
-from autograder.student import progress
+from autograder.student import progress, solution
 
 LESSONS = Path("../../lessons")  # from a problem's notebook
 
@@ -18,17 +18,24 @@ def lines(verdict: Verdict) -> list[Line]:
     if verdict.state not in (State.CORRECT, State.CHECK_FAILED):
         check = known_check(verdict.check)
         if check.hints:
-            found.append(_hint(check.id))
+            hint = f'hint("{check.id}")'
+            found.append(_call("Stuck? Run {} for a hint. Hints cost no points.", hint))
         if check.section:
             found.append(_section(check.section))
+    elif verdict.check in solution.opened():
+        found.append(
+            _call(
+                "A worked answer is open: {}.",
+                f'from autograder import solution; solution("{verdict.check}")',
+            )
+        )
     if points := progress.of(verdict.check):
         found.append(Line(str(points)))
     return found
 
 
-def _hint(id: str) -> Line:
-    call = f'hint("{id}")'
-    said = "Stuck? Run {} for a hint. Hints cost no points."
+def _call(said: str, call: str) -> Line:
+    """A sentence with a call in it, which is shown as code."""
     return Line(said.format(call), said.format(f"<code>{escape(call)}</code>"))
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from autograder.judging.check import VISIBLE_CASES
 from autograder.judging.given import Given
-from autograder.judging.verdict import State
+from autograder.judging.verdict import AS_ABOVE, State
 from autograder.problems import CHECKS
 from autograder.protocol import Reply
 from tests.autograder.verdicts import judged
@@ -28,10 +28,8 @@ def test_what_is_said_belongs_to_criteria_that_are_not_met(id):
             continue
         of_rows = [sentence for row in verdict.rows for sentence in row.said]
         assert not [row for row in verdict.rows if row.met and row.said]
-        assert set(of_rows) | set(verdict.of_the_whole) == set(verdict.diagnosis)
-        unmet = [row for row in verdict.rows if not row.met]
-        # One sentence for all is said only where there are several to explain.
-        assert not verdict.of_the_whole or (len(unmet) > 1 and not of_rows)
+        assert tuple(dict.fromkeys(of_rows)) == verdict.diagnosis
+        assert verdict.of_the_whole == ()
         seen += bool(verdict.diagnosis)
     assert seen
 
@@ -53,6 +51,21 @@ return np.array([[M11, M12], [M12, M22]])
     assert second.said
     assert set(first.said).isdisjoint(second.said)
     assert verdict.diagnosis == (*first.said, *second.said)
+
+
+def test_one_mistake_behind_several_criteria_is_said_of_each_and_shown_once():
+    a = "arm.m2 * arm.l1 * arm.lc2"  # the coupling of the stretched arm
+    verdict = judged(
+        "p1-M",
+        f"""
+M22 = arm.I2 + arm.m2 * arm.lc2**2
+M11 = arm.I1 + arm.m1 * arm.lc1**2 + M22 + arm.m2 * arm.l1**2 + 2 * {a}
+return np.array([[M11, M22 + {a}], [M22 + {a}, M22]])
+""",
+    )
+    (sentence,) = verdict.diagnosis
+    assert [row.said for row in verdict.rows] == [(sentence,), (sentence,), ()]
+    assert [said for _, said in verdict.said_of_rows()] == [[sentence], [AS_ABOVE], []]
 
 
 def test_a_right_answer_is_led_further_and_a_wrong_one_is_not():

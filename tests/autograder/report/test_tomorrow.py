@@ -128,6 +128,19 @@ def test_wrong_answers_are_shown_together_where_chance_does_not_explain_it(
         assert one.expected == pytest.approx(first * second / size)
 
 
+def test_students_who_share_more_than_two_stand_in_one_line():
+    many = {"p3-M": "One.", "p3-C": "Two.", "p3-g_vec": "Three.", "p1-M": "Four."}
+    told = [student(name, many) for name in ("dee", "eva", "finn")]
+    told += [student(f"s{k}", {"p3-M": "One."} if k < 2 else {}) for k in range(27)]
+    (one,) = mistakes.made_together(mistakes.mistakes_made(told), 30)
+    assert one.students == ("dee", "eva", "finn")
+    assert {made.check for made in one.wrong} == many.keys()
+    assert one.expected == pytest.approx(30 * 5 / 30 * (3 / 30) ** 3)
+    text = str(Text(report.page(P3, 15.0, told)))
+    assert "p3-M (5 students): One." in text
+    assert "who dee, eva, finn" in text
+
+
 def test_two_sentences_of_one_answer_are_no_two_wrong_answers():
     both = {"p3-M": verdict("p3-M", "One.", "Two.")}
     told = [Student("ada", 1, 0, both), Student("bob", 1, 0, both)]

@@ -16,6 +16,10 @@ def hint(id=None):
     """Do nothing: nobody reads hints here."""
 
 
+def solution(id=None):
+    """Do nothing: a worked answer is no answer of the student's."""
+
+
 _lines = {}
 
 
