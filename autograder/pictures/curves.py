@@ -135,7 +135,9 @@ def _likeness(x, right, theirs, turns: bool, name: str, of_x: str, of_y: str) ->
                     f"{'right' if ahead else 'left'}."
                 ]
     k = int(np.argmax(np.abs(theirs - right)))
-    where, yours, other = written(x[k]), written(theirs[k]), written(right[k])
+    # What is no more than rounding is 0.
+    yours, other = (written(y if abs(y) > SAME * size else 0.0) for y in (theirs[k], right[k]))
+    where = written(x[k])
     return [
         f"They are furthest apart at {name} = {where} {of_x}: yours is {yours} {of_y}, the right one "
         f"{other} {of_y}."

@@ -119,8 +119,9 @@ def _starts(of: Comparison) -> list[str]:
     ]
     if not names:
         return []
-    starts = "starts to change" if len(names) == 1 else "start to change"
-    return [f"At the start, the velocity of {_listed(names)} {starts} the other way."]
+    velocity = "velocity" if len(names) == 1 else "velocities"
+    starts = "starts" if len(names) == 1 else "start"
+    return [f"The {velocity} of {_listed(names)} {starts} to change the other way."]
 
 
 def _ways(of: Comparison) -> list[str]:

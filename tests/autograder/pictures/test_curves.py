@@ -74,6 +74,10 @@ def test_gravity_goes_round_with_the_other_angle_held():
             "Your curve does not change with q; the right one does.",
         ),
         ("pend.m * pend.g * pend.lc * q", "They are furthest apart at q = −3.14 rad: yours is −"),
+        (
+            "q**3 + q",
+            "They are furthest apart at q = −3.14 rad: yours is −34.1 N·m, the right one 0 N·m.",
+        ),
     ],
 )
 def test_likeness_is_said_where_it_holds(body, said):

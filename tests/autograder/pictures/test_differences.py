@@ -55,7 +55,7 @@ def assert_true(both, sentence: str) -> None:
             assert near(float(number) * METRES[unit], abs(exact))
             assert (exact > 0) == (way == "up")
     elif "the other way" in sentence:
-        of = re.search(r"velocity of (.+) start", sentence).group(1)
+        of = re.search(r"velocit(?:y|ies) of (.+?) starts? to", sentence).group(1)
         for name in re.split(r", | and ", of):
             k = len(names) + names.index(name)
             first, theirs = (m.x[1, k] - m.x[0, k] for m in (both.right, both.theirs))
