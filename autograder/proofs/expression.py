@@ -1,6 +1,6 @@
 """The tree of a line: what a student's text becomes, and nothing that can run."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 
@@ -97,3 +97,17 @@ def walk(node: Node) -> Iterator[Node]:
 
 def minus(node: Node) -> Node:
     return Product((Number(-1.0), node))
+
+
+def names_in(node: Node, rates: Mapping[str, str]) -> set[str]:
+    """The names in a line, a rate by its own; "a derivative" for any other derivative."""
+    found = set()
+    for part in walk(node):
+        match part:
+            case Derivative(Name(name), "t") if name in rates:
+                found.add(rates[name])
+            case Derivative():
+                found.add("a derivative")
+            case Name(name):
+                found.add(name)
+    return found

@@ -131,6 +131,7 @@ def test_energy_gives_one_vector_and_skew_symmetry_all():
         ),
         ("p2-E", "Edot", "qd' u", ("chain rule",), "put the steps between on lines of their own"),
         ("p2-E", "qd' u", "qd' u + 1/2 qd' u", ("algebra",), "in a random state of a random"),
+        ("p2-E", "qd' u", "qd' u + 0.001^2 qd' u", ("algebra",), "in a random state of a random"),
         ("p2-E", "qd' u", "3 qd' u", (), "Give a reason"),
         ("p2-E", "qd' u", "u' qd", ("symetry of M",), "Did you mean symmetry of M?"),
         ("p2-E", "qd' u", "u' qd", ("magic",), "'magic' is no reason of the list."),

@@ -161,6 +161,15 @@ def test_a_hostile_line_is_refused_or_valued_quickly(text):
         assert time.process_time() - spent < 4
 
 
+def test_a_derivative_that_grows_too_long_is_refused():
+    rule = PENDULUM.reason("time derivative")
+    world = World(PENDULUM, np.random.default_rng(0), (rule,))
+    short, long = (f"d/dt(d/dt({'(q + I qd)^4 ' * factors}))" for factors in (1, 12))
+    world.value(PENDULUM.parser.read(short))
+    with pytest.raises(LineError, match="too long when its derivatives are written out"):
+        world.value(PENDULUM.parser.read(long))
+
+
 @pytest.mark.parametrize("name", ["rule", "sums", "many names", "nested frac"])
 def test_a_hostile_line_takes_little_memory(name, monkeypatch):
     monkeypatch.setattr(marking, "MOST_DIAGNOSED", 0)  # the worlds for that are many, and small
