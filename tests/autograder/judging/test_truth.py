@@ -21,6 +21,7 @@ from autograder.problems.material.definiteness import (
     is_symmetric,
     least_eigenvalue,
 )
+from autograder.problems.material.systems import FreeRun
 from autograder.problems.p1_inertia.checks import PARAMETERS
 from autograder.protocol import Call, Reply
 from tests.autograder.verdicts import sentences
@@ -354,3 +355,21 @@ def test_two_mistakes_that_add_up_by_chance_are_not_named(check_id, spoil, said)
     found = diagnosis(check, [spoil(value) for value in right])
     assert len(found) == len(said)
     assert all(own in sentence for own, sentence in zip(said, found, strict=True)), found
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda states: 0 * states + states[0], "does not come near the state where it should end"),
+        (lambda states: 1.01 * states, "Yours changes it by more than RK4 would"),
+    ],
+)
+def test_the_energy_of_a_run_is_judged_where_it_ends_near_its_end(spoil, said):
+    check = replace(CHECKS["p5-simulate"], mistakes=())
+    calls = calls_of(check)
+    values = [np.asarray(_evaluated(check.reference, call), float) for call in calls]
+    free = [k for k, call in enumerate(calls) if isinstance(call, FreeRun)]
+    found = diagnosis(check, [spoil(v) if k in free else v for k, v in enumerate(values)])
+    assert len(free) == 4
+    assert any(said in sentence for sentence in found), found
+    assert sum("free motion" in sentence for sentence in found) == 1
