@@ -69,7 +69,7 @@ def partial(quantities: Quantities, calls: list[Call], values: list) -> Partial 
             spoilt = _hanging_on(quantities, calls, values, bad)
             # A value of which no criterion takes notice is not judged to be none.
             each = [_hanging_on(quantities, calls, values, [k]) for k in bad]
-        except UnfitError:
+        except Exception:  # nor need they take other numbers
             return None
     if all(spoilt) or not all(map(any, each)):
         return None
