@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from autograder.judging.quantities import Numbers, Quantities, UnfitError
-from autograder.protocol import Call
+from autograder.protocol import Call, one_line
 
 MOST_NAMED = 3  # places of an array
+MOST_KEY = 40  # characters of a name that a student gave to a part
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ def where_not_finite(value) -> str:
         named = value.items() if isinstance(value, dict) else enumerate(value)
         key, part = next((key, part) for key, part in named if not is_finite(part))
         first, _, place = where_not_finite(part).partition(" at ")
-        return f"{first} at [{key!r}]{place}"
+        return f"{first} at [{one_line(repr(key), MOST_KEY)}]{place}"
     bad = np.argwhere(~np.isfinite(value))
     first = f"{value[tuple(bad[0])]}"
     if np.size(value) == 1:
@@ -69,7 +70,7 @@ def partial(quantities: Quantities, calls: list[Call], values: list) -> Partial 
             spoilt = _hanging_on(quantities, calls, values, bad)
             # A value of which no criterion takes notice is not judged to be none.
             each = [_hanging_on(quantities, calls, values, [k]) for k in bad]
-        except UnfitError:
+        except Exception:  # nor need they take other numbers
             return None
     if all(spoilt) or not all(map(any, each)):
         return None

@@ -144,7 +144,10 @@ def _divisor(scene: Scene, found, error) -> Words | None:
 
 def _of_numpy(scene: Scene, found, error) -> Words | None:
     name = str(error.name)
-    return (name,) if name in OF_NUMPY and hasattr(np, name) else None
+    if name not in OF_NUMPY or not hasattr(np, name):
+        return None
+    both = name in SAME_IN_SYMPY or name == "pi"
+    return name, f" for numbers, sp.{name} for symbols" if both else ""
 
 
 def _out_of_domain(scene: Scene, found, error) -> Words | None:
@@ -266,7 +269,7 @@ ROWS = (
         "numpy name",
         ("NameError",),
         r"is not defined",
-        "{0} needs a prefix: np.{0} takes numbers.",
+        "{0} needs a prefix: np.{0}{1}.",
         _of_numpy,
     ),
     Row(

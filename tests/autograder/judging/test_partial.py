@@ -156,3 +156,7 @@ def test_a_second_call_that_gives_a_nan_costs_what_hangs_on_it():
 )
 def test_the_place_is_the_students(value, said):
     assert where_not_finite(value) == said
+
+
+def test_a_long_name_of_a_part_is_cut():
+    assert len(where_not_finite({"l" * 10**6 + "\n": np.array(np.nan)})) < 60

@@ -235,7 +235,12 @@ CASES = [
         "math.sqrt has no value at x. Is that negative, or out of its range?",
     ),
     ("zero", "x = 0.0\nreturn 1 / abs(x)", "abs(x) is 0 in this call."),
-    ("numpy name", "cos(q[0])", "cos needs a prefix: np.cos takes numbers."),
+    (
+        "numpy name",
+        "cos(q[0])",
+        "cos needs a prefix: np.cos for numbers, sp.cos for symbols.",
+    ),
+    ("numpy name", "array([1.0])", "array needs a prefix: np.array."),
     (
         "relation",
         "x = sp.Symbol('x')\nreturn 1 if x > 0 else 0",

@@ -200,11 +200,15 @@ def test_in_a_notebook():
         "from autograder import worst_case; q, pend = worst_case('p3-M')\nprint(M(q, pend) / pend.I)",
         "def M(q, pend):\n    return pend.I\ncheck('p3-M')",
         "worst_case('p3-M')",
+        "def M(q, pend):\n    # its own cell's text is read\n    return q[1] * pend['I']\ncheck('p3-M')",
     ]
     notebook = nbformat.v4.new_notebook(cells=list(map(nbformat.v4.new_code_cell, cells)))
     nbclient.NotebookClient(notebook, kernel_name="python3", allow_errors=True).execute()
-    card, used, none = (notebook.cells[k].outputs for k in (2, 3, 5))
+    card, used, none, read = (notebook.cells[k].outputs for k in (2, 3, 5, 6))
     assert 'q, pend = worst_case("p3-M")' in card[0].data["text/plain"].replace("\n  ", " ")
     assert used[0].text == "0.5\n"
     assert none[0].ename == "NoWorstCaseError"
     assert none[0].traceback == ["p3-M has no worst case: its last verdict is correct"]
+    said = " ".join(read[0].data["text/plain"].split())
+    assert "q has 1 entry, and Python counts from 0: q[0] is q1." in said
+    assert "All 6 calls failed, the first of them: M(np.array([" in said
