@@ -1,5 +1,6 @@
 """What a card in a student's notebook ends with: where to go on."""
 
+import re
 from html import escape
 from pathlib import Path
 
@@ -30,7 +31,7 @@ def lines(verdict: Verdict) -> list[Line]:
             )
         )
     if points := progress.of(verdict.check):
-        found.append(Line(str(points)))
+        found.append(_points(str(points)))
     return found
 
 
@@ -48,3 +49,9 @@ def _section(section: Section) -> Line:
     link = f"{path.as_posix()}#cell-id={section.cell}"
     shown = f'<a href="{escape(link)}">{escape(section.heading)}</a>'
     return Line(f"{said.format(section.heading)} ({path.as_posix()})", said.format(shown))
+
+
+def _points(said: str) -> Line:
+    """The sentence; no line ends within the name of a check, after a hyphen."""
+    kept = r'<span style="white-space: nowrap">\1</span>'
+    return Line(said, re.sub(r"(\S+ \([\d.]+\))", kept, escape(said)))

@@ -89,6 +89,14 @@ def test_another_notebook_in_the_folder_is_not_taken_for_it(notebook, kernel):
     assert progress.of("p1-M") is None
 
 
+def test_no_line_ends_within_the_name_of_a_check(notebook):
+    (line,) = below.lines(Verdict("p3-M", State.CORRECT, 1.0))
+    kept = re.findall(r'<span style="white-space: nowrap">([^<]*)</span>', line.html)
+    assert kept[0] == "p3-lagrangian (3)"
+    assert len(kept) == 7
+    assert re.sub("<[^>]*>", "", line.html) == line.text
+
+
 def texts(verdict) -> list[str]:
     return [line.text for line in below.lines(verdict)]
 
