@@ -11,6 +11,7 @@ import pytest
 
 import autograder
 from autograder import watch
+from autograder.authoring.template import template
 from autograder.judging.call_text import shown_call
 from autograder.judging.check import VISIBLE_CASES
 from autograder.judging.given import Given
@@ -157,3 +158,12 @@ def test_all_of_gravity_is_shown_for_a_mechanism_too():
     body = UPWARD.replace("-np", "0.5 * np")
     text = shown(known_check("planar-2r-g_vec"), {"g_vec": function("planar-2r-g_vec", body)})
     assert "Your curve is 0.5 times as high as the right one everywhere." in text["text/plain"]
+
+
+def test_a_mechanism_of_a_courses_own_is_played(tmp_path, monkeypatch):
+    (tmp_path / "sled.py").write_text(template("sled"), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    check = known_check("sled-g_vec")
+    bundle = shown(check, {"g_vec": lambda q, arm: -check.reference(q, arm)})
+    assert "Your curve is the right one turned upside down." in bundle["text/plain"]
+    assert bundle["text/html"].count("<img") == 2
