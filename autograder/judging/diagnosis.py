@@ -135,7 +135,7 @@ def sentences(
                 continue
             right = expected_rows[other]
             sums = wrong.rows[other][first] + wrong.rows[other][second] - right
-            tolerance = criteria[other].allows(met[other])
+            tolerance = criteria[other].tolerance
             if not (of.same(right, sums, tolerance) or of.same(given_rows[other], sums, tolerance)):
                 return False
         return True

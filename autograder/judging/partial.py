@@ -47,8 +47,10 @@ def where_not_finite(value) -> str:
     if np.size(value) == 1:
         return first
     places = [f"[{', '.join(map(str, place))}]" for place in bad[:MOST_NAMED].tolist()]
-    more = f" and {len(bad) - MOST_NAMED} more places" if len(bad) > MOST_NAMED else ""
-    return f"{first} at {', '.join(places)}{more}"
+    if left := len(bad) - len(places):
+        places.append(f"{left} more")
+    *others, last = places
+    return f"{first} at {', '.join(others)} and {last}" if others else f"{first} at {last}"
 
 
 def partial(quantities: Quantities, calls: list[Call], values: list) -> Partial | None:

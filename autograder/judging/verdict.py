@@ -133,10 +133,16 @@ class Verdict:
 
     def lines(self) -> list[str]:
         """The verdict in sentences, the headline apart, most useful first."""
+        return [*self._first(), *self.diagnosis, *self._last()]
+
+    def _first(self) -> list[str]:
+        """Why there are no numbers."""
+        said = [self.problem] if self.problem else []
+        return said + (failing(self.failed) if self.failed else [])
+
+    def _last(self) -> list[str]:
+        """Beside the reasons, what to look at and to do."""
         return [
-            *([self.problem] if self.problem else []),
-            *(failing(self.failed) if self.failed else []),
-            *self.diagnosis,
             *([self.remark] if self.remark else []),
             *([worst_case(self.witness)] if self.witness else []),
             *([arguments_by(self)] if self.given_by else []),
@@ -151,10 +157,8 @@ class Verdict:
             share = f" ({row.share:.0%})" if len(self.rows) > 1 else ""
             rows.append(f"  [{'x' if row.met else ' '}] {row.text}{share}")
             rows += [filled(sentence, 6) for sentence in said]
-        below = replace(self, problem="", failed=None, diagnosis=self.of_the_whole).lines()
-        first = [self.problem] if self.problem else []
-        first += failing(self.failed) if self.failed else []
-        return "\n".join([self.headline, *map(filled, first), *rows, *map(filled, below)])
+        last = [*self.of_the_whole, *self._last()]
+        return "\n".join([self.headline, *map(filled, self._first()), *rows, *map(filled, last)])
 
 
 def filled(text: str, indent: int = 2) -> str:

@@ -88,8 +88,8 @@ def full(state: State) -> Verdict:
         "It raised ValueError.",
         ("The sign is wrong.", "And the unit."),
         "It changes q.",
-        "Change your function.",
-        Failed("g_vec([0.0], m=1)", 2, 6, "g_vec([0.3], m=1)", 'q = worst_case("p3-g_vec")'),
+        next_step="Change your function.",
+        failed=Failed("g_vec([0.0], m=1)", 2, 6, "g_vec([0.3], m=1)", 'q = worst_case("p3-g_vec")'),
     )
 
 

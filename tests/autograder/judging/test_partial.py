@@ -149,8 +149,8 @@ def test_a_second_call_that_gives_a_nan_costs_what_hangs_on_it():
         (np.array(np.nan), "nan"),
         (np.array([[np.inf]]), "inf"),
         (np.array([0.0, -np.inf]), "-inf at [1]"),
-        (np.array([[0.0, 1.0], [np.nan, np.nan]]), "nan at [1, 0], [1, 1]"),
-        (np.full(7, np.nan), "nan at [0], [1], [2] and 4 more places"),
+        (np.array([[0.0, 1.0], [np.nan, np.nan]]), "nan at [1, 0] and [1, 1]"),
+        (np.full(7, np.nan), "nan at [0], [1], [2] and 4 more"),
         ([{"m": np.array([1.0, np.nan])}, np.array(0.0)], "nan at [0]['m'][1]"),
     ],
 )

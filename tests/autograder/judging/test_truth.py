@@ -312,7 +312,7 @@ def test_a_share_is_told_where_the_right_value_is_not_near_zero(right, off, larg
     criterion = Criterion("torque", "N·m", is_bound=is_bound)
     largest = max(largest, abs(right))
     said = witness(
-        Call("f", ()), np.array(right), np.array(right + off), criterion, largest, NOWHERE
+        Call("f", ()), "f()", np.array(right), np.array(right + off), criterion, largest, NOWHERE
     )
     shares = not is_bound and abs(right) > 0 and abs(right) >= 0.05 * largest
     assert has_share(abs(right), largest, criterion) == shares

@@ -108,7 +108,7 @@ def test_the_right_motion_of_every_mechanism_keeps_its_energy(mechanism):
     [
         ("np.ones((2, 2))", "there is no motion: M is singular there, and no acceleration"),
         ("1e-9 * np.eye(2)", "there is no motion: its speed grows beyond all bounds"),
-        ("np.full((2, 2), np.nan)", "there is no motion: M(q, arm) returned nan, which is not"),
+        ("np.full((2, 2), np.nan)", "there is no motion: M(q, arm) returned nan at [0, 0]"),
         (
             "np.eye(3)",
             "M(q, arm) returned an array of shape (3, 3), where the equation needs (2, 2)",

@@ -51,14 +51,16 @@ OWN = {
         4,
         15,
         "p1-setup answer-inertia_from_links p1-inertia_from_links answer-M p1-M p1-look p1-cholesky "
-        "answer-is_spd p1-is_spd answer-singular_arm p1-singular_arm p1-proof",
+        "answer-is_spd p1-is_spd answer-singular_arm p1-singular_arm "
+        "answer-p1-symmetry p1-symmetry answer-p1-positive p1-positive p1-proof",
     ),
     "p2-energy-skew": Own(
         "p2-proof",
         5,
         17,
         "p2-setup answer-M_dot p2-M_dot p2-difference answer-C p2-C p2-ones answer-C_other p2-C_other "
-        "p2-forms answer-christoffel p2-christoffel p2-symbolic p2-proof",
+        "p2-forms answer-christoffel p2-christoffel p2-symbolic "
+        "answer-p2-E p2-E answer-p2-skew p2-skew p2-proof",
         ("np.sin(q[1])", "Exchanging"),
     ),
     "p3-pendulum": Own(
@@ -67,7 +69,8 @@ OWN = {
         15,
         "p3-setup answer-lagrangian p3-lagrangian p3-euler-lagrange answer-M p3-M answer-C p3-C "
         "answer-g_vec p3-g_vec answer-inertia_about_pivot p3-inertia_about_pivot "
-        "answer-small_angle_frequency p3-small_angle_frequency p3-swing-plot p3-derivation",
+        "answer-small_angle_frequency p3-small_angle_frequency p3-swing-plot "
+        "answer-p3-L p3-L p3-derivation",
     ),
     "p4-gravity": Own(
         "p4-check",
@@ -75,7 +78,8 @@ OWN = {
         15,
         "p4-setup answer-potential_energy p4-potential_energy answer-g_vec p4-g_vec p4-slope "
         "answer-gravity_from_jacobians p4-gravity_from_jacobians p4-jacobians answer-equilibria "
-        "p4-equilibria p4-energies p4-check",
+        "p4-equilibria p4-energies "
+        "answer-p4-P p4-P p4-check",
         ("one up, one down",),
     ),
     "p5-state-space": Own(
@@ -83,7 +87,8 @@ OWN = {
         5,
         20,
         "p5-setup answer-f p5-f answer-rk4_step p5-rk4_step p5-order answer-simulate p5-simulate "
-        "answer-energy_drift p5-energy_drift p5-drift-plot p5-friction p5-discussion",
+        "answer-energy_drift p5-energy_drift p5-drift-plot p5-friction "
+        "answer-p5-E p5-E p5-discussion",
     ),
 }
 # What submissions get: the credit of each check where it is not all, and the mistakes that are named.
