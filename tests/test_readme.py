@@ -66,7 +66,7 @@ def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     with_them = example.rstrip().removesuffix(")") + "    sentences=SENTENCES,\n)\n"
     (tmp_path / "block.py").write_text(sentences + with_them, encoding="utf-8")
-    assert main(["try", "block.py"]) == 0
+    assert main(["try", "block.py", "--all"]) == 0
     shown = capsys.readouterr().out
     assert "block-M: the right answer is correct" in shown
     for sentence in re.findall(r': "(.+)",', sentences):
