@@ -9,18 +9,18 @@ import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import cache
 from itertools import chain, groupby
 
 import numpy as np
 
 from autograder.judging import changes, dependence, findings
-from autograder.judging.at_points import AtPoints
 from autograder.judging.call_text import given_by
 from autograder.judging.criterion import Criterion, relative_errors
-from autograder.judging.diagnosis import Catalogue, Mistake, OfCalls, Wrong, sentences
+from autograder.judging.diagnosis import Catalogue, Mistake, Wrong, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
 from autograder.judging.given import Describe, Given, NoNumbersError, Reading
+from autograder.judging.models import Model, evaluated
 from autograder.judging.places import place
 from autograder.judging.quantities import Numbers, Quantities, each, one_number
 from autograder.judging.section import Section
@@ -28,7 +28,7 @@ from autograder.judging.stacked import Layout, layouts, rows, stacked, unlike
 from autograder.judging.terms import Term
 from autograder.judging.verdict import Failed, Row, State, Verdict, Witness
 from autograder.judging.witness import witness, worst_entry, wrong_places
-from autograder.protocol import Call, FaultKind, Reply, Symbol, read, real, shortened
+from autograder.protocol import Call, FaultKind, Reply, shortened
 
 VISIBLE_CASES = 6
 HIDDEN_CASES = 24
@@ -55,7 +55,7 @@ class Check:
     explains; or a function that gives them. hints: from a nudge to nearly the way. section: of the
     lesson that prepares it. further: a sentence for whoever has the right answer, which leads on; true
     of every arm that is asked for. pose(call): the joints of the arm in a call, to be drawn beside the
-    worst case.
+    worst case. returns: what a student calls the returned array, "M", where not by the function's name.
 
     ValueError where the shares of the criteria do not add up to 1, or where two criteria have one
     text, two mistakes or terms one name, or two hints are the same.
@@ -63,7 +63,7 @@ class Check:
 
     id: str
     signature: str
-    reference: Callable
+    reference: Model
     calls: Callable[[np.random.Generator, int], list[Call]]
     criteria: tuple[Criterion, ...]
     mistakes: tuple[Mistake, ...] = ()
@@ -158,8 +158,7 @@ class Check:
         self, calls: list[Call], replies: list[Reply], describe: Describe = describe_fault
     ) -> Given:
         """What is judged in the replies; NoNumbersError where nothing can be."""
-        right = partial(_evaluated, self.reference)
-        reading = Reading(self.id, self.signature, self.quantities, right, describe)
+        reading = Reading(self.id, self.signature, self.quantities, self.reference, describe)
         return reading.given(calls, replies)
 
     def judge(
@@ -225,10 +224,8 @@ class Check:
             criterion.met(error) for error, criterion in zip(errors, self.criteria, strict=True)
         ]
 
-    def _quantities_of(self, model: Callable, calls: list[Call]) -> Numbers:
-        if isinstance(model, OfCalls):
-            return self.quantities(calls, list(model.for_calls(calls)))
-        return self.quantities(calls, [_evaluated(model, call) for call in calls])
+    def _quantities_of(self, model: Model, calls: list[Call]) -> Numbers:
+        return self.quantities(calls, list(evaluated(model, calls)))
 
     def _diagnosis(
         self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool], ask: Ask | None
@@ -348,16 +345,3 @@ def _shape(values) -> tuple[int, ...] | None:
         return values.shape
     shapes = {np.shape(value) for value in values}
     return (len(values), *shapes.pop()) if len(shapes) == 1 else None
-
-
-def _evaluated(model: Callable, call: Call):
-    """A model's numbers for a call, as those of a student's function are read.
-
-    A model of plain Symbols is one of numbers here, and tried point by point.
-    """
-    if isinstance(model, AtPoints):
-        return model(call)
-    if call.at and all(isinstance(value, Symbol) for value in call.args):
-        points = [[point[symbol.name] for symbol in call.args] for point in call.at]
-        return np.array([model(*point) for point in points], dtype=float)
-    return read(call, model(*map(real, call.args)))

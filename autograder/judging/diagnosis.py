@@ -6,12 +6,13 @@ or those of two mistakes at once. If none matches, `findings` says what is true 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import Protocol
 
 import numpy as np
 
 from autograder.judging import findings
 from autograder.judging.criterion import TOLERANCE, Answered, Criterion
+from autograder.judging.models import Model
 from autograder.judging.quantities import Numbers
 from autograder.judging.stacked import Layout, layouts, rows
 from autograder.judging.terms import Term
@@ -34,7 +35,7 @@ class Mistake:
     """
 
     name: str
-    wrong: Callable
+    wrong: Model
     sentence: str
     whole: bool = False
     combines: bool = True
@@ -49,13 +50,6 @@ class Catalogue(Protocol):
     def mistakes(self) -> list[Mistake]: ...
 
     def __call__(self, calls: list[Call], /) -> Sequence[tuple[Mistake, Sequence | np.ndarray]]: ...
-
-
-@runtime_checkable
-class OfCalls(Protocol):
-    """A model that also gives what it returns for all calls in one step, in their order."""
-
-    def for_calls(self, calls: list[Call], /) -> Sequence | np.ndarray: ...
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ import numpy as np
 
 from autograder.judging.call_text import given_by, shapes, shown_call
 from autograder.judging.faults import NUMBERS, describe_unfit
+from autograder.judging.models import Model, evaluated
 from autograder.judging.partial import is_finite, partial, where_not_finite
 from autograder.judging.quantities import Numbers, Quantities, UnfitError
 from autograder.judging.verdict import Failed
@@ -66,13 +67,13 @@ class Given:
 class Reading:
     """How replies are read: for which check, by which quantities.
 
-    right(call): what the right answer returns. describe: says what a fault is.
+    right: the model of the right answer. describe: says what a fault is.
     """
 
     id: str
     signature: str
     quantities: Quantities
-    right: Callable[[Call], object]
+    right: Model
     describe: Describe
 
     def given(self, calls: list[Call], replies: list[Reply]) -> Given:
@@ -92,7 +93,11 @@ class Reading:
             unfit = self._unfit(calls, values)
             first = calls[unfit[0]]
             said = describe_unfit(
-                self.signature, str(error), first.truth, values[unfit[0]], self.right(first)
+                self.signature,
+                str(error),
+                first.truth,
+                values[unfit[0]],
+                evaluated(self.right, [first])[0],
             )
             raise NoNumbersError(said, self._failed(calls, unfit)) from None
         problem = (
@@ -136,7 +141,7 @@ class Reading:
 
     def _unfit(self, calls: list[Call], values: list) -> list[int]:
         """The calls whose values alone, among right ones, do not have the shape that is asked for."""
-        right = [self.right(call) for call in calls]
+        right = evaluated(self.right, calls)
         found = []
         for k, value in enumerate(values):
             try:

@@ -1,12 +1,12 @@
 """Tells of which known terms an error is made, where it is made of nothing else."""
 
 import itertools
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from autograder.judging.criterion import TOLERANCE, relative_errors
+from autograder.judging.models import Model
 
 # An error that takes more terms than these says less than the worst case does.
 MOST = 3
@@ -24,7 +24,7 @@ class Term:
     """
 
     name: str
-    model: Callable
+    model: Model
 
 
 def terms_off(

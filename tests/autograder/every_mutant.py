@@ -4,8 +4,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from autograder.judging.check import VISIBLE_CASES, Check, _evaluated
+from autograder.judging.check import VISIBLE_CASES, Check
 from autograder.judging.diagnosis import Mistake
+from autograder.judging.models import evaluated
 from autograder.judging.verdict import State
 from autograder.protocol import Reply
 
@@ -43,7 +44,7 @@ def earned(check: Check, calls, given) -> float:
     """The shares of the criteria that numbers meet: 1e-5 of a value's size, or of a twentieth of the
     largest.
     """
-    right = [_evaluated(check.reference, call) for call in calls]
+    right = [evaluated(check.reference, [call])[0] for call in calls]
     cases = [list(zip(*check.quantities(calls, values), strict=True)) for values in (right, given)]
     total = 0.0
     for criterion, expected, got in zip(check.criteria, *cases, strict=True):

@@ -6,8 +6,8 @@ are the steps from M to C.
 
 import numpy as np
 
-from autograder.judging.at_points import AtPoints
 from autograder.judging.diagnosis import Mistake
+from autograder.judging.models import AtPoints
 from autograder.judging.terms import Term
 from autograder.mutation.steps import STEPS, Right
 from autograder.problems.material import planar_2r as right

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from autograder.judging.check import VISIBLE_CASES, Check, _evaluated
+from autograder.judging.check import VISIBLE_CASES, Check
+from autograder.judging.models import evaluated
 from autograder.judging.places import Place
 from autograder.judging.verdict import Verdict, Witness
 from autograder.mechanisms import MECHANISMS
@@ -29,7 +30,7 @@ WITHOUT_ENTRIES = {
 
 def right_values(check: Check) -> list[np.ndarray]:
     calls = check.calls(np.random.default_rng(SEED), VISIBLE_CASES)
-    return [np.array(_evaluated(check.reference, call), dtype=float) for call in calls]
+    return [np.array(evaluated(check.reference, [call])[0], dtype=float) for call in calls]
 
 
 def judged(check: Check, values: list) -> Verdict:

@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from autograder.judging.check import VISIBLE_CASES, Check, _evaluated
+from autograder.judging.check import VISIBLE_CASES, Check
 from autograder.judging.criterion import Criterion
+from autograder.judging.models import evaluated
 from autograder.judging.places import NOWHERE
 from autograder.judging.witness import has_share, witness
 from autograder.problems import CHECKS
@@ -166,7 +167,7 @@ def test_what_is_said_of_a_rank_is_so(data):
     """Of one motion, of all alike, of the number of samples, or any."""
     calls = calls_of(RANK)
     samples = [len(call.args[0]) for call in calls]
-    right = [int(_evaluated(RANK.reference, call)) for call in calls]
+    right = [int(evaluated(RANK.reference, [call])[0]) for call in calls]
     drawn = data.draw(
         st.lists(st.integers(0, 6), min_size=len(calls), max_size=len(calls))
         | st.integers(0, 6).map(lambda n: [n] * len(calls))
@@ -291,7 +292,7 @@ WRONG = {
 @given(seed=st.integers(0, 2**32 - 1))
 @settings(max_examples=30)
 def test_what_is_found_in_numbers_is_so(wrong, seed):
-    right = [_evaluated(MATRIX.reference, call) for call in calls_of(MATRIX)]
+    right = [evaluated(MATRIX.reference, [call])[0] for call in calls_of(MATRIX)]
     theirs = [np.asarray(m, dtype=float) for m in WRONG[wrong](right, np.random.default_rng(seed))]
     found = " ".join(diagnosis(MATRIX, theirs))
     apart = max(abs(m[0, 1] - m[1, 0]) / np.max(np.abs(m)) for m in theirs if np.any(m)) > 1e-4
@@ -351,7 +352,7 @@ def test_an_answer_that_differs_from_call_to_call_is_called_so():
 )
 def test_two_mistakes_that_add_up_by_chance_are_not_named(check_id, spoil, said):
     check = CHECKS[check_id]
-    right = [np.asarray(_evaluated(check.reference, call), float) for call in calls_of(check)]
+    right = [np.asarray(evaluated(check.reference, [call])[0], float) for call in calls_of(check)]
     found = diagnosis(check, [spoil(value) for value in right])
     assert len(found) == len(said)
     assert all(own in sentence for own, sentence in zip(said, found, strict=True)), found
@@ -367,7 +368,7 @@ def test_two_mistakes_that_add_up_by_chance_are_not_named(check_id, spoil, said)
 def test_the_energy_of_a_run_is_judged_where_it_ends_near_its_end(spoil, said):
     check = replace(CHECKS["p5-simulate"], mistakes=())
     calls = calls_of(check)
-    values = [np.asarray(_evaluated(check.reference, call), float) for call in calls]
+    values = [np.asarray(evaluated(check.reference, [call])[0], float) for call in calls]
     free = [k for k, call in enumerate(calls) if isinstance(call, FreeRun)]
     found = diagnosis(check, [spoil(v) if k in free else v for k, v in enumerate(values)])
     assert len(free) == 4

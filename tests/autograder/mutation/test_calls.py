@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from autograder.judging.diagnosis import OfCalls
+from autograder.judging.models import OfCalls
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.answers import ANSWERS
 from autograder.mutation.calls import Model

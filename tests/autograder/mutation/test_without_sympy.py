@@ -21,14 +21,14 @@ from autograder.problems.material import conventions
 FIRST_ANSWERS = """
 import sys
 import numpy as np
-from autograder.judging.check import _evaluated
+from autograder.judging.models import evaluated
 from autograder.problems import CHECKS, families
 from autograder.problems.material.conventions import Convention
 from autograder.protocol import Reply
 
 def first_answer(check):
     def ask(calls):
-        right = [np.asarray(_evaluated(check.reference, call), dtype=float) for call in calls]
+        right = [np.asarray(evaluated(check.reference, [call])[0], dtype=float) for call in calls]
         return [Reply(value=r + 0.3 * np.sin(7 * np.abs(r) + 0.1)) for r in right]
 
     verdict = check.run(ask, np.random.default_rng(1))

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from autograder.judging.at_points import AtPoints
 from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
+from autograder.judging.models import AtPoints
 from autograder.problems import CHECKS
 from autograder.protocol import Reply, real
 
@@ -20,7 +20,7 @@ def terms_of(check):
 def numbers(check, model, call):
     """What a reference or a term gives for a call."""
     if isinstance(model, AtPoints):
-        return model(call)
+        return model.for_calls([call])[0]
     args = [*map(real, call.args)]
     if call.at:
         return np.array([model(*point.values()) for point in call.at], float)
