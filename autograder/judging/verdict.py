@@ -153,7 +153,9 @@ class Verdict:
             rows += [filled(sentence, 6) for sentence in said]
         below = replace(self, problem="", failed=None, diagnosis=self.of_the_whole).lines()
         first = [self.problem] if self.problem else []
-        first += failing(self.failed) if self.failed else []
+        if self.failed:
+            first += failing(self.failed)
+            first += [arguments_by(self)] if self.given_by else []
         return "\n".join([self.headline, *map(filled, first), *rows, *map(filled, below)])
 
 
@@ -178,6 +180,8 @@ def failing(failed: Failed) -> list[str]:
         said = "The check stopped at this call"
     elif failed.tried == 1:
         said = "The one call failed"
+    elif failed.count == failed.tried == 2:
+        said = "Both calls failed, the first of them"
     elif failed.count == failed.tried:
         said = f"All {failed.tried} calls failed, the first of them"
     elif failed.count == 1:
