@@ -237,16 +237,18 @@ class Check:
             return [() if ok else (mistake.sentence,) for ok in met]
 
         @cache  # calls are made once, and only where something is left to explain
-        def tried() -> tuple[list[dependence.Probe], Numbers, Numbers] | None:
-            return self._tried(ask, calls[-1]) if ask else None
+        def tried(case: int) -> dependence.Tried | None:
+            return self._tried(ask, calls[case]) if ask else None
 
         def elsewhere(k: int) -> str:
             criterion = self.criteria[k]
-            if not criterion.unit or criterion.is_property or (found := tried()) is None:
+            last = len(calls) - 1
+            if not criterion.unit or criterion.is_property or (found := tried(last)) is None:
                 return ""
-            _, _, (again, *_) = found
-            unsteady = findings.of_repeats(criterion, given[-1][k], again[k])
-            return unsteady or dependence.sentence(criterion.text, k, *found)
+            unsteady = findings.of_repeats(criterion, given[last][k], found.theirs[0][k])
+            errors = self._errors(expected, given)[k][:last]
+            best = int(np.argmin(errors)) if len(errors) else last
+            return unsteady or dependence.sentence(criterion.text, k, found, lambda: tried(best))
 
         @cache
         def parts() -> list[tuple[Term, Numbers]]:
@@ -275,10 +277,8 @@ class Check:
             parts = [np.vstack(both) for both in zip(parts, more, strict=True)]
         return Wrong(mistakes, parts)
 
-    def _tried(
-        self, ask: Ask, base: Call
-    ) -> tuple[list[dependence.Probe], Numbers, Numbers] | None:
-        """The call with one number changed at a time: the right quantities and theirs, if all came."""
+    def _tried(self, ask: Ask, base: Call) -> dependence.Tried | None:
+        """The call with one number changed at a time, if numbers came for all."""
         probes = dependence.probes(self.signature, base)
         if not probes or not isinstance(self.quantities, each):
             return None
@@ -292,7 +292,7 @@ class Check:
             return None
         if any(theirs.spoilt):
             return None
-        return probes, self._quantities_of(self.reference, calls), theirs.numbers
+        return dependence.Tried(probes, self._quantities_of(self.reference, calls), theirs.numbers)
 
     def _witness(
         self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool],

@@ -50,16 +50,31 @@ def probes(signature: str, call: Call) -> list[Probe]:
     return found if len({probe.of for probe in found}) <= MOST else []
 
 
-def sentence(text: str, k: int, tried: list[Probe], right: Numbers, theirs: Numbers) -> str:
+@dataclass(frozen=True)
+class Tried:
+    """A call and its probes. right, theirs: the quantities of the unchanged call, then of the probes."""
+
+    probes: list[Probe]
+    right: Numbers
+    theirs: Numbers
+
+
+def sentence(text: str, k: int, at: Tried, elsewhere: Callable[[], Tried | None]) -> str:
     """What an answer's quantity k, called `text`, depends on unlike the right one; "" for nothing.
 
-    right, theirs: the quantities of the unchanged call, then of the probes.
+    elsewhere: the probes of another call, None where they gave no numbers. An answer that is right in
+    some calls only may depend on an argument there and not here, so "does not depend" needs both.
     """
+    tried, right, theirs = at.probes, at.right, at.theirs
     # What moves a little, as friction of a joint that creeps, is said neither to move nor not to.
     needed, used = (_moving(k, tried, numbers, TOLERANCE) for numbers in (right, theirs))
     may_need, may_use = (_moving(k, tried, numbers, ROUNDING) for numbers in (right, theirs))
     extra = [of for of in used if of not in may_need]
     missing = [of for of in needed if of not in may_use]
+    if missing:
+        other = elsewhere()
+        may_use += _moving(k, other.probes, other.theirs, ROUNDING) if other else missing
+        missing = [of for of in missing if of not in may_use]
     fields = {of for of in needed if "." in of}
     if fields and not any("." in of for of in may_use):
         (owner, *_) = {of.partition(".")[0] for of in fields}

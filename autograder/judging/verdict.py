@@ -182,6 +182,8 @@ def failing(failed: Failed) -> list[str]:
         said = "The check stopped at this call"
     elif failed.tried == 1:
         said = "The one call failed"
+    elif failed.count == failed.tried == 2:
+        said = "Both calls failed, the first of them"
     elif failed.count == failed.tried:
         said = f"All {failed.tried} calls failed, the first of them"
     elif failed.count == 1:

@@ -1,5 +1,6 @@
 """Shows a call with so many digits that it gives what the card says, once it is pasted."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from autograder.judging.call_text import EXACT, rounded, shown_call
 from autograder.judging.check import Ask, Check
 from autograder.judging.verdict import Verdict
-from autograder.protocol import Call
+from autograder.protocol import Call, Fault
 
 SHOWN = 4  # significant digits of a number on a card
 NOISE = 1e-9  # less than this share of the largest number is rounding
@@ -30,8 +31,13 @@ def _alike(ask: Ask, one: Call, other: Call) -> bool:
     """Whether two calls give the same to the digits that a card shows, or fail in the same way."""
     (first, *_), (second, *_) = ask([one]), ask([other])
     if first.fault or second.fault:
-        return first.fault == second.fault
+        return _without_digits(first.fault) == _without_digits(second.fault)
     return _same(first.value, second.value)
+
+
+def _without_digits(fault: Fault | None) -> Fault | None:
+    """The fault, whatever numbers of the call its message quotes."""
+    return fault and replace(fault, message=re.sub(r"[-+.\de]*\d", "0", fault.message))
 
 
 def _same(one, other) -> bool:

@@ -30,7 +30,7 @@ AT_A_PLACE = {
     "parameter left out": "In your {where}, {instead_of} does not appear in {term}. Do its "
     "units come out {right}?",
     "gravity of Earth": "Your {where} is right only on Earth: you typed 9.81 into it. Which "
-    "parameter of {arm} gives the gravitational acceleration?",
+    "parameter gives the gravitational acceleration?",
     "small angle": "In your {where}, {term} is right for small angles only. Where did you put "
     "something simpler in place of a sine or a cosine?",
     "radians converted": "In your {where}, you convert the angle in {term} to radians. It is in "

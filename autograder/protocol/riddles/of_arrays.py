@@ -147,6 +147,19 @@ def _scalar_function(scene: Scene, found, error) -> Words | None:
     )
 
 
+def _two_lists(scene: Scene, found, error) -> Words | None:
+    """np.array with a second list where it takes the type of its numbers."""
+    call = scene.find(ast.Call)
+    if call is None or len(call.args) < 2 or not isinstance(call.args[1], ast.List | ast.Tuple):
+        return None
+    return (text(call.func),)
+
+
+def _called_with_number(scene: Scene, found, error) -> Words | None:
+    call = scene.find(ast.Call)
+    return (text(call.func),) if call else None
+
+
 def _assigned(scene: Scene, found, error) -> Words | None:
     return found[1], found[2]
 
@@ -218,6 +231,13 @@ ROWS = (
         _of_subscript,
     ),
     Row(
+        "index of number",
+        ("IndexError",),
+        r"^invalid index to scalar variable",
+        "{0} got a single number where it takes an array. Are its arguments in the right order?",
+        _called_with_number,
+    ),
+    Row(
         "many indices",
         ("IndexError",),
         r"too many indices for array: array is (\d+)-dimensional",
@@ -245,6 +265,13 @@ ROWS = (
         r"^The truth value of an array",
         "A condition needs one True or False, and this one is an array of them. Must all of them hold "
         "(np.all), or is one enough (np.any)?",
+    ),
+    Row(
+        "two lists",
+        ("TypeError",),
+        r"^Field elements must be|^Cannot construct a dtype|as a data type$",
+        "{0} takes one list: its rows stand in one more pair of square brackets.",
+        _two_lists,
     ),
     Row(
         "one number",

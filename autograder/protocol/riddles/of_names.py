@@ -37,6 +37,21 @@ MOST_NAMES = 12
 NOT_SYMBOLS = "list|tuple|dict|str|NoneType|function|method|set|SimpleNamespace"
 
 
+def _array_of_numbers(scene: Scene, found, error) -> Words | None:
+    """The array into which an expression was to be put."""
+    node = scene.find(ast.Subscript)
+    return (text(node.value),) if node and type(scene.value(node.value)) is np.ndarray else None
+
+
+def _function_for_numbers(scene: Scene, found, error) -> Words | None:
+    """SymPy's function that refused an array, and NumPy's own."""
+    call = scene.find(ast.Call)
+    called = text(call.func) if call else ""
+    name = called.rpartition(".")[2]
+    numpy = next((np_name for np_name, sp_name in OF_SYMPY.items() if sp_name == name), name)
+    return (called, f"np.{numpy}") if isinstance(getattr(np, numpy, None), np.ufunc) else None
+
+
 def _function_of_symbols(scene: Scene, found: re.Match, error) -> Words:
     """The function that refused a symbol, and SymPy's own."""
     call = scene.find(ast.Call)
@@ -49,7 +64,12 @@ def _function_of_symbols(scene: Scene, found: re.Match, error) -> Words:
 
 def _power(scene: Scene, found, error) -> Words:
     node = scene.find(ast.BinOp)
-    return (text(node.right) if node and isinstance(node.op, ast.BitXor) else "2",)
+    if node is None or not isinstance(node.op, ast.BitXor):
+        return ("2",)
+    power = node.right
+    while isinstance(power, ast.BinOp):  # ^ binds less than all of these, unlike a power
+        power = power.left
+    return (text(power),)
 
 
 def _by_name(scene: Scene, found, error) -> Words | None:
@@ -159,6 +179,21 @@ def _out_of_domain(scene: Scene, found, error) -> Words | None:
 
 SIGNS = r"unsupported operand type\(s\) for .*: "
 ROWS = (
+    Row(
+        "symbol put into",
+        ("TypeError",),
+        r"^Cannot convert expression to float",
+        "{0} is an array of numbers, as np.zeros makes it, and this is a SymPy expression. "
+        "A matrix made by sp.zeros takes it.",
+        _array_of_numbers,
+    ),
+    Row(
+        "array for a symbol",
+        ("AttributeError",),
+        r"^'ImmutableDenseNDimArray' object has no attribute",
+        "{0} is for symbols, and this is an array of numbers: NumPy's own is {1}.",
+        _function_for_numbers,
+    ),
     Row(
         "symbols",
         ("TypeError",),

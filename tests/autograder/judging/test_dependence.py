@@ -80,6 +80,15 @@ def test_a_sign_alone_is_noticed():
     assert found == "In your torque, the values do not depend on q[0]; the right ones do."
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_what_an_answer_ignores_in_one_call_it_may_use_in_another(side):
+    """As where a student cuts off the range in which the answer is right; the call that is tried is in
+    it, or out of it."""
+    right = product({"q[0]", "arm.m"})
+    found = said(check({"q[0]", "arm.m"}), lambda q, arm: right(q, arm) * (side * q[0] > 0))
+    assert not any("depend" in sentence for sentence in found)
+
+
 def test_a_call_that_fails_leaves_nothing_to_say():
     asked = []
 

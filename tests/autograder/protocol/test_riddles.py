@@ -49,6 +49,32 @@ COLUMNS = "some of its columns follow from others, or are zero. Which columns?"
 CONDITION = "A condition needs one True or False, and"
 MUST_HOLD = "Must all of them hold (np.all), or is one enough (np.any)?"
 CASES = [
+    (
+        "symbol put into",
+        "C = np.zeros((2, 2))\nx = sp.Symbol('x')\nC[0, 1] += sp.cos(x)\nreturn C",
+        "C is an array of numbers, as np.zeros makes it, and this is a SymPy expression. "
+        "A matrix made by sp.zeros takes it.",
+    ),
+    (
+        "array for a symbol",
+        "arm.m1 * sp.sin(q)",
+        "sp.sin is for symbols, and this is an array of numbers: NumPy's own is np.sin.",
+    ),
+    (
+        "two lists",
+        "np.array([1.0, q[0]], [q[0], 2.0])",
+        "np.array takes one list: its rows stand in one more pair of square brackets.",
+    ),
+    (
+        "index of number",
+        "u = eval('lambda t, x: x[0]')  # as the check's own\nreturn u(q, q[0])",
+        "u got a single number where it takes an array. Are its arguments in the right order?",
+    ),
+    (
+        "power",
+        "arm.m1 ^ 2 / 2 - arm.l1 * (1 - q[0])",
+        "In Python ^ is no power; the power is **, as in x**2.",
+    ),
     ("matmul", "J @ I @ J.T", "J is (6, 3), and I is (6, 6). " + PRODUCT),
     ("matmul", "np.dot(J, I)", "J is (6, 3), and I is (6, 6). " + PRODUCT),
     ("matmul", "J.dot(I)", "J is (6, 3), and I is (6, 6). " + PRODUCT),
