@@ -63,8 +63,8 @@ def of_verdict(verdict: Verdict) -> NotebookNode:
 
 
 def of_marks(marked: Marked) -> NotebookNode:
-    """The card of a derivation."""
-    return display(proof_card.mimebundle(marked))
+    """The card of a derivation, without what only its writer needs."""
+    return display(proof_card.mimebundle(marked, with_names=False))
 
 
 def read_verdict(output: dict) -> dict | None:
