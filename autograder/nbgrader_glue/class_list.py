@@ -59,7 +59,7 @@ def _student(name: str, folders: Folders, standing: Standing | None) -> Student:
         return Student(name, note="not graded yet, or it could not be graded", handed_in=when)
     score, to_read = standing.score, standing.to_read
     try:
-        verdicts, answers = read_graded(notebook)
+        verdicts, answers, derivations = read_graded(notebook)
     except ValueError as error:
         return Student(name, score, to_read, note=str(error), handed_in=when)
     return Student(
@@ -69,7 +69,8 @@ def _student(name: str, folders: Folders, standing: Standing | None) -> Student:
         verdicts,
         answers=answers,
         handed_in=when,
-        hints=_hints(folders.submitted(name) / hints_seen.FILE, verdicts),
+        hints=_hints(folders.submitted(name) / hints_seen.FILE, [*verdicts, *derivations]),
+        derivations=derivations,
     )
 
 
@@ -80,9 +81,9 @@ def _handed_in(folders: Folders, name: str) -> datetime | None:
         return None
 
 
-def _hints(file: Path, verdicts: dict[str, dict]) -> dict[str, int] | None:
-    """How many hints a student saw of the checks that judged the submission; None if no file says."""
+def _hints(file: Path, ids: list[str]) -> dict[str, int] | None:
+    """How many hints a student saw of these checks and derivations; None if no file says."""
     if file.is_symlink() or not file.is_file():
         return None
     seen = hints_seen.read(file)
-    return {check: seen[check] for check in verdicts if check in seen}
+    return {id: seen[id] for id in ids if id in seen}

@@ -93,6 +93,8 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
                 if drawn is not None and grade_id(cell) == drawn.set_up.cell:
                     cell.outputs.append(drawn.shown)
                 if derivation := DERIVATIONS.get(grade_id(cell) or ""):
+                    # Nothing else: what a cell prints may look like the card.
+                    cell.outputs = [out for out in cell.outputs if out.output_type == "error"]
                     given = sitting.lines_of(derivation.id)
                     marked = mark(derivation, given, stream(seed, derivation.id))
                     cell.outputs.append(outputs.of_marks(marked))

@@ -29,6 +29,7 @@ TOO_MUCH = (
 )
 # Under this key, the output that shows a verdict also holds it for programs.
 VERDICT = "armdyn"
+MARKS = "armdyn_derivation"
 
 
 def stream(name: str, text: str) -> NotebookNode:
@@ -63,8 +64,16 @@ def of_verdict(verdict: Verdict) -> NotebookNode:
 
 
 def of_marks(marked: Marked) -> NotebookNode:
-    """The card of a derivation."""
-    return display(proof_card.mimebundle(marked))
+    """The card of a derivation, without what only its writer needs; its metadata hold what `read_marks`
+    gives.
+    """
+    said = {
+        "derivation": marked.derivation.id,
+        "done": marked.done,
+        "lines": len(marked.lines),
+        "first_wrong": next((line.said for line in marked.lines if not line.holds), ""),
+    }
+    return display(proof_card.mimebundle(marked, with_names=False), {MARKS: said})
 
 
 def read_verdict(output: dict) -> dict | None:
@@ -73,6 +82,13 @@ def read_verdict(output: dict) -> dict | None:
     One that an earlier version of the course wrote has no rows.
     """
     return output.get("metadata", {}).get(VERDICT)
+
+
+def read_marks(output: dict) -> dict | None:
+    """derivation, done, how many lines and first_wrong, the sentence on the first line that does not
+    hold, of the marked derivation that an output shows; None for any other.
+    """
+    return output.get("metadata", {}).get(MARKS)
 
 
 def of_student(output: dict) -> NotebookNode | None:

@@ -45,8 +45,10 @@ def _comment(marks: list[Marked], points: float, most: float) -> str:
 def _said(marked: Marked) -> str:
     wrong = [number for number, line in enumerate(marked.lines, 1) if not line.holds]
     if not wrong:
-        end = "" if marked.done else ", and do not reach the end yet"
-        return f"{marked.derivation.id}: all {len(marked.lines)} lines hold{end}"
+        one = len(marked.lines) == 1
+        end = "" if marked.done else f", and {'does' if one else 'do'} not show the whole yet"
+        hold = "its line holds" if one else f"all {len(marked.lines)} lines hold"
+        return f"{marked.derivation.id}: {hold}{end}"
     plural = len(wrong) > 1
     return (
         f"{marked.derivation.id}: line{'s' if plural else ''} {_listed(wrong)} of {len(marked.lines)} "

@@ -14,8 +14,8 @@ CODE = (
 )
 
 
-def text(marked: Marked) -> str:
-    """The card in plain text."""
+def text(marked: Marked, with_names: bool = True) -> str:
+    """The card in plain text. with_names: whether it says what may be used, where there are no lines."""
     lines = [marked.headline]
     if marked.problem:
         lines.append(f"  {marked.problem}")
@@ -25,7 +25,7 @@ def text(marked: Marked) -> str:
         lines += [f"      {line.said}"] if line.said else []
     lines += [f"  {marked.still}"] if marked.still else []
     lines += [f"  {said}" for said in earned(marked)]
-    if not marked.lines:
+    if with_names and not marked.lines:
         lines += ["", *(f"  {said}" for said in _given(marked.derivation))]
     return "\n".join(lines)
 
@@ -40,8 +40,9 @@ def earned(marked: Marked) -> list[str]:
     ]
 
 
-def html_card(marked: Marked) -> str:
-    """The card as HTML, readable by a screen reader from top to bottom.
+def html_card(marked: Marked, with_names: bool = True) -> str:
+    """The card as HTML, readable by a screen reader from top to bottom. with_names: whether it has what
+    may be used, folded where there are lines.
 
     What a student typed is shown as code, and never as a formula, which could hold a link.
     """
@@ -53,7 +54,7 @@ def html_card(marked: Marked) -> str:
         f'<ol style="margin: 0.3em 0; padding-left: 1.6em">{rows}</ol>' if rows else "",
         _paragraph(marked.still, bold=True),
         *map(_paragraph, earned(marked)),
-        _fold(marked),
+        _fold(marked) if with_names else "",
     ]
     return (
         f'<div class="armdyn-derivation tex2jax_ignore mathjax_ignore" role="group"'
@@ -62,9 +63,12 @@ def html_card(marked: Marked) -> str:
     )
 
 
-def mimebundle(marked: Marked) -> dict[str, str]:
+def mimebundle(marked: Marked, with_names: bool = True) -> dict[str, str]:
     """The card for a notebook's output: plain text, and HTML."""
-    return {"text/plain": text(marked), "text/html": html_card(marked)}
+    return {
+        "text/plain": text(marked, with_names),
+        "text/html": html_card(marked, with_names),
+    }
 
 
 def _item(line: MarkedLine) -> str:

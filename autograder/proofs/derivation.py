@@ -55,8 +55,8 @@ class Misuse:
 class Derivation:
     """id: as students call it. cell: the grade_id of the proof beside it. start: what the first line
     equals. goal: what the last line must be, never shown; goal_said: in words, shown. relation: "=" or
-    ">". least_lines: fewer do not show why. to_prove: reasons that assume what is to be proved.
-    mistakes: tried in this order.
+    ">". least_lines: fewer that say something new do not show why. to_prove: reasons that assume what
+    is to be proved. mistakes: tried in this order.
     """
 
     id: str

@@ -39,6 +39,7 @@ class _Marking:
         marked: list[MarkedLine] = []
         earned: set[Row] = set()
         before, holding, last, strict = self._start, True, self._start, False
+        steps, brought = 0, set[str]()  # names that a fact has brought in
         for at, line in enumerate(lines[:MOST_LINES]):
             step, after, relation = None, before, "="
             try:
@@ -48,16 +49,17 @@ class _Marking:
                 said = str(error)
             marked.append(MarkedLine(line.text, line.reasons, not said, said))
             holding = holding and not said
+            steps += after != before
+            if line.reasons != (ALGEBRA,):
+                brought |= self._names(after)
             before = after
             if holding:
                 last, strict = after, strict or relation == ">"
                 earned.update(self._earned_by(after))
         done = holding and bool(lines) and self._is_goal(last, strict)
         still = "" if done else self._still(last, holding, bool(lines))
-        least = self._derivation.least_lines
-        if done and len(lines) < least:
-            done = False
-            still = f"The end is reached in one go: show why, in {least} lines or more."
+        if done and (one_go := self._one_go(steps, brought)):
+            done, still = False, one_go
         if len(lines) > MOST_LINES:
             done, still = False, f"Only the first {MOST_LINES} lines are read."
         rows = self._derivation.rows
@@ -149,6 +151,20 @@ class _Marking:
 
     def _is_goal(self, last: Node, strict: bool) -> bool:
         return self._worlds.same(last, self._goal) and (strict or self._derivation.relation == "=")
+
+    def _one_go(self, steps: int, brought: set[str]) -> str:
+        """What is said of lines that hold and show nothing; a line that repeats the one before is no
+        step, and what a fact says stands in names that are neither given nor asked for.
+        """
+        least = self._derivation.least_lines
+        if steps < least:
+            return f"The end is reached in one go: show why, in {least} lines or more."
+        if not brought - self._names(self._start) - self._names(self._goal):
+            return "The end is reached in one go: show why. Put in what a reason says, as a line."
+        return ""
+
+    def _names(self, node: Node) -> set[str]:
+        return set(names_in(node, self._subject.rates))
 
     def _still(self, last: Node, holding: bool, any_lines: bool) -> str:
         said = self._derivation.goal_said

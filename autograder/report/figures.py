@@ -1,5 +1,6 @@
-"""What a lecturer may want to count: criteria that nobody met, hints, times of hand-in."""
+"""What a lecturer may want to count: criteria that nobody met, derivations, hints, times of hand-in."""
 
+from collections import Counter
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from statistics import median
@@ -18,14 +19,28 @@ class NeverMet:
 
 @dataclass(frozen=True)
 class HintsSeen:
-    """Of one check: how many students saw hints, of how many whose count is known, and how many hints
-    they saw together.
+    """Of one check or derivation: how many students saw hints, of how many whose count is known, and how
+    many hints they saw together.
     """
 
     check: str
     students: int
     known: int
     seen: int
+
+
+@dataclass(frozen=True)
+class Derived:
+    """How far students came with a derivation. often: what most of them read of their first line that
+    does not hold, and how many did; "" where no two read the same.
+    """
+
+    id: str
+    complete: int
+    begun: int
+    not_attempted: int
+    often: str
+    by: int
 
 
 @dataclass(frozen=True)
@@ -54,14 +69,27 @@ def never_met(students: list[Student]) -> list[NeverMet]:
 
 
 def hints_seen(of: Class) -> list[HintsSeen]:
-    """For each check of which somebody saw a hint, the most students first."""
+    """For each check and derivation of which somebody saw a hint, the most students first."""
     known = [student.hints for student in of.students if student.hints is not None]
     found = []
-    for check in of.checks:
+    for check in [*of.checks, *of.derivations]:
         counts = [hints[check] for hints in known if hints.get(check)]
         if counts:
             found.append(HintsSeen(check, len(counts), len(known), sum(counts)))
     return sorted(found, key=lambda one: -one.students)
+
+
+def derived(of: Class) -> list[Derived]:
+    """In the order of the notebook."""
+    found = []
+    for id in of.derivations:
+        marks = [one.derivations[id] for one in of.students if id in one.derivations]
+        complete = sum(mark["done"] for mark in marks)
+        untouched = sum(not mark["lines"] for mark in marks)
+        read = Counter(mark["first_wrong"] for mark in marks if mark["first_wrong"])
+        often, by = next((one for one in read.most_common(1) if one[1] > 1), ("", 0))
+        found.append(Derived(id, complete, len(marks) - complete - untouched, untouched, often, by))
+    return found
 
 
 def handed_in(students: list[Student]) -> HandedIn | None:

@@ -96,6 +96,7 @@ def _of_class(of: Class) -> dict:
         "worst": [(one, example_of(one, of.students)) for one in made[:MOST_MADE]],
         "together": made_together(made, len(of.students)),
         "never": figures.never_met(of.students),
+        "derived": figures.derived(of),
         "hints": figures.hints_seen(of),
         "times": figures.handed_in(of.students),
     }

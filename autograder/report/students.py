@@ -7,7 +7,9 @@ from pathlib import Path
 import nbformat
 
 from autograder.notebook.answers import answers_to
-from autograder.notebook.outputs import read_verdict
+from autograder.notebook.outputs import read_marks, read_verdict
+from autograder.notebook.recognise import grade_id
+from autograder.proofs import DERIVATIONS
 from autograder.protocol import one_line
 
 
@@ -18,7 +20,7 @@ class Student:
     points: with those that a person gave; None if nothing is graded. to_read: how many cells a person
     still has to read. verdicts: by check. note: why there are none. answers: the code cell that defines
     each check's function, by check. handed_in: in UTC, None where that is not known. hints: how many
-    were seen, by check; None where that is not known.
+    were seen, by check or derivation; None where that is not known. derivations: the marks, by id.
     """
 
     name: str
@@ -29,6 +31,7 @@ class Student:
     answers: dict[str, str] = field(default_factory=dict)
     handed_in: datetime | None = None
     hints: dict[str, int] | None = None
+    derivations: dict[str, dict] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -45,13 +48,21 @@ class Class:
         return list(dict.fromkeys(check for one in self.students for check in one.verdicts))
 
     @property
+    def derivations(self) -> list[str]:
+        """Of all students, in the order of the notebook."""
+        return list(dict.fromkeys(id for one in self.students for id in one.derivations))
+
+    @property
     def scores(self) -> list[float]:
         """Of those who are graded, in points."""
         return [one.points for one in self.students if one.points is not None]
 
 
-def read_graded(notebook: Path) -> tuple[dict[str, dict], dict[str, str]]:
-    """The verdicts in an autograded notebook, and the answers that they are on, both by check.
+def read_graded(
+    notebook: Path,
+) -> tuple[dict[str, dict], dict[str, str], dict[str, dict]]:
+    """The verdicts in an autograded notebook, and the answers that they are on, both by check; and the
+    marks of its derivations.
 
     ValueError if it cannot be read.
     """
@@ -64,6 +75,12 @@ def read_graded(notebook: Path) -> tuple[dict[str, dict], dict[str, str]]:
             for output in cell.get("outputs", [])
         ]
         verdicts = {one["check"]: one for one in found if one}
-        return verdicts, answers_to(list(verdicts), cells)
+        marks = {
+            one["derivation"]: one
+            for cell in cells
+            if grade_id(cell) in DERIVATIONS  # below no other cell it is the grader's
+            for one in filter(None, map(read_marks, cell.get("outputs", [])))
+        }
+        return verdicts, answers_to(list(verdicts), cells), marks
     except Exception as error:  # the file may be JSON of any other kind
         raise ValueError(f"{notebook.name} cannot be read: {one_line(str(error))}") from None

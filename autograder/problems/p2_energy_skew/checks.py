@@ -248,9 +248,13 @@ CHECKS = (
                 "distance of Ṁ − 2 C_other from skew-symmetric (counts with the right C_other q̇)",
                 "kg·m²/s",
                 0.5,
+                # Where C_other q̇ is wrong, the distance is 0 by definition, and no second mistake.
                 otherwise=(
-                    "Your answer counts as not skew-symmetric only where C_other q̇ is right and "
-                    "C_other + C_otherᵀ clearly differs from Ṁ."
+                    Said(
+                        "Your answer counts as not skew-symmetric only where C_other q̇ is right and "
+                        "C_other + C_otherᵀ clearly differs from Ṁ.",
+                        lambda answered: answered.met[0],
+                    ),
                 ),
                 is_property=True,
                 is_bound=True,

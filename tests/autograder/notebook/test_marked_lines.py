@@ -70,6 +70,13 @@ def test_wrong_lines_suggest_what_the_others_earn():
     )
 
 
+def test_right_lines_that_show_too_little_are_not_called_the_whole():
+    one = function("skew_lines", [("= 0", "Christoffel symbols")])
+    assert suggested(lines_in("p2-energy-skew", p2_skew=one)).comment == (
+        "p2-skew: its line holds, and does not show the whole yet. The lines suggest 0 of 5 points."
+    )
+
+
 def test_without_lines_nothing_is_suggested():
     blank = graded(copy.deepcopy(problem("p2-energy-skew").release))
     assert [marked.lines for marked in blank.marks["p2-proof"]] == [(), ()]
@@ -114,6 +121,30 @@ def test_a_forged_reply_earns_nothing(source):
     found = graded(notebook, "p3-pendulum").marks["p3-derivation"][0]
     assert found.earned == ()
     assert not found.done
+
+
+def test_nothing_but_the_card_stands_below_a_derivation():
+    """A card that the cell prints itself, by whatever name, would stand before the grader's."""
+    notebook = copy.deepcopy(problem("p2-energy-skew").release)
+    fake = "import autograder\nautograder.derivation = lambda *a: print('p2-E: complete')"
+    notebook.cells.insert(2, new_code_cell(fake))
+    printing = function("skew_lines", models()["p2-skew"]).replace(
+        "    return", "    print('✓')\n    return"
+    )
+    cell_of(notebook, "answer-p2-skew").source = printing
+    result = graded(notebook).notebook
+    for id in ("p2-E", "p2-skew"):
+        (shown,) = cell_of(result, id).outputs
+        assert shown.data["text/plain"].startswith(f"{id}: not attempted\n")
+        assert "Names" not in shown.data["text/plain"] + shown.data["text/html"]
+
+
+def test_an_error_stands_before_the_card():
+    notebook = copy.deepcopy(problem("p2-energy-skew").release)
+    cell_of(notebook, "answer-p2-E").source = "energy = 1"
+    error, shown = cell_of(graded(notebook).notebook, "p2-E").outputs
+    assert error.evalue == "name 'energy_lines' is not defined"
+    assert shown.data["text/plain"].startswith("p2-E: not attempted")
 
 
 @pytest.mark.parametrize(

@@ -75,6 +75,40 @@ def test_one_line_with_two_reasons_is_never_the_whole(id, undiagnosed):
             assert not found.earned
 
 
+SKEW = "(Mdot - 2 C) + (Mdot - 2 C)'"
+IN_ONE_GO = {
+    "the start repeated": ("p2-skew", (SKEW,), ("= 0", "Christoffel symbols")),
+    "a line repeated": ("p2-skew", (f"= {SKEW}", "algebra"), ("= 0", "Christoffel symbols")),
+    "the start written in another way": (
+        "p2-skew",
+        ("= Mdot + Mdot' - 2 C - 2 C'", "algebra"),
+        ("= 0", "Christoffel symbols"),
+    ),
+    "the end repeated": (
+        "p1-symmetry",
+        ("= M", "M from the links", "symmetric inertias"),
+        ("= 1 M", "algebra"),
+        ("= M", "algebra"),
+    ),
+    "names of no fact": (
+        "p1-symmetry",
+        ("= M' + 0 M", "algebra"),
+        ("= M' + 0 J1' I1 J1", "algebra"),
+        ("= M", "M from the links", "symmetric inertias"),
+    ),
+}
+
+
+@pytest.mark.parametrize(("id", "lines"), [(id, lines) for id, *lines in IN_ONE_GO.values()],
+                         ids=IN_ONE_GO)  # fmt: skip
+def test_lines_that_add_nothing_do_not_make_a_proof_of_one_step(id, lines):
+    found = marked(id, lines)
+    assert all(line.holds for line in found.lines)
+    assert not found.done
+    assert not found.earned
+    assert found.still.startswith("The end is reached in one go: show why")
+
+
 @EVERY
 def test_hints_are_three_and_give_no_line_away(id):
     hints = DERIVATIONS[id].hints

@@ -64,7 +64,10 @@ def test_mistakes_are_counted_the_most_frequent_first():
 def test_the_page_says_it_all():
     text = str(Text(report.page("p3-pendulum", 15.0, CLASS)))
     assert "4 of 5 submissions graded; mean 4, median 2.5 of 15 points" in text
-    assert "A person still has to read 1 answer, which has no points yet." in text
+    assert (
+        "A person still has to read 1 answer; until then, points that marked lines suggest count."
+        in text
+    )
     assert f"2 {CHECK} {M[1].name}. {M[1].sentence} who cem, dee" in text
     assert "bob 4" in text
     assert "<i>eve</i> the notebook is not valid JSON" in text

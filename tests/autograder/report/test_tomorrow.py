@@ -14,6 +14,7 @@ from tests.autograder import courses
 from tests.autograder.courses import P3
 from tests.autograder.report.test_report import Text
 from tests.submissions import p3_pendulum
+from tests.submissions.answers import cell_of
 
 ROWS = [{"text": "kinetic part", "met": True}, {"text": "potential <i>part", "met": False}]
 CODE = '''
@@ -168,6 +169,31 @@ def test_hints_and_times():
     assert figures.handed_in([]) is None
 
 
+def test_how_far_derivations_came():
+    def marks(done, lines, first_wrong=""):
+        one = {"derivation": "p3-L", "done": done, "lines": lines, "first_wrong": first_wrong}
+        return {"derivations": {"p3-L": one}}
+
+    told = [
+        student("ada", {"p3-M": "One."}, **marks(True, 7)),
+        student("bob", {"p3-M": "One."}, **marks(False, 7, "The <i>sign.")),
+        student("cem", {"p3-M": "One."}, **marks(False, 4, "The <i>sign."), hints={"p3-L": 2}),
+        student("dee", {"p3-M": "One."}, **marks(False, 3)),
+        student("eva", {"p3-M": "One."}, **marks(False, 0)),
+    ]
+    of = Class(P3, 15, told)
+    assert figures.derived(of) == [figures.Derived("p3-L", 1, 3, 1, "The <i>sign.", 2)]
+    said = (
+        "p3-L: 1 complete, 3 begun, 1 not attempted. 2 students read of the first line that does not "
+        "hold: The <i>sign."
+    )
+    for page in (report.page(P3, 15.0, told), report.term_page([of])):
+        assert said in str(Text(page))
+        assert "p3-L: 1 of 1 students saw a hint, 2 each" in str(Text(page))
+        assert "i" not in Text(page).tags
+    assert "Derivations" not in report.page(P3, 15.0, [student("ada", {"p3-M": "One."})])
+
+
 def test_the_term_adds_up_assignments_and_names_each_student_once():
     first = Class(
         "p1-inertia", 15, [student("ada", {"p1-M": "A."}), student("bob", {"p1-M": "A."})]
@@ -191,14 +217,18 @@ def test_the_commands_read_hints_times_and_answers_from_what_was_handed_in(
     assert main(["report"]) == 2
     assert "nobody has handed in anything" in capsys.readouterr().err
     wrong = p3_pendulum.wrong(courses.release(root))
+    lines = "def pendulum_lines():\n    return [('u = K', 'algebra')]"
+    cell_of(wrong, "answer-p3-L").source = lines
     path = courses.submit(root, "ada", wrong, "2026-11-20 10:00:00 UTC")
-    seen = {"p3-M": 2, "p9-M": 3, "p3-C": "many"}
+    seen = {"p3-M": 2, "p3-L": 3, "p9-M": 3, "p3-C": "many"}
     path.with_name(".hints-seen.json").write_text(json.dumps(seen))
     courses.submit(root, "bob", wrong)
     assert main(["grade", P3, "--jobs", "1"]) == 0
     assert main(["report", P3]) == 0
     text = str(Text((root / "course" / "report" / f"{P3}.html").read_text(encoding="utf-8")))
     assert "p3-M: 1 of 1 students saw a hint, 2 each" in text
+    assert "p3-L: 1 of 1 students saw a hint, 3 each" in text
+    assert "p3-L: 0 complete, 2 begun, 0 not attempted" in text
     assert "2026-11-20 10:00 UTC" in text
     assert "2 of 2 students" in text
     assert "def M(q, pend):" in text or "def lagrangian(q, qd, m, lc, I, g):" in text

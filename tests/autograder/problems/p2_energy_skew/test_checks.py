@@ -81,3 +81,5 @@ def test_another_c_must_differ_clearly():
 def test_not_skew_counts_only_with_the_right_c_qd():
     verdict = judged("p2-C_other", ARM + f"return {C} + np.array([[3.0, 1.0], [2.0, 0.5]])")
     assert [row.met for row in verdict.rows] == [False, False]
+    (said,) = verdict.diagnosis  # it is one mistake, and one in the report on the class
+    assert said.startswith("Your C_other q̇ differs from C q̇.")

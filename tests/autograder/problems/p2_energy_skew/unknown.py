@@ -30,10 +30,7 @@ TRACED = {
         (SYMBOLS + "return 1.0001 * matrix(right)", f"In your vector C q̇, {ROUNDED}"),
     ],
 }
-UNEXPLAINED = {
-    "p2-C_other": [ARM + f"return {C} + np.array([[3.0, 1.0], [2.0, 0.5]])"],
-    "p2-christoffel": [SYMBOLS + "return sp.zeros(n) + sp.eye(n)"],
-}
+UNEXPLAINED = {"p2-christoffel": [SYMBOLS + "return sp.zeros(n) + sp.eye(n)"]}
 NEARLY = {"p2-christoffel": [SYMBOLS + "return 1.0001 * matrix(right)"]}
 UNFIT = {
     "p2-M_dot": [(ARM + "return h * b", "an array of shape (); it must return shape (2, 2)")],
