@@ -17,7 +17,7 @@ k = Parameter("k", "N/m", "stiffness of the spring", 5.0, 40.0)
 
 # The kinetic energy in J, as a sum of terms. Write m.symbol for a parameter, x.symbol for a coordinate,
 # x.velocity for its velocity, and sp.sin, sp.cos, sp.sqrt for functions.
-# Each name ends the sentence "Your M has everything but ...", as "the rotation of link 2".
+# Each name ends the sentence "Your M lacks ...", as "the rotation of link 2".
 KINETIC = (
     EnergyTerm("the motion of the block", m.symbol * x.velocity**2 / 2),
 )

@@ -6,6 +6,7 @@ from autograder.judging.check import Check
 from autograder.judging.terms import Term
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS, Answer
+from autograder.mutation.further import further
 from autograder.mutation.generated import Generated
 from autograder.mutation.mistakes import parts_of
 from autograder.mutation.references import reference
@@ -27,6 +28,7 @@ def check_of(mechanism: Mechanism, answer: str) -> Check:
         terms=partial(terms_of, mechanism, answer),
         catalogue=Generated(mechanism, answer),
         hints=_hints(mechanism, asked),
+        further=further(mechanism, answer),
         pose=lambda call: list(mechanism.points(asked.position(call.args), call.args[-1])),
     )
 

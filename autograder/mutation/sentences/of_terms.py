@@ -1,7 +1,7 @@
 """What is said of what was done to a term, by the operator: at one place, and in all terms alike."""
 
 AT_A_PLACE = {
-    "dropped": "Your {where} has everything but {term}.",
+    "dropped": "Your {where} lacks {term}.",
     "wrong sign": "In your {where}, {term} has the wrong sign.",
     "doubled": "Your {where} counts {term} twice.",
     "halved": "In your {where}, {term} is half of what it should be.",

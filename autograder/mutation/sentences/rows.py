@@ -21,8 +21,7 @@ class Row:
 ROWS = (
     Row(
         "dropped",
-        "Your {where} has everything but {term}. Hold joint 2 and move joint 1: which of the two "
-        "links turn?",
+        "Your {where} lacks {term}. Hold joint 2 and move joint 1: which of the two links turn?",
         "M",
         "planar-2r*",
         "the rotation of link 2",
@@ -30,8 +29,7 @@ ROWS = (
     ),
     Row(
         "dropped",
-        "Your {where} has everything but {term}. In which products of two velocities does "
-        "its energy appear?",
+        "Your {where} lacks {term}. In which products of two velocities does its energy appear?",
         "M",
         entry="M*",
     ),
@@ -147,5 +145,16 @@ ROWS = (
         "Your Y counts the product of velocities {put} twice in {where}. How often does it come up when "
         "C is multiplied by q̇?",
         "regressor",
+    ),
+    # What judges columns knows nothing of the rest of a row: it is said of the columns that show it.
+    *(
+        Row(operator, f"Here, {said}", "regressor", term=part, entry="row *")
+        for part in ("M q̈", "C q̇", "g(q)")
+        for operator, said in (
+            ("dropped", "your {where} lacks {term}."),
+            ("wrong sign", "{term} has the wrong sign in your {where}."),
+            ("doubled", "your {where} counts {term} twice."),
+            ("halved", "{term} is half of what it should be in your {where}."),
+        )
     ),
 )

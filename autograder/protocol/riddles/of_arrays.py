@@ -252,6 +252,13 @@ ROWS = (
         _parts,
     ),
     Row(
+        "joined, of unknown shapes",
+        ("ValueError",),
+        r"all the input arrays must have same number of dimensions",
+        "Print the shape of each part: is one of them a matrix where a vector belongs? A * B multiplies "
+        "entry by entry, and A @ B is the product of matrices.",
+    ),
+    Row(
         "truth",
         ("ValueError",),
         r"^The truth value of an array",

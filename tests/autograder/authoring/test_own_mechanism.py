@@ -210,7 +210,7 @@ def test_mistakes_in_an_energy_get_from_the_real_grader_what_a_check_says_here()
     assert re.fullmatch(r"sled, 3 of \d+ mistakes in its energies handed in and graded:", head.text)
     assert all(line.good for line in lines)
     assert "  dropped / the motion of the sled: 2 of 3 answers wrong" in lines[0].text
-    assert "    Your M has everything but the motion of the sled." in [one.text for one in lines]
+    assert "    Your M lacks the motion of the sled." in [one.text for one in lines]
     # A grader that judges by another file says something else.
     other = mistaken(own, {"sled.py": OTHER}, ["M"])
     assert not all(line.good for line in other)

@@ -122,9 +122,9 @@ def test_every_answer_has_its_check_by_name(mechanism):
 @pytest.mark.parametrize(
     ("of", "said"),
     [
-        (lambda q, qd, u, M, c, g, f: (qd, np.linalg.solve(M, u - c - g)), "but the friction."),
+        (lambda q, qd, u, M, c, g, f: (qd, np.linalg.solve(M, u - c - g)), "lacks the friction."),
         (lambda q, qd, u, M, c, g, f: (qd, M @ (u - c - g - f)), "You multiply by M."),
-        (lambda q, qd, u, M, c, g, f: (qd, np.linalg.solve(M, u - g - f)), "everything but C q̇."),
+        (lambda q, qd, u, M, c, g, f: (qd, np.linalg.solve(M, u - g - f)), "lacks C q̇."),
         (
             lambda q, qd, u, M, c, g, f: (qd, np.linalg.solve(M, u - c - g) - f),
             "You do not divide the friction by M",

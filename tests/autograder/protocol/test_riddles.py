@@ -161,6 +161,12 @@ CASES = [
         "math.cos(np.abs(q))",
         "math.cos takes one number, and np.abs(q) is an array. Use np.cos, or one entry.",
     ),
+    (
+        "joined, of unknown shapes",
+        "np.concatenate([qd, np.linalg.solve(A, A * qd)])",
+        "Print the shape of each part: is one of them a matrix where a vector belongs? A * B multiplies "
+        "entry by entry, and A @ B is the product of matrices.",
+    ),
     ("some truth", "max(q, qd)", f"{CONDITION} this one is an array of them. {MUST_HOLD}"),
     (
         "one number",
