@@ -129,7 +129,7 @@ MAY_IMPORT = {
         *("hints_seen", "worked_answers", "protocol", "judging", "pictures", "problems", "proofs"),
     ),
     "notebook": ("digest", "terminal", "protocol", "sandbox", "judging", "problems", "proofs"),
-    "report": ("terminal", "protocol", "judging", "problems", "notebook"),
+    "report": ("terminal", "protocol", "judging", "problems", "proofs", "notebook"),
     "pipeline": ("digest", "files", "terminal", "protocol", "sandbox", "judging", "notebook"),
     "nbgrader_glue": (
         "digest",

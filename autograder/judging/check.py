@@ -327,7 +327,7 @@ class Check:
         )
 
     def _error(self, problem: str, failed: Failed | None) -> Verdict:
-        step = "Fix this first: the check can't look at the physics until the function runs."
+        step = "Fix this first: until then the check can't look at the physics."
         return Verdict(self.id, State.ERROR, problem=problem, next_step=step, failed=failed)
 
     def _failed(self, error: Exception) -> Verdict:

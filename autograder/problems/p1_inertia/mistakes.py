@@ -250,6 +250,10 @@ def _symmetric_and(accepts):
     return lambda A: is_symmetric(A) and accepts(A)
 
 
+def _all_positive(eigenvalues):
+    return np.min(eigenvalues) > ROUNDING * np.max(np.abs(eigenvalues))
+
+
 # What a criterion sees of one alone first, as later ones share it with these.
 IS_SPD = (
     Mistake(
@@ -308,20 +312,21 @@ IS_SPD = (
     ),
     Mistake(
         "one triangle read",
-        # eigvalsh reads the lower triangle, as cholesky does, and raises nothing.
-        lambda A: np.linalg.eigvalsh(A)[0] > 0,
+        # eigvalsh reads the lower triangle, as cholesky does, and raises nothing. What counts as zero
+        # is another mistake, here and below.
+        lambda A: _all_positive(np.linalg.eigvalsh(A)),
         "You accept matrices that are not symmetric: cholesky and eigvalsh read one triangle and "
         "never look at the other. What must you test before you call them?",
     ),
     Mistake(
         "eigenvalues of any matrix",
-        lambda A: np.all(np.linalg.eigvals(A).real > 0),
+        lambda A: _all_positive(np.linalg.eigvals(A).real),
         "You accept matrices that are not symmetric, as long as their eigenvalues are positive. "
         "That is one half of the question. What is the other half?",
     ),
     Mistake(
         "symmetric part only",
-        lambda A: np.linalg.eigvalsh((A + A.T) / 2)[0] > 0,
+        lambda A: least_eigenvalue(A) > ROUNDING,
         "You test the symmetric part of the matrix. xᵀ A x cannot tell that part from A: what "
         "must hold besides xᵀ A x > 0?",
     ),

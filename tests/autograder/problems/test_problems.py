@@ -122,7 +122,11 @@ WRONG = {
 PARTLY_RIGHT = {
     "p1-inertia_from_links": (0.5, "last link only"),
     "p1-M": (0.75, "dropped / the rotation of link 2 / M12"),
-    "p1-is_spd": (0.5, "one triangle read"),
+    "p1-is_spd": (
+        0.5,
+        "rounding taken for a positive eigenvalue",
+        "one triangle read",
+    ),
     "p1-singular_arm": (0.5, "massless link"),
     "p2-M_dot": (0.55, "halved / the coupling of the two links / Ṁ11"),
     "p2-C": (0.7, "products in the later column"),

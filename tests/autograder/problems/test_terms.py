@@ -59,7 +59,7 @@ def test_each_term_is_found_where_it_is_too_large(check_id):
         explained = [sentence for sentence in verdict.diagnosis if sentence not in general]
         unmet = [row for row in verdict.rows if not row.met]
         assert explained
-        assert len(unmet) == len(verdict.diagnosis)
+        assert len(verdict.diagnosis) <= len(unmet)
         for sentence in explained:
             assert any(
                 f"{who} 37 % too large" in sentence

@@ -36,6 +36,7 @@ def singular(parameters: dict, q: str) -> str:
     return f"{BASE | parameters}, {q}"
 
 
+ROUNDED = "rounding taken for a positive eigenvalue"
 TABLE = {
     "p1-inertia_from_links": [
         ("I not used", "sum(J.T @ J for J in jacobians)", 0),
@@ -125,14 +126,17 @@ TABLE = {
     ],
     "p1-is_spd": [
         (
-            "one triangle read",
+            (ROUNDED, "one triangle read"),
             "try:\n    np.linalg.cholesky(A)\n"
             "except np.linalg.LinAlgError:\n    return False\nreturn True",
             0.5,
         ),
-        ("one triangle read", "np.all(np.linalg.eigvalsh(A) > 0)", 0.5),
-        ("eigenvalues of any matrix", "np.all(np.linalg.eigvals(A) > 0)", 0.5),
-        ("symmetric part only", "np.linalg.eigvalsh((A + A.T) / 2).min() > 0", 0.5),
+        ((ROUNDED, "one triangle read"), "np.all(np.linalg.eigvalsh(A) > 0)", 0.5),
+        ("one triangle read", "np.linalg.eigvalsh(A)[0] > 1e-9", 0.7),
+        ("eigenvalues of any matrix", "np.all(np.linalg.eigvals(A).real > 1e-9)", 0.7),
+        ("symmetric part only", "np.linalg.eigvalsh((A + A.T) / 2).min() > 1e-9", 0.7),
+        ((ROUNDED, "eigenvalues of any matrix"), "np.all(np.linalg.eigvals(A) > 0)", 0.5),
+        ((ROUNDED, "symmetric part only"), "np.linalg.eigvalsh((A + A.T) / 2).min() > 0", 0.5),
         ("determinant alone", "np.linalg.det(A) > 0", 0.2),
         (
             "determinant of a symmetric matrix",
@@ -146,7 +150,7 @@ TABLE = {
         ),
         ("zero eigenvalue accepted", "np.allclose(A, A.T) and np.linalg.eigvalsh(A)[0] >= 0", 0.8),
         (
-            "rounding taken for a positive eigenvalue",
+            ROUNDED,
             "np.allclose(A, A.T) and np.linalg.eigvalsh(A)[0] > 0",
             0.8,
         ),
