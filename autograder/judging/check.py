@@ -21,7 +21,7 @@ from autograder.judging.diagnosis import Catalogue, Mistake, Wrong, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
 from autograder.judging.given import Describe, Given, NoNumbersError, Reading
 from autograder.judging.models import Model, evaluated
-from autograder.judging.places import place
+from autograder.judging.places import NOWHERE, place
 from autograder.judging.quantities import Numbers, Quantities, each, one_number
 from autograder.judging.section import Section
 from autograder.judging.stacked import Layout, layouts, rows, stacked, unlike
@@ -304,11 +304,14 @@ class Check:
         right, theirs = expected[worst][k], given[worst][k]
         name = self.returns or self.name
         at = worst_entry(right, theirs)
-        where = place(name, self.quantities, calls, values, worst, k, at)
+        lacking = criterion.of_lacking
+        where = (
+            place(name, self.quantities, calls, values, worst, k, at) if not lacking else NOWHERE
+        )
         largest = max(float(np.max(np.abs(case[k]), initial=0.0)) for case in expected)
         # A quantity formed from several values is not what the function returned.
         what = "" if len(self.criteria) == 1 else criterion.text
-        named = criterion.entries or criterion.is_truth
+        named = criterion.entries or criterion.is_truth or lacking
         if what and not named and wrong_places(criterion, expected, given, k) == {at}:
             what += ", of which no other entry is wrong"
         what = ", ".join(filter(None, [what, when]))

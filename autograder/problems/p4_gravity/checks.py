@@ -256,6 +256,7 @@ CHECKS = (
                 "turn from each of the four equilibria to the nearest of yours",
                 "rad",
                 0.5,
+                of_lacking=True,
                 otherwise=(
                     ROUNDED,
                     Said(

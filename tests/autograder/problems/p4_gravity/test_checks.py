@@ -100,3 +100,11 @@ def test_what_is_missing_is_told_apart_though_another_configuration_is_there():
     pairs = f"[(a, b) for a in (-{HALF_PI}, {HALF_PI}) for b in (-{HALF_PI}, {HALF_PI})]"
     said = judged("p4-equilibria", f"{pairs} + [(0, 0)]").diagnosis
     assert said[1:] == sentences("p4-equilibria", "absolute second angle")
+
+
+@pytest.mark.parametrize("left_out", range(4))
+def test_no_entry_is_to_blame_for_an_equilibrium_that_is_missing(left_out):
+    found = [at for k, at in enumerate(FOUR) if k != left_out]
+    verdict = judged("p4-equilibria", repr(found))
+    assert "equilibria[" not in verdict.witness.returned
+    assert "no other entry" not in verdict.witness.returned
