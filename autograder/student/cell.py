@@ -17,6 +17,7 @@ from autograder.proofs import DERIVATIONS
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
 from autograder.student import below, failing, progress, worst_case
 from autograder.student.definitions import watched
+from autograder.student.display import show
 from autograder.student.own_arm import drawn_for, reminder
 from autograder.student.pasted import as_pasted
 
@@ -59,7 +60,7 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     worst_case.remember(verdict)
     pictured = offer(verdict, known_check(id), namespace)
     shown = card.mimebundle(verdict, [*pictured, *below.lines(verdict)])
-    _show(shown)
+    show(shown)
     if said := reminder(id):
         print(said)
     if verdict.state is not State.CORRECT:
@@ -94,16 +95,3 @@ def _naming_an_old_function(verdict: Verdict) -> Verdict:
         return verdict
     said = f"This is your old {name}: the cell that should define it again stopped with {error}."
     return replace(verdict, problem=f"{said} {verdict.problem}".rstrip())
-
-
-def _show(shown: dict[str, str]) -> None:
-    try:
-        from IPython import get_ipython
-        from IPython.display import display
-    except ImportError:
-        print(shown["text/plain"])
-        return
-    if get_ipython() is None:
-        print(shown["text/plain"])
-    else:
-        display(shown, raw=True)

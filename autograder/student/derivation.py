@@ -9,6 +9,7 @@ from autograder.proofs import DERIVATIONS, card, mark
 from autograder.proofs.derivation import Derivation
 from autograder.protocol import handed_in, one_line
 from autograder.student.cell import VISIBLE_SEED
+from autograder.student.display import show
 
 
 def derivation(id: str | None = None, lines: object = ()) -> None:
@@ -20,7 +21,7 @@ def derivation(id: str | None = None, lines: object = ()) -> None:
     this id.
     """
     known = known_derivation(id)
-    _show(card.mimebundle(mark(known, handed_in(lines), np.random.default_rng(VISIBLE_SEED))))
+    show(card.mimebundle(mark(known, handed_in(lines), np.random.default_rng(VISIBLE_SEED))))
 
 
 def known_derivation(id: object) -> Derivation:
@@ -31,16 +32,3 @@ def known_derivation(id: object) -> Derivation:
     near = get_close_matches(name[:60], DERIVATIONS, 1)
     meant = f"; did you mean {near[0]!r}?" if near else f"; they are {', '.join(DERIVATIONS)}"
     raise UnknownCheckError(f"there is no derivation {one_line(name, 60)!r}{meant}")
-
-
-def _show(bundle: dict[str, str]) -> None:
-    try:
-        from IPython import get_ipython
-        from IPython.display import display
-    except ImportError:
-        print(bundle["text/plain"])
-        return
-    if get_ipython() is None:
-        print(bundle["text/plain"])
-    else:
-        display(bundle, raw=True)

@@ -5,6 +5,7 @@ from html import escape
 from autograder.problems import CHECKS, known_check
 from autograder.proofs import DERIVATIONS
 from autograder.student import failing, hint_counts
+from autograder.student.display import show
 from autograder.student.own_arm import drawn_for
 
 
@@ -42,16 +43,7 @@ def _left(id: str, given: int, most: int) -> str:
 def _show(hints: tuple[str, ...], title: str, left: str) -> None:
     numbered = [f"{number}. {text}" for number, text in enumerate(hints, 1)]
     text = "\n".join([title, *numbered, left])
-    try:
-        from IPython import get_ipython
-        from IPython.display import display
-    except ImportError:
-        print(text)
-        return
-    if get_ipython() is None:
-        print(text)
-    else:
-        display({"text/plain": text, "text/html": _html(hints, title, left)}, raw=True)
+    show({"text/plain": text, "text/html": _html(hints, title, left)})
 
 
 def _html(hints: tuple[str, ...], title: str, left: str) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 from autograder import worked_answers
 from autograder.problems import READ, families, known_check
 from autograder.problems.material.conventions import BOOK
+from autograder.student.display import show
 from autograder.student.own_arm import drawn_for
 
 
@@ -72,17 +73,7 @@ def _show(id: str, answer: str) -> None:
     is_text, own = _is_text(id), drawn_for(id)
     differs = own not in (None, BOOK) if is_text else families.differs(own, known_check(id))
     remark = worked_answers.OF_THE_BOOK if differs else ""
-    shown = worked_answers.mimebundle(id, answer, is_text, remark)
-    try:
-        from IPython import get_ipython
-        from IPython.display import display
-    except ImportError:
-        print(shown["text/plain"])
-        return
-    if get_ipython() is None:
-        print(shown["text/plain"])
-    else:
-        display(shown, raw=True)
+    show(worked_answers.mimebundle(id, answer, is_text, remark))
 
 
 def _is_text(id: object) -> bool:

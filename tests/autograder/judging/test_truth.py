@@ -79,11 +79,12 @@ def spd_claims() -> dict:
         return lambda kinds, A, said: not accepts_every(which)(kinds, A, said)
 
     def last_digit(kinds, A, said):
-        definite = lambda k, a: k is Kind.DEFINITE  # noqa: E731
-        rounded = lambda k, a: k is Kind.ROUNDED  # noqa: E731
-        return accepts_every(definite)(kinds, A, said) and not accepts(rounded)(kinds, A, said)
+        every = accepts_every(lambda k, a: k is Kind.DEFINITE)(kinds, A, said)
+        return every and not accepts(lambda k, a: k is Kind.ROUNDED)(kinds, A, said)
 
-    symmetric = lambda k, a: np.array_equal(a, a.T)  # noqa: E731
+    def symmetric(k, a):
+        return np.array_equal(a, a.T)
+
     skewed = accepts(lambda k, a: k is Kind.SKEWED)
 
     def skewed_by(test):

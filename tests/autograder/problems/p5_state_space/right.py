@@ -114,8 +114,10 @@ def held_ivp(f, x0, u, t, **options):
     states = [x0]
     for k in range(len(t) - 1):
         torque = u(t[k], states[k]) if callable(u) else u
-        rate = lambda _, x, torque=torque: f(x, torque)  # noqa: E731
-        states.append(solve_ivp(rate, t[k : k + 2], states[k], **options).y[:, -1])
+        run = solve_ivp(
+            lambda _, x, torque=torque: f(x, torque), t[k : k + 2], states[k], **options
+        )
+        states.append(run.y[:, -1])
     return states
 
 
