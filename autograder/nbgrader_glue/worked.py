@@ -18,9 +18,11 @@ from autograder import worked_answers
 from autograder.nbgrader_glue.release import configuration
 from autograder.notebook.answers import model_answers
 from autograder.notebook.grade import is_judged
-from autograder.notebook.outputs import display, read_verdict
+from autograder.notebook.outputs import display, read_marks, read_verdict
 from autograder.notebook.own_arm import drawn_for
+from autograder.notebook.recognise import grade_id
 from autograder.problems import check_for, families
+from autograder.proofs import DERIVATIONS
 
 SETTINGS = Path("course/worked-answers.json")
 
@@ -67,12 +69,19 @@ def answers_of(root: Path, assignment: str) -> dict[str, str]:
 
 
 def with_answers(notebook: NotebookNode, root: Path, assignment: str, student: str) -> NotebookNode:
-    """A graded notebook with worked answers below each check that has full marks if they open so."""
+    """A graded notebook with a worked answer below each check that has full marks, and below each
+    derivation that is complete, if they open so.
+    """
     if settings(root).get(assignment) != worked_answers.FULL_MARKS:
         return notebook
     source = _source(root, assignment)
     answers, drawn = model_answers(source), drawn_for(source, student)
     notebook = copy.deepcopy(notebook)
+    for cell in notebook.cells:
+        derived = _complete(cell)
+        if derived in answers:
+            shown = worked_answers.mimebundle(derived, answers[derived], False)
+            cell.outputs.append(display(shown))
     for cell in filter(is_judged, notebook.cells):
         found = next(filter(None, map(read_verdict, cell.outputs)), None)
         check = check_for(found["check"]) if found else None
@@ -84,6 +93,14 @@ def with_answers(notebook: NotebookNode, root: Path, assignment: str, student: s
             )
             cell.outputs.append(display(shown))
     return notebook
+
+
+def _complete(cell: NotebookNode) -> str:
+    """The id of the derivation whose marks a graded cell shows, if it is complete; "" otherwise."""
+    if cell.cell_type != "code" or grade_id(cell) not in DERIVATIONS:
+        return ""  # below another cell, what looks like marks may be a student's
+    found = next(filter(None, map(read_marks, cell.outputs)), None)
+    return found["derivation"] if found and found["done"] else ""
 
 
 def _source(root: Path, assignment: str) -> NotebookNode:

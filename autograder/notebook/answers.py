@@ -8,6 +8,7 @@ from nbformat import NotebookNode
 from autograder.notebook.grade import is_judged
 from autograder.notebook.recognise import grade_id
 from autograder.problems import check_for
+from autograder.proofs import DERIVATIONS
 
 MARK = re.compile(r"[ \t]*### (BEGIN|END) SOLUTION[ \t]*(\n|$)")
 
@@ -27,7 +28,8 @@ def answers_to(checks: Iterable[str], cells: list[NotebookNode]) -> dict[str, st
 
 
 def model_answers(source: NotebookNode) -> dict[str, str]:
-    """The answers of a source notebook, by the grade_id of the cell that has their points.
+    """The answers of a source notebook, by the grade_id of the cell that has their points; the lines of
+    a derivation, by its id.
 
     An answer that a person reads is Markdown; every other is code.
     """
@@ -37,4 +39,7 @@ def model_answers(source: NotebookNode) -> dict[str, str]:
         claims = cell.metadata.get("nbgrader") or {}
         if claims.get("grade") and claims.get("solution"):
             found[grade_id(cell) or ""] = cell.source
+        answer, _, derived = (grade_id(cell) or "").partition("-")
+        if answer == "answer" and derived in DERIVATIONS:
+            found[derived] = cell.source
     return {id: MARK.sub("", text).strip("\n") for id, text in found.items()}

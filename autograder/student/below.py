@@ -24,15 +24,16 @@ def lines(verdict: Verdict) -> list[Line]:
         if check.section:
             found.append(_section(check.section))
     elif verdict.check in solution.opened():
-        found.append(
-            _call(
-                "A worked answer is open: {}.",
-                f'from autograder import solution; solution("{verdict.check}")',
-            )
-        )
+        found.append(worked_answer(verdict.check))
     if points := progress.of(verdict.check):
         found.append(_points(str(points)))
     return found
+
+
+def worked_answer(id: str) -> Line:
+    """That the worked answer is open, and the call that shows it."""
+    call = f'from autograder import solution; solution("{id}")'
+    return _call("A worked answer is open: {}.", call)
 
 
 def _call(said: str, call: str) -> Line:

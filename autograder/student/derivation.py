@@ -8,6 +8,7 @@ from autograder.problems import UnknownCheckError
 from autograder.proofs import DERIVATIONS, card, mark
 from autograder.proofs.derivation import Derivation
 from autograder.protocol import handed_in, one_line
+from autograder.student import below, solution
 from autograder.student.cell import VISIBLE_SEED
 from autograder.student.display import show
 
@@ -21,7 +22,13 @@ def derivation(id: str | None = None, lines: object = ()) -> None:
     this id.
     """
     known = known_derivation(id)
-    show(card.mimebundle(mark(known, handed_in(lines), np.random.default_rng(VISIBLE_SEED))))
+    marked = mark(known, handed_in(lines), np.random.default_rng(VISIBLE_SEED))
+    shown = card.mimebundle(marked)
+    if marked.done and known.id in solution.opened():
+        line = below.worked_answer(known.id)
+        shown["text/plain"] += f"\n  {line.text}"
+        shown["text/html"] += f'<p style="margin: 0.3em 0.9em">{line.html}</p>'
+    show(shown)
 
 
 def known_derivation(id: object) -> Derivation:

@@ -6,17 +6,19 @@ from pathlib import Path
 from autograder import worked_answers
 from autograder.problems import READ, families, known_check
 from autograder.problems.material.conventions import BOOK
+from autograder.proofs import DERIVATIONS
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for
 
 
 def solution(id: str | None = None) -> None:
-    """Show the worked answer to the check `id`, or to a text that a person reads, such as "p1-proof".
+    """Show the worked answer to the check `id`, to a derivation such as "p2-E", or to a text that a
+    person reads, such as "p1-proof".
 
     Before your instructor has opened it, a sentence says when that will be, where that is known.
-    UnknownCheckError where no check has this id.
+    UnknownCheckError where neither a check nor a derivation has this id.
     """
-    id = str(id) if _is_text(id) else known_check(id).id
+    id = str(id) if _is_text(id) or _is_derivation(id) else known_check(id).id
     answer = opened().get(id)
     if answer is None:
         print(f"There is no worked answer for {id} yet. {_when(id)}")
@@ -58,7 +60,9 @@ def _when(id: str) -> str:
         return "Your instructor opens it, and has named no date so far."
     if time is None:
         if _is_text(id):
-            return "Worked answers are opened for code alone so far."
+            return "Worked answers are opened for code and derivations alone so far."
+        if _is_derivation(id):
+            return f"Your feedback page shows it if your lines for {id} are complete."
         return f"Your feedback page shows it if you have full marks for {id}."
     day = f"{time:%d %B %Y, %H:%M} ({time:%Z})".lstrip("0")
     if time > datetime.now().astimezone():
@@ -71,7 +75,10 @@ def _when(id: str) -> str:
 
 def _show(id: str, answer: str) -> None:
     is_text, own = _is_text(id), drawn_for(id)
-    differs = own not in (None, BOOK) if is_text else families.differs(own, known_check(id))
+    if _is_derivation(id):
+        differs = False  # its lines hold for every arm
+    else:
+        differs = own not in (None, BOOK) if is_text else families.differs(own, known_check(id))
     remark = worked_answers.OF_THE_BOOK if differs else ""
     show(worked_answers.mimebundle(id, answer, is_text, remark))
 
@@ -79,3 +86,7 @@ def _show(id: str, answer: str) -> None:
 def _is_text(id: object) -> bool:
     """Whether a person reads the answer, which is no code."""
     return isinstance(id, str) and (id in READ or id.endswith("-proof"))
+
+
+def _is_derivation(id: object) -> bool:
+    return isinstance(id, str) and id in DERIVATIONS

@@ -13,11 +13,14 @@ from autograder.cli import main
 from autograder.nbgrader_glue.worked import SETTINGS, answers_of
 from autograder.notebook.answers import model_answers
 from autograder.problems import READ
+from autograder.proofs import DERIVATIONS
 from tests.autograder import courses
 from tests.autograder.course_problems import NAMES, problem
 from tests.autograder.courses import P3
+from tests.autograder.proofs.models import marked, models
 from tests.autograder.verdicts import assert_right, judged_in, namespace_of
 from tests.submissions import p3_pendulum
+from tests.submissions.answers import answered
 
 SOON = (datetime.now() + timedelta(days=3)).isoformat(timespec="minutes")
 
@@ -58,15 +61,28 @@ def test_each_graded_cell_has_a_model_answer_that_is_right(name):
     answers = model_answers(problem(name).source)
     graded = {cell.metadata.nbgrader.grade_id for cell in problem(name).source.cells
               if cell.metadata.get("nbgrader", {}).get("grade")}  # fmt: skip
-    assert answers.keys() == graded
+    derived = {cell.metadata.nbgrader.grade_id for cell in problem(name).source.cells
+               if "nbgrader" in cell.metadata} & set(DERIVATIONS)  # fmt: skip
+    assert answers.keys() == graded | derived
     assert not any("SOLUTION" in text for text in answers.values())
     for id in set(answers) - set(READ):
         assert answers[id].startswith(("def ", "import ", "from ")), id
+    for id in derived:
+        assert_complete(id, answers[id])
     if name == P3:
-        for id in set(answers) - set(READ):
+        for id in graded - set(READ):
             namespace = namespace_of(id, "return None")
             exec(answers[id], namespace)
             assert_right(judged_in(namespace, id))
+
+
+def assert_complete(id: str, worked: str) -> None:
+    """What is shown, run as a student's cell and handed in, earns all rows of the derivation."""
+    namespace = {}
+    exec(worked, namespace)
+    (lines,) = (value for name, value in namespace.items() if name.endswith("_lines"))
+    found = marked(id, lines, seed=3)
+    assert (found.done, found.earned) == (True, DERIVATIONS[id].rows), found
 
 
 def test_a_date_to_come_lets_out_the_date_alone(root, capsys):
@@ -103,7 +119,11 @@ def test_from_then_on_it_is_where_students_get_the_assignment(root, capsys):
 
 def test_with_full_marks_the_feedback_page_shows_it_and_nothing_else_does(root, capsys):
     wrong = p3_pendulum.RIGHT.right_but(courses.release(root), M="def M(q, pend):\n    return 7")
-    courses.submit(root, "ada", wrong, "2026-11-20 10:00:00 UTC")
+    handed_in = {"ada": models()["p3-L"], "bob": models()["p3-L"][:-1]}
+    for student, lines in handed_in.items():
+        derived = f"def pendulum_lines():\n    return {lines!r}"
+        of_student = answered(wrong, **{"p3-L": derived})
+        courses.submit(root, student, of_student, "2026-11-20 10:00:00 UTC")
     assert main(["grade", P3, "--jobs", "1"]) == 0
     assert main(["open-solution", P3, "--full-marks"]) == 0
     assert "on the feedback pages" in capsys.readouterr().out
@@ -113,6 +133,10 @@ def test_with_full_marks_the_feedback_page_shows_it_and_nothing_else_does(root, 
     assert "A worked answer for p3-g_vec" in page
     assert "A worked answer for p3-M" not in page
     assert "A worked answer for p3-derivation" not in page
+    assert "A worked answer for p3-L" in page
+    bobs = (root / "course" / "feedback" / "bob" / P3 / f"{P3}.html").read_text(encoding="utf-8")
+    assert "p3-L: 4 of 4 lines hold" in bobs
+    assert "A worked answer for p3-L" not in bobs
     graded = root / "course" / "autograded" / "ada" / P3 / f"{P3}.ipynb"
     assert "A worked answer" not in json.dumps(nbformat.read(graded, as_version=4))
 

@@ -5,11 +5,12 @@ from html.parser import HTMLParser
 
 import pytest
 
-from autograder import solution, worked_answers
+from autograder import derivation, solution, worked_answers
 from autograder.judging.verdict import State, Verdict
 from autograder.problems import UnknownCheckError
 from autograder.problems.material.conventions import BOOK, FAMILY
 from autograder.student import below, own_arm, progress
+from tests.autograder.proofs.models import models
 
 ANSWER = "def M(q, arm):\n    return 1 < 2  # <b>"
 NOW = datetime.now().astimezone()
@@ -40,6 +41,28 @@ def test_an_open_answer_is_shown(folder, capsys):
     assert said(capsys) == f"A worked answer for p1-M\n{ANSWER}\n"
     assert said(capsys, "p1-proof") == "A worked answer for p1-proof\n$x$\n"
     assert "There is no worked answer for p1-is_spd yet." in said(capsys, "p1-is_spd")
+    assert "There is no worked answer for p1-symmetry yet." in said(capsys, "p1-symmetry")
+
+
+def test_the_worked_lines_of_a_derivation_are_shown_as_code(folder, capsys):
+    """For every arm the same, as its lines hold of every arm."""
+    own_arm._drawn["p1"] = FAMILY[5]
+    worked_answers.write(folder / worked_answers.OPEN, {"p1-symmetry": ANSWER})
+    assert said(capsys, "p1-symmetry") == f"A worked answer for p1-symmetry\n{ANSWER}\n"
+
+
+def test_a_complete_derivation_names_the_worked_lines_where_they_are_open(folder, capsys):
+    def derived(lines) -> str:
+        derivation("p1-symmetry", lines)
+        return capsys.readouterr().out
+
+    right = models()["p1-symmetry"]
+    assert "worked answer" not in derived(right)
+    worked_answers.write(folder / worked_answers.OPEN, {"p1-symmetry": ANSWER})
+    call = 'from autograder import solution; solution("p1-symmetry")'
+    assert f"A worked answer is open: {call}." in derived(right)
+    assert "worked answer" not in derived(right[:-1])
+    exec(call, {})
 
 
 def test_the_course_exchange_is_looked_into_too(tmp_path, capsys):
@@ -76,7 +99,10 @@ def time_in_utc(time_of):
 
 def test_a_text_is_not_promised_with_full_marks(folder, capsys):
     opens(folder, worked_answers.FULL_MARKS)
-    assert "opened for code alone" in said(capsys, "p1-proof")
+    assert "opened for code and derivations alone" in said(capsys, "p1-proof")
+    assert said(capsys, "p1-positive").endswith(
+        "Your feedback page shows it if your lines for p1-positive are complete.\n"
+    )
 
 
 def test_a_time_without_a_zone_is_of_this_machine():
