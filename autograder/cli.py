@@ -173,6 +173,7 @@ def try_mechanism(root: Path, given: argparse.Namespace) -> int:
     """Try a mechanism's checks; the exit status is 1 if a mistake is not named by its sentence."""
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.authoring.course import NoMechanismError, files_of, found
+    from autograder.authoring.leads_on import led_on
     from autograder.authoring.rehearsal import mistaken, rehearsed
     from autograder.files import put_in_place
     from autograder.mechanisms.file import MechanismFileError
@@ -190,6 +191,7 @@ def try_mechanism(root: Path, given: argparse.Namespace) -> int:
     made: list[Tried] = []
     shown: list[Line] = []
     parts = (
+        led_on(root, mechanism),
         tried(mechanism, asked, given.names, made),
         (line for line in summary(made)),
         rehearsed(mechanism, files, asked),

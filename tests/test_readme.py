@@ -10,6 +10,8 @@ from nbgrader.apps.nbgraderapp import NbGraderApp
 
 from autograder.cli import main
 from autograder.mechanisms import MECHANISMS
+from autograder.mechanisms.file import mechanism_of
+from autograder.mutation.checks import check_of
 
 ROOT = Path(__file__).parents[1]
 README = ROOT / "README.md"
@@ -62,10 +64,13 @@ def test_feedback_reaches_students_by_the_commands_of_the_readme():
 
 def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
     guide = (ROOT / "docs" / "own-problem.md").read_text(encoding="utf-8")
-    example, sentences = re.findall(r"```python\n(.*?)```", guide, re.S)
+    example, sentences, ways_on, changed = re.findall(r"```python\n(.*?)```", guide, re.S)
     monkeypatch.chdir(tmp_path)
-    with_them = example.rstrip().removesuffix(")") + "    sentences=SENTENCES,\n)\n"
-    (tmp_path / "block.py").write_text(sentences + with_them, encoding="utf-8")
+    (tmp_path / "lessons").symlink_to(ROOT / "lessons")
+    given = re.findall(r"`(?:Mechanism` also `)?((?:\w+=[A-Z]+(?:, )?)+)`", guide)
+    assert given == ["sentences=SENTENCES", "further=FURTHER, sections=SECTIONS"]
+    with_them = example.rstrip().removesuffix(")") + f"    {', '.join(given)},\n)\n"
+    (tmp_path / "block.py").write_text(sentences + ways_on + with_them, encoding="utf-8")
     assert main(["try", "block.py", "--all"]) == 0
     shown = capsys.readouterr().out
     assert "block-M: the right answer is correct" in shown
@@ -73,3 +78,5 @@ def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
         assert f"  {sentence}\n" in shown
     for name in MECHANISMS:
         assert name in guide
+    cart = mechanism_of(changed, "cart-pole.py", "cart-pole")
+    assert check_of(cart, "M").further in changed

@@ -20,5 +20,6 @@ class Section:
 
     @property
     def number(self) -> str:
-        """The lesson's number, as it stands before its title: "03"."""
-        return self.lesson.partition("-")[0]
+        """The lesson's number, as it stands before its title: "03"; the name of one without a number."""
+        number = self.lesson.partition("-")[0]
+        return number if number.isdigit() else self.lesson

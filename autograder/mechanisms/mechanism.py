@@ -1,7 +1,7 @@
 """A mechanism: its coordinates, parameters and energies, from which M, C, g and all else follow."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,12 +10,14 @@ import sympy as sp
 from autograder.mechanisms.friction import FrictionTerm, refuse_other_than_friction
 from autograder.mechanisms.outline import Coordinate, Outline, Parameter, Part
 from autograder.mechanisms.refusals import (
+    further_of,
     refuse_bad_drawing,
     refuse_bad_energies,
     refuse_bad_name,
     refuse_bad_names,
     refuse_bad_units_and_ranges,
     refuse_doubles,
+    sections_of,
     sentences_of,
     tuple_of,
 )
@@ -40,7 +42,9 @@ class Mechanism(Outline):
     too; only an answer that asks for them has their coefficients in its arms. draws(q, arm): the shapes
     of the problem's picture (`shapes.py`); without it, links through the points. sentences: a teacher's
     own, each by its mistake, as "M: dropped / the rotation of link 2*": the answer, then the name that
-    `autograder try --names` shows, with `*` for anything.
+    `autograder try --names` shows, with `*` for anything. further: by answer, what a card says after a
+    right one. sections: by answer, the section of a lesson that a card leads to: the lesson's name, the
+    id of a cell, and the heading. An answer that they lack has the kit's.
 
     ValueError, naming what is wrong: for names that are given twice; a coordinate that is no angle (rad)
     or length (m); a range that is empty or not positive; a symbol in an energy that is none of the
@@ -57,13 +61,17 @@ class Mechanism(Outline):
     friction: tuple[FrictionTerm, ...] = ()
     draws: Callable[[np.ndarray, SimpleNamespace], Sequence[Shape]] | None = None
     sentences: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
+    further: Mapping[str, str] = field(default_factory=dict)
+    sections: Mapping[str, tuple[str, str, str]] = field(default_factory=dict)
 
     def __post_init__(self):
         where = f"mechanism {self.name!r}"
         object.__setattr__(self, "sentences", sentences_of(where, self.sentences))
+        object.__setattr__(self, "further", further_of(where, self.further))
+        object.__setattr__(self, "sections", sections_of(where, self.sections))
         refuse_bad_name(where, self.name)
-        for field, kind in _KINDS.items():
-            object.__setattr__(self, field, tuple_of(where, field, kind, getattr(self, field)))
+        for parts, kind in _KINDS.items():
+            object.__setattr__(self, parts, tuple_of(where, parts, kind, getattr(self, parts)))
         refuse_bad_names(where, self)
         refuse_bad_units_and_ranges(where, self)
         refuse_bad_energies(where, self)

@@ -165,3 +165,39 @@ def sentences_of(where: str, sentences: object) -> tuple[tuple[str, str], ...]:
                 f"{mistake}\" or another answer's name"
             )
     return tuple(given)
+
+
+def further_of(where: str, further: object) -> dict[str, str]:
+    """What a card says after a right answer, by answer."""
+    if not isinstance(further, Mapping) or not all(
+        _is_line(said) for pair in further.items() for said in pair
+    ):
+        raise ValueError(
+            f"{where}: further needs a dict of texts of one line, as "
+            f'{{"M": "M is the same at every x, since …"}}; it is {further!r}'
+        )
+    return dict(further)
+
+
+def sections_of(where: str, sections: object) -> dict[str, tuple[str, str, str]]:
+    """The section of a lesson by answer: the lesson's name, the id of a cell, the heading."""
+    if not isinstance(sections, Mapping) or not all(
+        _is_line(answer) and isinstance(at, tuple) and len(at) == 3 and all(map(_is_line, at))
+        for answer, at in sections.items()
+    ):
+        raise ValueError(
+            f"{where}: sections needs a dict of (lesson, id of a cell, heading), as "
+            '{"M": ("03-inertia-matrix", "03-arm", "2 · From the bodies to the arm")}; it is '
+            f"{sections!r}"
+        )
+    for lesson, _, _ in sections.values():
+        if not re.fullmatch(r"[\w-]+", lesson):
+            raise ValueError(
+                f"{where}: sections has the lesson {lesson!r}; write the name of its notebook "
+                'without folder and ending, as "03-inertia-matrix"'
+            )
+    return dict(sections)
+
+
+def _is_line(text: object) -> bool:
+    return isinstance(text, str) and bool(text.strip()) and "\n" not in text

@@ -10,6 +10,7 @@ from autograder.mutation.further import further
 from autograder.mutation.generated import Generated
 from autograder.mutation.mistakes import parts_of
 from autograder.mutation.references import reference
+from autograder.mutation.sections import section
 from autograder.mutation.sentences.notation import written
 
 
@@ -28,6 +29,7 @@ def check_of(mechanism: Mechanism, answer: str) -> Check:
         terms=partial(terms_of, mechanism, answer),
         catalogue=Generated(mechanism, answer),
         hints=_hints(mechanism, asked),
+        section=section(mechanism, answer),
         further=further(mechanism, answer),
         pose=lambda call: list(mechanism.points(asked.position(call.args), call.args[-1])),
     )

@@ -23,7 +23,9 @@ OF_ALL = {
 
 
 def further(mechanism: Mechanism, answer: str) -> str:
-    """One sentence: of a coordinate on which M or g does not depend, if there is one."""
+    """One sentence: the mechanism's own, or of a coordinate on which M or g does not depend."""
+    if own := mechanism.further.get(answer):
+        return own
     energies = {"M": mechanism.K, "g_vec": mechanism.P}
     if answer in energies:
         stands = energies[answer].free_symbols

@@ -22,7 +22,6 @@ from autograder.notebook.outputs import display, read_marks, read_verdict
 from autograder.notebook.own_arm import drawn_for
 from autograder.notebook.recognise import grade_id
 from autograder.problems import check_for, families
-from autograder.proofs import DERIVATIONS
 
 SETTINGS = Path("course/worked-answers.json")
 
@@ -97,10 +96,10 @@ def with_answers(notebook: NotebookNode, root: Path, assignment: str, student: s
 
 def _complete(cell: NotebookNode) -> str:
     """The id of the derivation whose marks a graded cell shows, if it is complete; "" otherwise."""
-    if cell.cell_type != "code" or grade_id(cell) not in DERIVATIONS:
-        return ""  # below another cell, what looks like marks may be a student's
-    found = next(filter(None, map(read_marks, cell.outputs)), None)
-    return found["derivation"] if found and found["done"] else ""
+    found = next(filter(None, map(read_marks, cell.get("outputs", []))), None)
+    if found and found["done"] and found["derivation"] == grade_id(cell):
+        return found["derivation"]
+    return ""
 
 
 def _source(root: Path, assignment: str) -> NotebookNode:

@@ -122,7 +122,8 @@ def test_who_is_done_or_not_to_blame_does_not(state):
     assert texts(Verdict("p3-M", state)) == []
 
 
-def test_a_check_of_a_mechanism_has_no_section():
+def test_a_check_of_a_mechanism_leads_to_the_section_too():
     assert texts(Verdict("cart-pole-M", State.INCORRECT)) == [
-        'Stuck? Run hint("cart-pole-M") for a hint. Hints cost no points.'
+        'Stuck? Run hint("cart-pole-M") for a hint. Hints cost no points.',
+        "Lesson 03 prepares this: 2 · From the bodies to the arm.",
     ]
