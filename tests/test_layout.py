@@ -120,7 +120,16 @@ MAY_IMPORT = {
     "mechanisms": (),
     "mutation": ("digest", "files", "protocol", "judging", "mechanisms"),
     "authoring": (
-        *("files", "protocol", "judging", "mechanisms", "mutation", "notebook", "pictures"),
+        *(
+            "files",
+            "protocol",
+            "judging",
+            "mechanisms",
+            "mutation",
+            "notebook",
+            "pictures",
+            "proofs",
+        ),
     ),
     "proofs": ("protocol",),
     "problems": ("protocol", "judging", "mechanisms", "mutation"),

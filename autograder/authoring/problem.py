@@ -7,9 +7,10 @@ import nbformat
 import numpy as np
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
+from autograder.authoring import proof
 from autograder.authoring.model_answer import model_answer
 from autograder.authoring.picture import picture
-from autograder.authoring.tasks import POINTS, PROOF_POINTS, proof_of, proof_task, task_of
+from autograder.authoring.tasks import POINTS, task_of
 from autograder.files import put_in_place
 from autograder.mechanisms import Coordinate, Mechanism
 from autograder.mutation.answers import ANSWERS
@@ -60,14 +61,16 @@ def write_problem(root: Path, mechanism: Mechanism, asks: list[str]) -> Path:
 def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
     """The problem in nbgrader's source form, with model answers."""
     name = mechanism.name
-    proof = "C" in asks  # what it asks about
+    has_proof = "C" in asks  # what it asks about
     friction = bool(mechanism.friction) and any(ANSWERS[answer].friction for answer in asks)
-    total = sum(POINTS[answer] for answer in asks) + (PROOF_POINTS if proof else 0)
+    total = sum(POINTS[answer] for answer in asks) + (proof.POINTS if has_proof else 0)
     cells = [
         new_markdown_cell(_title(mechanism, total, friction), id=f"{name}-title"),
         new_markdown_cell(_symbols(mechanism, friction), id=f"{name}-symbols"),
         new_code_cell(
-            _setup(mechanism, friction), id=f"{name}-setup", metadata=_locked(f"{name}-setup")
+            _setup(mechanism, friction, has_proof),
+            id=f"{name}-setup",
+            metadata=_locked(f"{name}-setup"),
         ),
     ]
     for letter, answer in zip(ascii_uppercase, asks, strict=False):
@@ -92,17 +95,8 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
                 metadata=_cell(f"{name}-{answer}", locked=True, grade=True, points=points),
             ),
         ]
-    if proof:
-        cells += [
-            new_markdown_cell(
-                proof_task(ascii_uppercase[len(asks)], friction), id=f"{name}-proof-task"
-            ),
-            new_markdown_cell(
-                f"### BEGIN SOLUTION\n{proof_of(friction)}\n### END SOLUTION",
-                id=f"{name}-proof",
-                metadata=_cell(f"{name}-proof", solution=True, grade=True, points=PROOF_POINTS),
-            ),
-        ]
+    if has_proof:
+        cells += _proof(name, ascii_uppercase[len(asks)], friction)
     cells += [
         new_markdown_cell(
             "## Before you hand in\n\nChoose *Kernel → Restart Kernel and Run All Cells*, look at every "
@@ -114,6 +108,32 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
     return new_notebook(
         cells=cells, metadata={"kernelspec": kernel, "language_info": {"name": "python"}}
     )
+
+
+def _proof(name: str, letter: str, friction: bool) -> list[nbformat.NotebookNode]:
+    """Its task, the lines that are marked, and the text that a person reads."""
+    derived = proof.lines_of(name, friction)
+    cells = [
+        new_markdown_cell(proof.task(letter, friction), id=f"{name}-proof-task"),
+        new_markdown_cell(proof.lines_task(derived), id=f"{name}-proof-lines"),
+    ]
+    for lines in derived:
+        cells += [
+            new_code_cell(
+                lines.answer,
+                id=f"{lines.id}-answer",
+                metadata=_cell(f"answer-{lines.id}", solution=True),
+            ),
+            new_code_cell(lines.call, id=f"{lines.id}-lines", metadata=_locked(lines.id)),
+        ]
+    return [
+        *cells,
+        new_markdown_cell(
+            f"### BEGIN SOLUTION\n{proof.text_of(friction)}\n### END SOLUTION",
+            id=f"{name}-proof",
+            metadata=_cell(f"{name}-proof", solution=True, grade=True, points=proof.POINTS),
+        ),
+    ]
 
 
 def _title(mechanism: Mechanism, total: int, friction: bool) -> str:
@@ -157,12 +177,13 @@ def _latex(name: str) -> str:
     return f"{head}_{index}" if index else head
 
 
-def _setup(mechanism: Mechanism, friction: bool) -> str:
+def _setup(mechanism: Mechanism, friction: bool, has_proof: bool) -> str:
+    calls = "check, derivation, hint" if has_proof else "check, hint"
     drawn = vars(mechanism.drawn(np.random.default_rng(1), friction))
     given = ", ".join(f"{name}={_number(value)}" for name, value in drawn.items())
     return (
         "from types import SimpleNamespace\n\nimport numpy as np\n\n"
-        f"from autograder import check, hint\n\narm = SimpleNamespace({given})"
+        f"from autograder import {calls}\n\narm = SimpleNamespace({given})"
     )
 
 

@@ -20,6 +20,7 @@ from autograder.mutation.operators import OF_ENERGIES, rewritings
 from autograder.mutation.trial import Line, nothing_to_ask
 from autograder.notebook.beside import Beside
 from autograder.notebook.grade import grade
+from autograder.proofs import card
 from autograder.protocol.calls import answer_all
 
 # How students write the same right answer: code below it, which makes another function of it.
@@ -65,6 +66,12 @@ def rehearsed(
     for style, code in STYLES.items():
         graded = grade(_handed_in(source, code), source, "rehearsal", Beside(mechanisms=files))
         lost = [str(v) for v in graded.verdicts.values() if v.state is not State.CORRECT]
+        lost += [
+            card.text(marked, with_names=False)
+            for of in graded.marks.values()
+            for marked in of
+            if not marked.done
+        ]
         yield Line(
             "\n".join([f"  {style}: {'full points' if not lost else ''}", *lost]).rstrip(),
             not lost,
@@ -154,7 +161,8 @@ def _with(source: NotebookNode, bodies: Mapping[str, Sequence[str]]) -> Notebook
         grade_id = cell.metadata.get("nbgrader", {}).get("grade_id", "")
         if cell.cell_type == "code" and grade_id.startswith("answer-"):
             answer = grade_id.removeprefix("answer-")
-            cell.source = _function(answer, bodies[answer])
+            if answer in bodies:  # no lines of the proof
+                cell.source = _function(answer, bodies[answer])
     return answered
 
 
@@ -165,6 +173,8 @@ def _handed_in(source: NotebookNode, code: str) -> NotebookNode:
         grade_id = cell.metadata.get("nbgrader", {}).get("grade_id", "")
         if code and cell.cell_type == "code" and grade_id.startswith("answer-"):
             name = grade_id.removeprefix("answer-")
+            if name not in ANSWERS:  # the lines of the proof are texts in every style
+                continue
             asked = code.format(name=name).replace("_right", f"_right_{name}")
             cell.source += f"\n\n_right_{name} = {name}\n{asked.replace('_kept', f'_kept_{name}')}"
     return answered

@@ -1,4 +1,4 @@
-"""What a problem asks in words, answer by answer, and the proof that a person reads."""
+"""What a problem asks in words, answer by answer."""
 
 import re
 
@@ -9,7 +9,6 @@ POINTS = {
     "potential_energy": 2, "M": 3, "M_dot": 3, "g_vec": 2, "C": 4, "lagrangian": 2, "f": 4,
     "energy_drift": 2, "regressor": 4,
 }  # fmt: skip
-PROOF_POINTS = 4
 WHAT = {
     "potential_energy": (
         "The potential energy",
@@ -71,19 +70,6 @@ FRICTION = (
     "coefficient times the velocity, and the Coulomb one is its coefficient times the sign of "
     "the velocity, 0 at rest."
 )
-PROOF = """\
-The Christoffel symbols $h_{ijk} = \\tfrac12\\left(\\frac{\\partial M_{ij}}{\\partial q_k} + \
-\\frac{\\partial M_{ik}}{\\partial q_j} - \\frac{\\partial M_{jk}}{\\partial q_i}\\right)$ give \
-$C_{ij} = \\sum_k h_{ijk}\\dot q_k$. By the chain rule $\\dot M_{ij} = \\sum_k \
-\\frac{\\partial M_{ij}}{\\partial q_k}\\dot q_k$. In $\\dot M_{ij} - 2C_{ij}$ the first derivative \
-cancels, and $\\sum_k\\left(\\frac{\\partial M_{jk}}{\\partial q_i} - \
-\\frac{\\partial M_{ik}}{\\partial q_j}\\right)\\dot q_k$ is left. If $i$ and $j$ change places it \
-changes its sign, since $M$ is symmetric. So $\\dot M - 2C$ is skew-symmetric. For the energy \
-$E = K + P$ follows $\\dot E = \\dot q^{\\mathsf T}(M\\ddot q + \\tfrac12\\dot M\\dot q + g) = \
-\\dot q^{\\mathsf T}FORCES + \\tfrac12\\dot q^{\\mathsf T}(\\dot M - 2C)\\dot q = \
-\\dot q^{\\mathsf T}FORCES$."""
-# What does work: the input alone, or less the friction.
-FORCES = {False: "u", True: "(u - f(\\dot q))"}
 
 
 def task_of(mechanism: Mechanism, answer: str) -> list[str]:
@@ -101,23 +87,3 @@ def task_of(mechanism: Mechanism, answer: str) -> list[str]:
         re.sub(r"\{(n|twice|count|pi|known|friction)\}", lambda at: str(known[at[1]]), text)
         for text in WHAT[answer]
     ]
-
-
-def proof_of(friction: bool) -> str:
-    """The model answer of the proof, for the equation of motion with friction or without."""
-    return PROOF.replace("FORCES", FORCES[friction])
-
-
-def proof_task(letter: str, friction: bool) -> str:
-    return f"""\
-## {letter}. By hand ({PROOF_POINTS} points, read by a person)
-
-Show that $\\dot M - 2C$ is skew-symmetric for the Christoffel form of $C$, and what follows for the \
-energy of this mechanism. Write it up in the cell below, line by line, with a reason for each line.
-
-| points | for |
-|---|---|
-| 1 | the definition of the Christoffel symbols, with its three derivatives |
-| 1 | $\\dot M$ by the chain rule |
-| 1 | the two derivatives that are left, and why they change their sign |
-| 1 | $\\dot E = \\dot q^{{\\mathsf T}} {FORCES[friction]}$, and where the skew-symmetry enters |"""

@@ -8,7 +8,7 @@ from nbformat import NotebookNode
 from autograder.notebook.grade import is_judged
 from autograder.notebook.recognise import grade_id
 from autograder.problems import check_for
-from autograder.proofs import DERIVATIONS
+from autograder.proofs import derivation_of
 
 MARK = re.compile(r"[ \t]*### (BEGIN|END) SOLUTION[ \t]*(\n|$)")
 
@@ -40,6 +40,6 @@ def model_answers(source: NotebookNode) -> dict[str, str]:
         if claims.get("grade") and claims.get("solution"):
             found[grade_id(cell) or ""] = cell.source
         answer, _, derived = (grade_id(cell) or "").partition("-")
-        if answer == "answer" and derived in DERIVATIONS:
+        if answer == "answer" and derivation_of(derived):
             found[derived] = cell.source
     return {id: MARK.sub("", text).strip("\n") for id, text in found.items()}

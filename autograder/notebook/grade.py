@@ -18,7 +18,7 @@ from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
 from autograder.notebook.sitting import Sitting
 from autograder.problems import check_for
-from autograder.proofs import DERIVATIONS, mark
+from autograder.proofs import derivation_of, mark
 from autograder.proofs.marks import Marked
 from autograder.sandbox.room import Room
 from autograder.terminal import shown_name, shown_note
@@ -92,7 +92,7 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
                 cell.outputs += _explanations(cell.outputs, beside)
                 if drawn is not None and grade_id(cell) == drawn.set_up.cell:
                     cell.outputs.append(drawn.shown)
-                if derivation := DERIVATIONS.get(grade_id(cell) or ""):
+                if derivation := derivation_of(grade_id(cell) or ""):
                     # Nothing else: what a cell prints may look like the card.
                     cell.outputs = [out for out in cell.outputs if out.output_type == "error"]
                     given = sitting.lines_of(derivation.id)

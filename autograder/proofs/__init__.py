@@ -6,5 +6,6 @@ reasons are given and nothing else is.
 
 from autograder.proofs.derivations import DERIVATIONS
 from autograder.proofs.marking import mark
+from autograder.proofs.of_mechanisms import derivation_of
 
-__all__ = ["DERIVATIONS", "mark"]
+__all__ = ["DERIVATIONS", "derivation_of", "mark"]

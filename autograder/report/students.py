@@ -9,7 +9,7 @@ import nbformat
 from autograder.notebook.answers import answers_to
 from autograder.notebook.outputs import read_marks, read_verdict
 from autograder.notebook.recognise import grade_id
-from autograder.proofs import DERIVATIONS
+from autograder.proofs import derivation_of
 from autograder.protocol import one_line
 
 
@@ -78,7 +78,7 @@ def read_graded(
         marks = {
             one["derivation"]: one
             for cell in cells
-            if grade_id(cell) in DERIVATIONS  # below no other cell it is the grader's
+            if derivation_of(grade_id(cell) or "")  # below no other cell it is the grader's
             for one in filter(None, map(read_marks, cell.get("outputs", [])))
         }
         return verdicts, answers_to(list(verdicts), cells), marks

@@ -13,7 +13,7 @@ from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict
 from autograder.pictures.offers import offer
 from autograder.problems import CHECKS, UnknownCheckError, known_check
-from autograder.proofs import DERIVATIONS
+from autograder.proofs import derivation_of
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
 from autograder.student import below, failing, progress, worst_case
 from autograder.student.definitions import watched
@@ -51,7 +51,7 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     does. NotCorrectError, after the card, where the verdict is not "correct"; UnknownCheckError
     where no check has this id.
     """
-    if isinstance(id, str) and id in DERIVATIONS:
+    if isinstance(id, str) and derivation_of(id):
         raise UnknownCheckError(f"no check judges {id!r}: call derivation with its lines")
     namespace = sys._getframe(1).f_globals
     verdict = _naming_an_old_function(verdict_on(known_check(id).id, namespace, fresh))

@@ -1,12 +1,14 @@
 """`derivation`, which a student's cell calls with the lines of a proof, and which marks them."""
 
 from difflib import get_close_matches
+from pathlib import Path
 
 import numpy as np
 
 from autograder.problems import UnknownCheckError
-from autograder.proofs import DERIVATIONS, card, mark
+from autograder.proofs import DERIVATIONS, card, derivation_of, mark
 from autograder.proofs.derivation import Derivation
+from autograder.proofs.of_mechanisms import ids_of
 from autograder.protocol import handed_in, one_line
 from autograder.student import below, solution
 from autograder.student.cell import VISIBLE_SEED
@@ -34,8 +36,9 @@ def derivation(id: str | None = None, lines: object = ()) -> None:
 def known_derivation(id: object) -> Derivation:
     """The derivation of this id; where there is none, UnknownCheckError, with the nearest."""
     name = id if isinstance(id, str) else ""
-    if name in DERIVATIONS:
-        return DERIVATIONS[name]
-    near = get_close_matches(name[:60], DERIVATIONS, 1)
+    if known := derivation_of(name):
+        return known
+    known_here = [*DERIVATIONS, *ids_of(Path.cwd().name)]  # a mechanism's folder has its name
+    near = get_close_matches(name[:60], known_here, 1)
     meant = f"; did you mean {near[0]!r}?" if near else f"; they are {', '.join(DERIVATIONS)}"
     raise UnknownCheckError(f"there is no derivation {one_line(name, 60)!r}{meant}")

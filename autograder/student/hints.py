@@ -3,7 +3,7 @@
 from html import escape
 
 from autograder.problems import CHECKS, known_check
-from autograder.proofs import DERIVATIONS
+from autograder.proofs import derivation_of
 from autograder.student import failing, hint_counts
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for
@@ -18,7 +18,7 @@ def hint(id: str | None = None) -> None:
     this id, or where none is given and no check has failed.
     """
     id = failing.last() if id is None else id
-    proof = DERIVATIONS.get(id) if isinstance(id, str) else None
+    proof = derivation_of(id) if isinstance(id, str) else None
     known = proof or known_check(id, drawn_for(id))
     id, hints = known.id, known.hints
     seen = hint_counts.seen(id)
@@ -35,7 +35,7 @@ def _left(id: str, given: int, most: int) -> str:
         return "There are no hints for this check."
     if given < most:
         return f'Hint {given} of {most}. For the next one, run hint("{id}") again.'
-    if id in CHECKS or id in DERIVATIONS:
+    if id in CHECKS or derivation_of(id):
         return "That was the last hint. The matching lesson has the rest."
     return "That was the last hint."
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from autograder import worked_answers
 from autograder.problems import READ, families, known_check
 from autograder.problems.material.conventions import BOOK
-from autograder.proofs import DERIVATIONS
+from autograder.proofs import derivation_of
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for
 
@@ -89,4 +89,4 @@ def _is_text(id: object) -> bool:
 
 
 def _is_derivation(id: object) -> bool:
-    return isinstance(id, str) and id in DERIVATIONS
+    return isinstance(id, str) and derivation_of(id) is not None

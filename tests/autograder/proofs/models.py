@@ -6,7 +6,7 @@ from pathlib import Path
 import nbformat
 import numpy as np
 
-from autograder.proofs import DERIVATIONS, mark
+from autograder.proofs import DERIVATIONS, derivation_of, mark
 from autograder.proofs.marks import Marked
 from autograder.protocol import handed_in
 
@@ -29,7 +29,7 @@ def models() -> dict[str, list[tuple[str, ...]]]:
 
 
 def marked(id: str, lines, seed: int = 1) -> Marked:
-    return mark(DERIVATIONS[id], handed_in(lines), np.random.default_rng(seed))
+    return mark(derivation_of(id), handed_in(lines), np.random.default_rng(seed))
 
 
 def said(id: str, *lines) -> list[str]:
