@@ -16,7 +16,7 @@ OPENS = ".worked-answers-open.json"  # the key WHEN → a time, or FULL_MARKS
 WHEN = "when"
 FULL_MARKS = "with full marks"
 MOST_BYTES = 4 << 20
-# nbgrader's feedback pages break code within words otherwise.
+# nbgrader's feedback pages break code within words otherwise, and JupyterLab breaks its lines.
 LOOK = "margin: 0.3em 0; overflow-x: auto; white-space: pre; word-break: normal"
 OF_THE_BOOK = (
     "This is the answer for the arm of the book. Yours is described in another way, so that its "
@@ -61,6 +61,6 @@ def mimebundle(id: str, answer: str, is_text: bool, remark: str = "") -> dict[st
         ' style="border-left: 5px solid #009E73; padding: 0.4em 0.9em; max-width: 60em">'
         f'<p style="margin: 0.2em 0"><strong>{escape(title)}</strong></p>{said}'
         f'<pre class="tex2jax_ignore mathjax_ignore" style="{LOOK}">'
-        f"<code>{escape(answer)}</code></pre></div>"
+        f'<code style="white-space: inherit">{escape(answer)}</code></pre></div>'
     )
     return {"text/plain": plain, "text/html": html}
