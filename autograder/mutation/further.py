@@ -37,4 +37,6 @@ def further(mechanism: Mechanism, answer: str) -> str:
                 "along it, wherever the mechanism stands.",
             }[answer]
             return written(said, mechanism)
+        if answer == "M" and absent:
+            return "K is the same at every position, so M never changes, and C q̇ is 0."
     return OF_ALL[answer]

@@ -33,6 +33,16 @@ def test_what_does_not_depend_on_a_coordinate_does_not(name):
             assert answer == "M" or np.allclose(np.ravel(right(q, arm))[k], 0)
 
 
+@pytest.mark.parametrize("name", ["elastic-joint", "pendulum", "slider-crank"])
+def test_a_constant_M_is_called_so(name):
+    mechanism, rng = MECHANISMS[name], np.random.default_rng(5)
+    arm, q, qd = mechanism.drawn(rng), mechanism.placed(rng), mechanism.moving(rng)
+    M, C = reference(mechanism, "M"), reference(mechanism, "C")
+    is_constant = np.allclose(M(q, arm), M(mechanism.placed(rng), arm))
+    assert is_constant == np.allclose(C(q, qd, arm), 0)
+    assert ("M never changes" in check_of(mechanism, "M").further) == is_constant
+
+
 @pytest.mark.parametrize("name", ["planar-2r", "cart-pole"])
 def test_the_power_of_M_dot_is_that_of_C(name):
     mechanism, rng = MECHANISMS[name], np.random.default_rng(4)
