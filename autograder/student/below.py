@@ -19,19 +19,28 @@ def lines(verdict: Verdict) -> list[Line]:
     if verdict.state not in (State.CORRECT, State.CHECK_FAILED):
         check = known_check(verdict.check)
         if check.hints:
-            hint = f'hint("{check.id}")'
-            found.append(_call("Stuck? Run {} for a hint. Hints cost no points.", hint))
+            found.append(_hint(check.id))
         if check.section:
             found.append(_section(check.section))
     elif verdict.check in solution.opened():
-        found.append(worked_answer(verdict.check))
+        found.append(_worked_answer(verdict.check))
     if points := progress.of(verdict.check):
         found.append(_points(str(points)))
     return found
 
 
-def worked_answer(id: str) -> Line:
-    """That the worked answer is open, and the call that shows it."""
+def lines_of_derivation(id: str, is_complete: bool) -> list[Line]:
+    """The hint to call, or where the derivation is complete, the worked lines if they are open."""
+    if not is_complete:
+        return [_hint(id)]
+    return [_worked_answer(id)] if id in solution.opened() else []
+
+
+def _hint(id: str) -> Line:
+    return _call("Stuck? Run {} for a hint. Hints cost no points.", f'hint("{id}")')
+
+
+def _worked_answer(id: str) -> Line:
     call = f'from autograder import solution; solution("{id}")'
     return _call("A worked answer is open: {}.", call)
 

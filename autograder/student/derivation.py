@@ -10,7 +10,7 @@ from autograder.proofs import DERIVATIONS, card, derivation_of, mark
 from autograder.proofs.derivation import Derivation
 from autograder.proofs.of_mechanisms import ids_of
 from autograder.protocol import handed_in, one_line
-from autograder.student import below, solution
+from autograder.student import below
 from autograder.student.cell import VISIBLE_SEED
 from autograder.student.display import show
 
@@ -26,8 +26,7 @@ def derivation(id: str | None = None, lines: object = ()) -> None:
     known = known_derivation(id)
     marked = mark(known, handed_in(lines), np.random.default_rng(VISIBLE_SEED))
     shown = card.mimebundle(marked)
-    if marked.done and known.id in solution.opened():
-        line = below.worked_answer(known.id)
+    for line in below.lines_of_derivation(known.id, marked.done):
         shown["text/plain"] += f"\n  {line.text}"
         shown["text/html"] += f'<p style="margin: 0.3em 0.9em">{line.html}</p>'
     show(shown)

@@ -23,6 +23,7 @@ def test_outside_a_notebook_it_prints(capsys):
     printed = capsys.readouterr().out
     assert printed.startswith("p2-E: complete\n  ✓ Edot = d/dt (K + P)   (definition of E)\n")
     assert "Row 2 of the table: all its lines hold (1 point, which a person confirms)." in printed
+    assert "Stuck?" not in printed
 
 
 def test_in_a_notebook_it_shows_a_card_and_raises_nothing(monkeypatch):
@@ -33,6 +34,9 @@ def test_in_a_notebook_it_shows_a_card_and_raises_nothing(monkeypatch):
     InteractiveShell.clear_instance()
     (output,) = captured.outputs
     assert "Energy does not give this." in output.data["text/html"]
+    assert (
+        "Stuck? Run <code>hint(&quot;p2-skew&quot;)</code> for a hint." in output.data["text/html"]
+    )
     assert "✗ = 0" in output.data["text/plain"]
 
 
