@@ -24,8 +24,8 @@ from tests.autograder.lesson_checks.answers import (
     path_of,
     table,
 )
+from tests.notebooks import course_map
 
-GOALS = re.compile(r"^\*\*After this lesson you can\*\*\n\n((?:\d+\. .+\n)+)", re.MULTILINE)
 OPTION = re.compile(r"^- \*\*([a-z])\*\* (.+)$", re.MULTILINE)
 EACH = [(number, id) for number in NUMBERS for id in checks_of(number)]
 
@@ -67,10 +67,9 @@ def test_a_lesson_has_three_to_five_checks(number):
 
 
 def test_each_goal_is_checked_here_or_in_a_problem(number):
-    (listed,) = GOALS.findall(lesson(number).cells[0].source)
-    stated = [int(k) for k in re.findall(r"^(\d+)\. ", listed, re.MULTILINE)]
     goals = of_lesson(number).GOALS
-    assert sorted(goals) == stated == list(range(1, len(stated) + 1))
+    stated = course_map.goals(path_of(number))
+    assert list(goals) == list(range(1, len(stated) + 1))
     checks = checks_of(number)
     for goal, ids in goals.items():
         assert ids, goal
@@ -90,8 +89,11 @@ def test_checks_stand_in_the_notebook_in_their_order(number):
 
 
 @pytest.mark.parametrize(("number", "id"), EACH)
-def test_a_cell_has_the_one_form(number, id):
-    assert cell_of(lesson(number), id).source == cell_for(checks_of(number)[id])
+def test_a_cell_has_the_one_form_below_its_question(number, id):
+    cells = lesson(number).cells
+    place = next(k for k, cell in enumerate(cells) if cell.id == id)
+    assert re.search(r"Your turn|Predict, then run", cells[place - 1].source)
+    assert cells[place].source == cell_for(checks_of(number)[id])
     assert re.fullmatch(rf"{number}-[a-z][a-z0-9-]*", id)
     asked = checks_of(number)[id]
     assert not isinstance(asked, Check) or asked.name == name_of(id)
