@@ -133,9 +133,11 @@ MAY_IMPORT = {
     ),
     "proofs": ("protocol",),
     "problems": ("protocol", "judging", "mechanisms", "mutation"),
+    "lesson_checks": ("protocol", "judging", "problems"),
     "pictures": ("protocol", "judging", "mechanisms", "mutation", "problems"),
     "student": (
         *("hints_seen", "worked_answers", "protocol", "judging", "pictures", "problems", "proofs"),
+        "lesson_checks",
     ),
     "notebook": ("digest", "terminal", "protocol", "sandbox", "judging", "problems", "proofs"),
     "report": ("terminal", "protocol", "judging", "problems", "proofs", "notebook"),

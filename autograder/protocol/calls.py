@@ -128,7 +128,10 @@ def _called(call: Call, function: Callable, given: list, seconds: float) -> Repl
         with time_limit(seconds), warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             given += [] if given else map(real, call.args)
-            return Reply(value=read(call, function(*given)))
+            result = function(*given)
+            if result is ...:  # `return ...`, as a lesson's stub does
+                raise NotImplementedError
+            return Reply(value=read(call, result))
     except NotNumbersError as error:
         nothing = error.kind is FaultKind.NOTHING
         riddle = riddles.of_nothing(function) if nothing else None

@@ -11,11 +11,12 @@ import numpy as np
 from autograder.judging import card
 from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict
+from autograder.lesson_checks import known as known_in_lesson
 from autograder.pictures.offers import offer
 from autograder.problems import CHECKS, UnknownCheckError, known_check
 from autograder.proofs import derivation_of
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
-from autograder.student import below, failing, progress, worst_case
+from autograder.student import below, failing, lesson, progress, worst_case
 from autograder.student.definitions import watched
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for, reminder
@@ -48,9 +49,12 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     """Judge the function that the check `id` asks for, as this notebook defines it; show the verdict.
 
     The visible check tries a few fixed cases; `fresh=True` draws new ones each time, as the grader
-    does. NotCorrectError, after the card, where the verdict is not "correct"; UnknownCheckError
-    where no check has this id.
+    does. NotCorrectError, after the card, where the verdict is not "correct", save in a lesson, which
+    goes on; UnknownCheckError where no check has this id.
     """
+    if asked := known_in_lesson(id):
+        lesson.show_card(asked, sys._getframe(1).f_globals)
+        return
     if isinstance(id, str) and derivation_of(id):
         raise UnknownCheckError(f"no check judges {id!r}: call derivation with its lines")
     namespace = sys._getframe(1).f_globals

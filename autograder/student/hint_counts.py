@@ -23,10 +23,13 @@ def is_first_call(id: str) -> bool:
     return id not in _here
 
 
-def keep(id: str, count: int) -> None:
-    """Remember that so many were shown. `nbgrader validate` runs a notebook too, and reads none."""
+def keep(id: str, count: int, beside: bool = True) -> None:
+    """Remember that so many were shown. `nbgrader validate` runs a notebook too, and reads none.
+
+    beside: whether also in the file beside the notebook; a lesson is not handed in.
+    """
     _here[id] = count
-    if os.environ.get("NBGRADER_EXECUTION") or not any(Path().glob("*.ipynb")):
+    if not beside or os.environ.get("NBGRADER_EXECUTION") or not any(Path().glob("*.ipynb")):
         return
     known = hints_seen.read(Path(hints_seen.FILE))
     if known.get(id, 0) < count:

@@ -2,6 +2,7 @@
 
 from html import escape
 
+from autograder.lesson_checks import known as known_in_lesson
 from autograder.problems import CHECKS, known_check
 from autograder.proofs import derivation_of
 from autograder.student import failing, hint_counts
@@ -19,13 +20,14 @@ def hint(id: str | None = None) -> None:
     """
     id = failing.last() if id is None else id
     proof = derivation_of(id) if isinstance(id, str) else None
-    known = proof or known_check(id, drawn_for(id))
+    in_lesson = known_in_lesson(id)
+    known = proof or in_lesson or known_check(id, drawn_for(id))
     id, hints = known.id, known.hints
     seen = hint_counts.seen(id)
     again = hint_counts.is_first_call(id) and seen > 0
     given = min(seen if again else seen + 1, len(hints))
     if hints:
-        hint_counts.keep(id, given)
+        hint_counts.keep(id, given, beside=not in_lesson)
     _show(hints[:given], f"Hints for {id}", _left(id, given, len(hints)))
 
 

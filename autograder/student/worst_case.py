@@ -1,6 +1,7 @@
 """`worst_case` gives the arguments of the call that a card shows, as values to work with."""
 
 from autograder.judging.verdict import State, Verdict
+from autograder.lesson_checks import known as known_in_lesson
 from autograder.problems import known_check
 from autograder.protocol import real
 from autograder.student.own_arm import drawn_for
@@ -28,7 +29,7 @@ def worst_case(id: str | None = None):
     NoWorstCaseError if the check has not run, is correct, or failed without a call; UnknownCheckError
     if no check has this id.
     """
-    check = known_check(id, drawn_for(id))
+    check = known_in_lesson(id) or known_check(id, drawn_for(id))
     verdict = _last.get(check.id)
     if verdict is None:
         raise NoWorstCaseError(f'check("{check.id}") has not run yet: run its cell first')
@@ -36,7 +37,7 @@ def worst_case(id: str | None = None):
         why = WHY_NONE.get(verdict.state, "its last verdict shows no call")
         raise NoWorstCaseError(f"{check.id} has no worst case: {why}")
     if not verdict.worst.args:
-        raise NoWorstCaseError(f"{check.signature} takes no arguments")
+        raise NoWorstCaseError(f"{verdict.worst.name} takes no arguments")
     values = tuple(map(real, verdict.worst.args))
     return values if len(values) > 1 else values[0]
 

@@ -18,7 +18,8 @@ from pathlib import Path
 
 import nbformat
 
-from autograder.problems import CHECKS
+from autograder import lesson_checks
+from autograder.problems import CHECKS, READ
 
 ROOT = Path(__file__).parents[2]
 HEAD = """# The course, section by section
@@ -30,6 +31,16 @@ them all. The third column has the tests of what is called.
 | lesson | reading | leads to | traps it shows |
 |---|---|---|---|
 """
+GOALS = """
+## What is graded of the goals
+
+Each lesson says what a student can do after it. A goal is graded if a check of the lesson or a part of
+a problem asks for it.
+
+| lesson | goals | graded | by checks of the lesson |
+|---|---|---|---|
+"""
+NO_CHECKS = "no checks yet"
 PROBLEMS = """
 ## The problems
 
@@ -167,6 +178,22 @@ def problems() -> list[Path]:
     )
 
 
+def goals(lesson: Path) -> list[str]:
+    """What a student can do after a lesson, as its first cell lists it."""
+    first = sections(lesson)[0].text
+    listed = re.search(
+        r"^\*\*After this lesson you can\*\*\n\n((?:\d+\. .+\n)+)", first, re.MULTILINE
+    )
+    return re.findall(r"^\d+\. (.+)$", listed[1], re.MULTILINE) if listed else []
+
+
+def graded(lesson: Path) -> dict[int, tuple[str, ...]]:
+    """The ids of the checks that grade each goal of a lesson, by the goal's number."""
+    number = lesson.name[:2]
+    known = number in lesson_checks.numbers()
+    return lesson_checks.of_lesson(number).GOALS if known else {}
+
+
 def page(to: Path) -> str:
     """The page; links are those of a file at `to`."""
     cut = {path: sections(path) for path in lessons()}
@@ -174,8 +201,10 @@ def page(to: Path) -> str:
     lines = [
         HEAD + "\n".join(_overview(path, parts, leads[path], to) for path, parts in cut.items())
     ]
+    lines.append(GOALS + "\n".join(_all_goals(list(cut), to)))
     for path, parts in cut.items():
         lines += _lesson(path, parts, to)
+        lines += _goals(path, to)
     lines.append(PROBLEMS.format(_link(TABLES_TEST, to)))
     for path in problems():
         prepared_by = [lesson for lesson, led in leads.items() if path.stem in led]
@@ -206,6 +235,38 @@ def _lesson(path, parts, to):
         tests = dict.fromkeys(test for name in used for test in files_testing(name))
         called = ", ".join(f"`{name}`" for name in used) or ("its own cells" if part.code else "")
         yield f"| {_cell(part.title)} | {called} | {_tests(tests, to)} |"
+
+
+def _all_goals(paths, to):
+    """A row a lesson, and the sum."""
+    totals = [0, 0, 0]
+    for path in paths:
+        ids = graded(path)
+        own = lesson_checks.checks_of(path.name[:2])
+        here = sum(any(id in own for id in ids[goal]) for goal in ids)
+        counts = [len(goals(path)), len(ids), here]
+        totals = [total + count for total, count in zip(totals, counts, strict=True)]
+        stated, of_all, of_own = counts
+        shown = f"{of_all} | {of_own}" if ids else f"{NO_CHECKS} | "
+        yield f"| [{path.name[:2]}]({_link(path, to)}) | {stated} | {shown} |"
+    yield "| all | " + " | ".join(map(str, totals)) + " |"
+
+
+def _goals(path, to):
+    """What grades each goal of a lesson that has checks."""
+    ids = graded(path)
+    if not ids:
+        return
+    number = path.name[:2]
+    table = ROOT / "tests" / "autograder" / "lesson_checks" / f"lesson_{number}.py"
+    module = ROOT / "autograder" / "lesson_checks" / f"lesson_{number}.py"
+    yield f"\nChecks: [{module.name}]({_link(module, to)}). Answers: {_tests([table], to)}.\n"
+    yield from ("| after this lesson you can | graded by |", "|---|---|")
+    for goal, text in enumerate(goals(path), 1):
+        by = ", ".join(
+            f"`{id}`" + (", read by a person" if id in READ else "") for id in ids.get(goal, ())
+        )
+        yield f"| {_cell(text)} | {by or 'nothing'} |"
 
 
 def _problem(path, prepared_by, to):

@@ -1,0 +1,137 @@
+"""What each answer to a lesson's check gets: the right ones, each known mistake, and anything else."""
+
+import numpy as np
+import pytest
+
+from autograder.judging.check import Check
+from autograder.judging.verdict import State, Verdict
+from autograder.lesson_checks import checks_of
+from autograder.lesson_checks.choice import Choice
+from autograder.lesson_checks.number import Number
+from autograder.student.lesson import verdict_on
+from tests.autograder.lesson_checks.answers import NUMBERS, cell_of, filled, lesson, table
+
+ANSWERS = {id: answers for number in NUMBERS for id, answers in table(number).items()}
+CHECKS = {id: check for number in NUMBERS for id, check in checks_of(number).items()}
+
+
+@pytest.fixture(scope="module")
+def opened():
+    """Each lesson's notebook, with what its first cell defines, by number."""
+    found = {}
+    for number in NUMBERS:
+        notebook = lesson(number)
+        first = next(cell for cell in notebook.cells if cell.cell_type == "code")
+        namespace = {"__name__": "__main__"}
+        exec(first.source, namespace)
+        found[number] = notebook, namespace
+    return found
+
+
+@pytest.fixture
+def verdict(opened):
+    def of(id: str, typed: str) -> Verdict:
+        """The verdict on an answer in the lesson's own cell."""
+        notebook, first = opened[id[:2]]
+        namespace = dict(first)
+        namespace["check"] = lambda asked: asked == id or pytest.fail(f"{id} checks {asked}")
+        exec(filled(cell_of(notebook, id).source, typed), namespace)
+        return verdict_on(CHECKS[id], namespace)
+
+    return of
+
+
+def sentence_of(check: Number | Choice | Check, name: str) -> str:
+    """What the check says of a mistake, or of a wrong option."""
+    if isinstance(check, Choice):
+        return check.by_letter[name].said
+    mistakes = check.wrong if isinstance(check, Number) else check.mistakes
+    return next(one.sentence for one in mistakes if one.name == name)
+
+
+def names_of(check: Number | Choice | Check) -> set[str]:
+    if isinstance(check, Choice):
+        return {letter for letter, option in check.by_letter.items() if option.said}
+    return {one.name for one in (check.wrong if isinstance(check, Number) else check.mistakes)}
+
+
+def test_each_check_and_each_mistake_has_its_answers():
+    assert ANSWERS.keys() == CHECKS.keys()
+    for id, answers in ANSWERS.items():
+        assert answers.right, id
+        assert answers.wrong.keys() == names_of(CHECKS[id]), id
+        assert answers.other or isinstance(CHECKS[id], Choice), id
+
+
+@pytest.mark.parametrize("id", ANSWERS)
+def test_right_answers_are_right(id, verdict):
+    for typed in ANSWERS[id].right:
+        found = verdict(id, typed)
+        assert found.state is State.CORRECT, f"{typed}: {found}"
+        assert (found.diagnosis, found.problem, found.next_step) == ((), "", "")
+        assert found.further == CHECKS[id].further != ""
+
+
+@pytest.mark.parametrize("id", ANSWERS)
+def test_a_known_mistake_is_named_and_no_other(id, verdict):
+    for name, typed in ANSWERS[id].wrong.items():
+        found = verdict(id, typed)
+        assert found.state is State.INCORRECT, f"{typed}: {found}"
+        assert found.diagnosis == (sentence_of(CHECKS[id], name),), name
+
+
+@pytest.mark.parametrize("id", [id for id in ANSWERS if ANSWERS[id].other])
+def test_no_mistake_is_named_of_another_wrong_answer(id, verdict):
+    known = {sentence_of(CHECKS[id], name) for name in names_of(CHECKS[id])}
+    for typed in ANSWERS[id].other:
+        found = verdict(id, typed)
+        assert found.state is State.INCORRECT, f"{typed}: {found}"
+        assert not known & set(found.diagnosis), typed
+        if isinstance(CHECKS[id], Number):
+            assert found.diagnosis == (CHECKS[id].otherwise,)
+
+
+@pytest.mark.parametrize("id", ANSWERS)
+def test_dots_are_no_attempt(id, verdict):
+    found = verdict(id, "...")
+    assert found.state is State.NOT_ATTEMPTED
+    assert found.next_step == (
+        "Type your answer in place of the three dots, then run this cell again."
+    )
+
+
+def test_the_arm_is_the_lessons(opened):
+    from autograder.lesson_checks.arm import ARM
+
+    for number, (_, namespace) in opened.items():
+        if "arm" in namespace:
+            own = {name: getattr(namespace["arm"], name) for name in vars(ARM)}
+            assert own == vars(ARM), number
+
+
+def test_the_numbers_of_lesson_05_are_the_models(opened):
+    """The right ones once more, by `armdyn` in place of a formula."""
+    _, of = opened["05"]
+    arm, checks = of["arm"], CHECKS
+    pose = np.radians([50.0, -50.0])
+    loaded = of["Planar2R"](
+        **of["numbers"] | {"m2": 4.0, "lc2": (2.0 * 0.4 + 2.0 * 0.8) / 4.0}
+    )  # link 2 and 2 kg in the hand
+    assert np.isclose(checks["05-lever"].right, (loaded.g_vec(pose) - arm.g_vec(pose))[0])
+    sagging = arm.g_vec(np.array([0.0, -np.radians(2)]))[1]
+    assert np.isclose(checks["05-sag"].right, sagging / np.radians(2))
+
+    def hessian(q, step=1e-5):
+        turns = step * np.eye(2)
+        return np.array([(arm.g_vec(q + d) - arm.g_vec(q - d)) / (2 * step) for d in turns])
+
+    H = hessian(np.array([-np.pi / 2, np.pi]))
+    for factor, stable in ((0.999, False), (1.001, True)):
+        spring = np.diag([0.0, factor * checks["05-spring"].right])
+        assert bool(np.all(np.linalg.eigvalsh(H + spring) > 0)) == stable
+
+
+def test_the_number_of_lesson_04_is_the_models(opened):
+    arm = opened["04"][1]["arm"]
+    up, down = (arm.potential_energy([q1, 0.0]) for q1 in (np.pi / 2, -np.pi / 2))
+    assert np.isclose(CHECKS["04-upright"].right, up - down)

@@ -1,0 +1,124 @@
+"""No output of a lesson is what a problem on the same arm asks for.
+
+A lesson derives M, C and g of the 2R arm and of the pendulum; the student who writes them in a problem
+shall not find them printed. An output's expressions, and the terms of their sums, are compared in
+numbers with the entries that the problems ask for, whatever their letters are called.
+"""
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from types import SimpleNamespace
+
+import nbformat
+import numpy as np
+import pytest
+import sympy as sp
+
+from autograder.problems import CHECKS
+
+LESSONS = sorted((Path(__file__).parents[2] / "lessons").glob("*.ipynb"))
+# Cells that still print such an answer, to be mended with their lesson's checks.
+TO_MEND = {
+    "01-pendulum-sympy": {"p3-g_vec"},
+    "02-hand-sympy": {"p2-C", "p2-M_dot"},
+    "03-2r-sympy": {"p1-M"},
+    "09-wolfram-run": {"p1-M", "p2-C", "p2-M_dot"},
+}
+RNG = np.random.default_rng(17)
+PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "m", "lc", "I", "g")
+STATES = ("q", "q1", "q2", "qd", "qd1", "qd2", "qdd", "qdd1", "qdd2")
+NUMBERS = dict(zip(PARAMETERS + STATES, RNG.uniform(0.5, 2.0, 21), strict=True))
+LETTERS = {"ell_": "l", "ell": "l", "qddot": "qdd", "qdot": "qd"}
+
+
+@cache
+def asked() -> list[tuple[str, float]]:
+    """The entries that problems ask for, in numbers; those without a sine or cosine are no secret."""
+    arm = SimpleNamespace(**NUMBERS)
+    q, qd = np.array([arm.q1, arm.q2]), np.array([arm.qd1, arm.qd2])
+    arguments = {
+        "p1-M": (q, arm),
+        "p2-M_dot": (q, qd, arm),
+        "p2-C": (q, qd, arm),
+        "p3-g_vec": (np.array([arm.q]), arm),
+        "p4-g_vec": (q, arm),
+        "p4-potential_energy": (q, arm),
+    }
+    found = []
+    for id, given in arguments.items():
+        value = np.ravel(CHECKS[id].reference(*given))
+        turned = [x + 1.0 if np.ndim(x) else x for x in given]
+        changes = ~np.isclose(value, np.ravel(CHECKS[id].reference(*turned)))
+        found += [(id, float(v)) for v in value[changes]]
+    return found
+
+
+def expressions(text: str) -> Iterator[sp.Expr]:
+    """The SymPy expressions of an output: a whole one, or those after a "=" in printed lines."""
+    for part in [text, *(line.partition(" = ")[2] for line in text.splitlines())]:
+        part = re.sub(r"(?<=Cos|Sin)\[([^]]*)\]", r"(\1)", part).replace("^", "**")
+        part = part.replace("Cos(", "cos(").replace("Sin(", "sin(")
+        if not re.search(r"\b(sin|cos)\(", part) or not re.fullmatch(r"[\w\s()\[\],*+/.-]+", part):
+            continue
+        names = set(re.findall(r"\b[A-Za-z_]\w*", part)) - {"sin", "cos", "Matrix"}
+        try:
+            found = sp.sympify(part, locals={name: sp.Symbol(name) for name in names})
+        except (sp.SympifyError, SyntaxError, TypeError):
+            continue
+        yield from found if isinstance(found, sp.MatrixBase) else [found]
+
+
+def number(expression: sp.Expr) -> float | None:
+    """The expression in numbers; None where it has letters that no problem has."""
+    values = {}
+    for symbol in expression.free_symbols:
+        name = symbol.name
+        for own, ours in LETTERS.items():
+            name = name.replace(own, ours)
+        if name not in NUMBERS:
+            return None
+        values[symbol] = NUMBERS[name]
+    return float(expression.subs(values))
+
+
+def answers_in(text: str) -> set[str]:
+    """The checks of which an output holds an entry."""
+    found = set()
+    for expression in expressions(text):
+        for part in (expression, *sp.Add.make_args(sp.expand(expression))):
+            value = number(part)
+            if value is not None and part.has(sp.sin, sp.cos):
+                found |= {id for id, entry in asked() if np.isclose(value, entry, rtol=1e-9)}
+    return found
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("-l1*lc2*m2*qdot1*sin(q2)", set()),
+        ("l1*lc2*m2*qdot1*sin(q2)", {"p2-C"}),
+        ("C12 = -l1*lc2*m2*qd1*Sin[q2] - l1*lc2*m2*qd2*Sin[q2]", {"p2-C", "p2-M_dot"}),
+        ("M12 = I2 + l1*lc2*m2*Cos[q2] + lc2^2*m2", {"p1-M"}),
+        ("Matrix([\n[ell_c2*g*m2*cos(q1 + q2)]])", {"p4-g_vec"}),
+        ("I*qddot + ell_c*g*m*sin(q)", {"p3-g_vec"}),
+        ("I2 + lc2**2*m2", set()),
+        ("h_122 = -lc2*m2*sin(q2)", set()),
+        ("PD alone rests [11.8  7.1] degrees below the target", set()),
+    ],
+)
+def test_an_answer_is_seen(text, found):
+    assert answers_in(text) == found
+
+
+@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
+def test_a_lesson_prints_no_answer(path):
+    printed = {}
+    for cell in nbformat.read(path, as_version=4).cells:
+        for output in cell.get("outputs", []):
+            text = output.get("text") or output.get("data", {}).get("text/plain", "")
+            if found := answers_in(text):
+                printed[cell.id] = printed.get(cell.id, set()) | found
+    number = path.name[:2]
+    assert printed == {id: of for id, of in TO_MEND.items() if id.startswith(number)}
