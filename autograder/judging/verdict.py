@@ -4,7 +4,7 @@ import textwrap
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
-from autograder.protocol import Call
+from autograder.protocol import Call, shortened
 
 AS_ABOVE = "For the same reason as above."
 
@@ -159,6 +159,31 @@ class Verdict:
             rows += [filled(sentence, 6) for sentence in said]
         last = [*self.of_the_whole, *self._last()]
         return "\n".join([self.headline, *map(filled, self._first()), *rows, *map(filled, last)])
+
+
+def not_attempted(check: str, signature: str) -> Verdict:
+    """Of a function that still says NotImplementedError."""
+    step = (
+        f"Write {signature} where it says NotImplementedError, "
+        "run its cell, then run this cell again."
+    )
+    return Verdict(check, State.NOT_ATTEMPTED, next_step=step)
+
+
+def error(check: str, problem: str, failed: Failed | None) -> Verdict:
+    """Of code that gives nothing to judge. failed: the call because of which; None for none."""
+    step = "Fix this first: until then the check can't look at the physics."
+    return Verdict(check, State.ERROR, problem=problem, next_step=step, failed=failed)
+
+
+def check_failed(check: str, error: Exception) -> Verdict:
+    """Where the check itself stopped with an error."""
+    return Verdict(
+        check,
+        State.CHECK_FAILED,
+        problem=f"{type(error).__name__} in the check {check}: {shortened(str(error))}.",
+        next_step="This is not your fault. Please tell your instructor.",
+    )
 
 
 def filled(text: str, indent: int = 2) -> str:
