@@ -111,6 +111,13 @@ class Check:
         """
         try:
             calls = self.calls(rng, count)
+        except Exception as error:
+            return verdict.check_failed(self.id, error)
+        return self.on(calls, ask)
+
+    def on(self, calls: list[Call], ask: Ask) -> Verdict:
+        """Try the student's function with these calls; as `run`."""
+        try:
             expected = self._quantities_of(self.reference, calls)
             # The reference goes first: where it fails the check is to blame, not the student.
             if not all(self._met(self._errors(expected, expected))):
@@ -300,4 +307,4 @@ class Check:
         found = witness(
             call, self.signature, right, theirs, criterion, largest, where, what, self.pose
         )
-        return replace(found, given_by=given_by(call, self.signature, self.id), of=call)
+        return replace(found, given_by=given_by(call, self.signature, self.id))
