@@ -34,7 +34,7 @@ class Progress:
     def __str__(self):
         said = f"{_number(self.right)} of {_number(self.total)} points checked"
         read = sum(self.by_person.values())
-        return f"{said}; a person reads for {_number(read)} more." if read else f"{said}."
+        return f"{said}; a person gives {_number(read)} more." if read else f"{said}."
 
     @property
     def rest(self) -> list[str]:

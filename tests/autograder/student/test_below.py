@@ -45,7 +45,7 @@ def checked(id, body) -> None:
 def test_points_add_up_as_checks_are_run(notebook, capsys):
     checked("p3-M", "return pend.I")
     assert capsys.readouterr().out.splitlines()[-1] == (
-        "  1 of 15 points checked; a person reads for 5 more."
+        "  1 of 15 points checked; a person gives 5 more."
     )
     assert progress.of("p3-M").rest == [
         "left to check: p3-lagrangian (3), p3-C (1), p3-g_vec (2), p3-inertia_about_pivot (1), "
