@@ -37,7 +37,8 @@ def mimebundle(own: Convention, whose: str, arm: object, code: str) -> dict[str,
         [title, *(f"  {name:11} {value}" for name, value in rows), *filter(None, [note])]
     )
     cells = "".join(
-        f'<tr><th style="text-align: left; vertical-align: top; padding-right: 0.8em">{escape(name)}</th>'
+        f'<tr><th style="text-align: left; vertical-align: top; padding-right: 0.8em">'
+        f"{escape(name)}</th>"
         f'<td style="text-align: left">{escape(value)}</td></tr>'
         for name, value in rows
     )
