@@ -16,7 +16,7 @@ import numpy as np
 
 from autograder.judging import changes, dependence, findings, verdict
 from autograder.judging.call_text import given_by
-from autograder.judging.criterion import Criterion, relative_errors
+from autograder.judging.criterion import Criterion, errors_of, met_by
 from autograder.judging.diagnosis import Catalogue, Mistake, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
 from autograder.judging.given import Describe, Given, NoNumbersError, Reading
@@ -120,7 +120,7 @@ class Check:
         try:
             expected = self._quantities_of(self.reference, calls)
             # The reference goes first: where it fails the check is to blame, not the student.
-            if not all(self._met(self._errors(expected, expected))):
+            if not all(met_by(self.criteria, expected, expected)):
                 raise ArithmeticError("the reference does not pass its own check")
         except Exception as error:
             return verdict.check_failed(self.id, error)
@@ -179,9 +179,9 @@ class Check:
         met where both are right. changed: the names of these arguments. ask: by which more may be found
         out of an answer that no mistake explains.
         """
-        right = met = self._met(self._errors(expected, given.numbers))
+        right = met = met_by(self.criteria, expected, given.numbers)
         if again is not None:
-            later = self._met(self._errors(expected, again.numbers))
+            later = met_by(self.criteria, expected, again.numbers)
             met = [one and two for one, two in zip(right, later, strict=True)]
         remark = changes.remark(self.name, changed, met != right)
         credit = sum(c.share for c, ok in zip(self.criteria, met, strict=True) if ok)
@@ -220,18 +220,6 @@ class Check:
         found = zip(self.criteria, met, said, strict=True)
         return tuple(Row(c.text, c.share, ok, sentences) for c, ok, sentences in found)
 
-    def _errors(self, expected: Numbers, given: Numbers) -> list[np.ndarray]:
-        """For each criterion the relative error of each case."""
-        return [
-            relative_errors([e[k] for e in expected], [g[k] for g in given])
-            for k in range(len(self.criteria))
-        ]
-
-    def _met(self, errors: list[np.ndarray]) -> list[bool]:
-        return [
-            criterion.met(error) for error, criterion in zip(errors, self.criteria, strict=True)
-        ]
-
     def _quantities_of(self, model: Model, calls: list[Call]) -> Numbers:
         return self.quantities(calls, list(evaluated(model, calls)))
 
@@ -254,7 +242,7 @@ class Check:
             if not criterion.unit or criterion.is_property or (found := tried(last)) is None:
                 return ""
             unsteady = findings.of_repeats(criterion, given[last][k], found.theirs[0][k])
-            errors = self._errors(expected, given)[k][:last]
+            errors = errors_of(self.criteria, expected, given)[k][:last]
             best = int(np.argmin(errors)) if len(errors) else last
             return unsteady or dependence.sentence(criterion.text, k, found, lambda: tried(best))
 
@@ -288,7 +276,7 @@ class Check:
     ) -> Witness:  # fmt: skip
         k = met.index(False)
         criterion = self.criteria[k]
-        worst = int(np.argmax(self._errors(expected, given)[k]))
+        worst = int(np.argmax(errors_of(self.criteria, expected, given)[k]))
         right, theirs = expected[worst][k], given[worst][k]
         name = self.returns or self.name
         at = worst_entry(right, theirs)
