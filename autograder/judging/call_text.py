@@ -1,4 +1,4 @@
-"""A call as a student can paste it into the notebook, and the line that gives its arguments."""
+"""A call as a student can paste it into the notebook, and the lines that give its arguments."""
 
 import ast
 from dataclasses import replace
@@ -36,26 +36,34 @@ def shown_call(call: Call, signature: str, digits: int = SHORT) -> str:
     return f"{plain}.subs({{{point}}})"
 
 
-def given_by(call: Call, signature: str, id: str) -> str:
-    """The line that gives a call's arguments in the notebook; "" where it has none.
+def by_name(call: Call, signature: str) -> str:
+    """The call with its arguments' names for them, which the lines of `given_by` define."""
+    if _is_by_name(call):
+        return shown_call(call, signature)
+    return f"{call.name}({', '.join(arguments(signature))})"
 
-    It tells the shapes of those that are too long to be shown.
+
+def given_by(call: Call, signature: str, id: str) -> str:
+    """The lines that define a call's arguments, in any cell of the notebook; "" where it has none.
+
+    They tell the shapes of those that are too long to be shown.
     """
     names = arguments(signature)
     if not names:
         return ""
-    line = f'from autograder import worst_case; {", ".join(names)} = worst_case("{id}")'
-    return line + shapes(call, signature)
+    lines = ["import sympy as sp"] if shown_call(call, signature).startswith("sp.") else []
+    lines += ["from autograder import worst_case", f'{", ".join(names)} = worst_case("{id}")']
+    return "\n".join(lines) + shapes(call, signature)
 
 
 def shapes(call: Call, signature: str) -> str:
-    """A comment with the shapes of the arguments that `shown_call` shows by their names; "" for none."""
+    """A line with the shapes of the arguments that `shown_call` shows by their names; "" for none."""
     said = [
         f"{name} {value.shape}"
         for name, value in zip(arguments(signature), call.args, strict=False)
         if isinstance(value, np.ndarray) and value.size > LONGEST_ARRAY
     ]
-    return f"  # {', '.join(said)}" if said else ""
+    return f"\n# {', '.join(said)}" if said else ""
 
 
 def rounded(call: Call, digits: int = SHORT) -> Call:

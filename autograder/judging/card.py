@@ -6,15 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape
 
-from autograder.judging.verdict import (
-    State,
-    Verdict,
-    Witness,
-    arguments_by,
-    failing,
-    filled,
-    worst_case,
-)
+from autograder.judging.passages import Passage, filled
+from autograder.judging.verdict import State, Verdict, plain
 
 # Mark and colour (Okabe and Ito's palette, safe for colour-blind readers).
 LOOKS = {
@@ -26,6 +19,13 @@ LOOKS = {
     State.CHECK_FAILED: ("?", "#0072B2"),
 }
 PARAGRAPH = "margin: 0.3em 0"
+# Python may break anywhere, so that a long array needs no bar to scroll with.
+CODE = (
+    "font-size: 0.9em; background: none; padding: 0; white-space: pre-wrap; overflow-wrap: anywhere"
+)
+BLOCK = (
+    "margin: 0.2em 0 0.4em; padding: 0 0 0 1em; border: 0; background: none; white-space: pre-wrap"
+)
 NOT_MET = LOOKS[State.INCORRECT][1]
 LINKS = ("#0072B2", "#56B4E9")  # in turn, so that a folded arm shows both
 
@@ -34,33 +34,40 @@ LINKS = ("#0072B2", "#56B4E9")  # in turn, so that a folded arm shows both
 class Line:
     """A line at the end of a card: as plain text, and as HTML where that can do more, such as a link.
 
-    html: ours, with whatever it quotes escaped; "" for the text itself.
+    html: ours, with whatever it quotes escaped; "" for the text itself. inside: what of the text is
+    Python, which does not run when it is broken.
     """
 
     text: str
     html: str = ""
+    inside: str = ""
+
+    @classmethod
+    def with_code(cls, said: str, code: str) -> "Line":
+        """said: a sentence with {} where the code stands."""
+        return cls(
+            said.format(code), said.format(f'<code style="{CODE}">{escape(code)}</code>'), code
+        )
 
 
-def html_card(verdict: Verdict, lines: Iterable[Line] = ()) -> str:
-    """The verdict as HTML, readable by a screen reader from top to bottom; then the lines.
+def html_card(verdict: Verdict, lines: Iterable[Line] = (), last: Iterable[Line] = ()) -> str:
+    """The verdict as HTML, readable by a screen reader from top to bottom. lines: more to look at,
+    before a change of an answer that gave numbers; last: what ends the card.
 
     The arm of the worst case stands beside the text, and below it where the notebook is narrow.
     """
     mark, colour = LOOKS[verdict.state]
     pose = verdict.witness.pose if verdict.witness else ()
-    parts = [_paragraph("problem", verdict.problem)]
-    if failed := verdict.failed:
-        shown = zip(failing(failed), (failed.call, failed.works), strict=False)
-        parts += [_with_code("failed", sentence, call) for sentence, call in shown]
-    parts += [_rows(verdict)] if verdict.rows else []
-    parts += [_paragraph("diagnosis", sentence) for sentence in verdict.of_the_whole]
-    parts.append(_paragraph("remark", verdict.remark))
-    parts += [_worst_case(verdict.witness)] if verdict.witness else []
-    if verdict.given_by:
-        parts.append(_with_code("arguments", arguments_by(verdict), verdict.given_by))
-    parts.append(_paragraph("further", verdict.further))
-    parts.append(_paragraph("next", verdict.next_step))
-    parts += [f'<p style="{PARAGRAPH}">{line.html or escape(line.text)}</p>' for line in lines]
+    then = [f'<p style="{PARAGRAPH}">{line.html or escape(line.text)}</p>' for line in lines]
+    step = [_passage(verdict.step)] if verdict.step.text else []
+    parts = [
+        *map(_passage, verdict.passages_above()),
+        _rows(verdict) if verdict.rows else "",
+        *(_passage(Passage("diagnosis", sentence)) for sentence in verdict.of_the_whole),
+        *map(_passage, verdict.passages_below()),
+        *([*then, *step] if verdict.step_is_last else [*step, *then]),
+        *(f'<div style="{PARAGRAPH}">{line.html or escape(line.text)}</div>' for line in last),
+    ]
     text = (
         f'<p style="margin: 0.2em 0"><strong><span aria-hidden="true">{mark} </span>'
         f"{escape(verdict.headline)}</strong></p>{''.join(parts)}"
@@ -73,13 +80,15 @@ def html_card(verdict: Verdict, lines: Iterable[Line] = ()) -> str:
     )
 
 
-def mimebundle(verdict: Verdict, lines: Iterable[Line] = ()) -> dict[str, str]:
-    """The verdict, and the lines below it, for a notebook's output: plain text, and the card."""
-    lines = tuple(lines)
-    below = [filled(line.text) for line in lines]
+def mimebundle(
+    verdict: Verdict, lines: Iterable[Line] = (), last: Iterable[Line] = ()
+) -> dict[str, str]:
+    """The card for a notebook's output, as plain text and as HTML; lines and last as in `html_card`."""
+    lines, last = tuple(lines), tuple(last)
+    below, end = ([filled(own.text, kept=own.inside) for own in some] for some in (lines, last))
     return {
-        "text/plain": "\n".join([str(verdict), *below]),
-        "text/html": html_card(verdict, lines),
+        "text/plain": plain(verdict, below, end),
+        "text/html": html_card(verdict, lines, last),
     }
 
 
@@ -153,29 +162,21 @@ def _beside(text: str, picture: str) -> str:
     )
 
 
-def _paragraph(kind: str, text: str) -> str:
-    if not text:
-        return ""
-    weight = "; font-weight: 600" if kind == "diagnosis" else ""
+def _passage(passage: Passage) -> str:
+    """A passage as a paragraph, and its code below it, or folded below it."""
+    weight = "; font-weight: 600" if passage.kind == "diagnosis" else ""
     # Only a problem may quote a student. As a formula, the quote could be a link that runs code.
-    plain = " tex2jax_ignore mathjax_ignore" if kind == "problem" else ""
-    return f'<p class="armdyn-{kind}{plain}" style="{PARAGRAPH}{weight}">{escape(text)}</p>'
-
-
-def _worst_case(witness: Witness) -> str:
-    return _with_code("witness", worst_case(witness), witness.call)
-
-
-def _with_code(kind: str, sentence: str, code: str) -> str:
-    """A sentence, with what is Python in it as code; wide arrays may break anywhere."""
-    sentence, code = escape(sentence), escape(code)
-    if code:
-        look = (
-            "font-size: 0.9em; background: none; padding: 0;"
-            " white-space: normal; overflow-wrap: anywhere"
-        )
-        sentence = sentence.replace(code, f'<code style="{look}">{code}</code>', 1)
-    return f'<p class="armdyn-{kind}" style="{PARAGRAPH}">{sentence}</p>'
+    kind = f"armdyn-{passage.kind}"
+    kind += " tex2jax_ignore mathjax_ignore" if passage.kind == "problem" else ""
+    said, inside = escape(passage.text), escape(passage.inside)
+    if inside:
+        said = said.replace(inside, f'<code style="{CODE}">{inside}</code>', 1)
+    code = f'<pre style="{BLOCK}"><code style="{CODE}">{escape(passage.code)}</code></pre>'
+    if passage.folded:
+        summary = f'<summary style="cursor: pointer">{said}</summary>'
+        return f'<details class="{kind}" style="{PARAGRAPH}">{summary}{code}</details>'
+    below = code if passage.code else ""
+    return f'<p class="{kind}" style="{PARAGRAPH}{weight}">{said}</p>{below}'
 
 
 def _rows(verdict: Verdict) -> str:
@@ -183,7 +184,7 @@ def _rows(verdict: Verdict) -> str:
     items = []
     for row, said in verdict.said_of_rows():
         mark, bar = ("✓", "transparent") if row.met else ("✗", NOT_MET)
-        sentences = "".join(_paragraph("diagnosis", sentence) for sentence in said)
+        sentences = "".join(_passage(Passage("diagnosis", sentence)) for sentence in said)
         items.append(
             f'<li style="border-left: 3px solid {bar}; padding-left: 0.6em; margin: 0.3em 0">'
             f'<span aria-hidden="true">{mark} </span>'

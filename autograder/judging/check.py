@@ -10,25 +10,26 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import chain, groupby
+from itertools import chain
 
 import numpy as np
 
-from autograder.judging import changes, dependence, findings
+from autograder.judging import changes, dependence, findings, verdict
 from autograder.judging.call_text import given_by
-from autograder.judging.criterion import Criterion, relative_errors
-from autograder.judging.diagnosis import Catalogue, Mistake, Wrong, sentences
+from autograder.judging.criterion import Criterion, errors_of, met_by
+from autograder.judging.diagnosis import Catalogue, Mistake, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
 from autograder.judging.given import Describe, Given, NoNumbersError, Reading
 from autograder.judging.models import Model, evaluated
 from autograder.judging.places import NOWHERE, place
 from autograder.judging.quantities import Numbers, Quantities, each, one_number
 from autograder.judging.section import Section
-from autograder.judging.stacked import Layout, layouts, rows, stacked, unlike
+from autograder.judging.stacked import layouts, rows
 from autograder.judging.terms import Term
-from autograder.judging.verdict import Failed, Row, State, Verdict, Witness
+from autograder.judging.verdict import Row, State, Verdict, Witness
 from autograder.judging.witness import witness, worst_entry, wrong_places
-from autograder.protocol import Call, FaultKind, Reply, shortened
+from autograder.judging.wrong_numbers import wrong_numbers
+from autograder.protocol import Call, FaultKind, Reply
 
 VISIBLE_CASES = 6
 HIDDEN_CASES = 24
@@ -110,40 +111,47 @@ class Check:
         """
         try:
             calls = self.calls(rng, count)
+        except Exception as error:
+            return verdict.check_failed(self.id, error)
+        return self.on(calls, ask)
+
+    def on(self, calls: list[Call], ask: Ask) -> Verdict:
+        """Try the student's function with these calls; as `run`."""
+        try:
             expected = self._quantities_of(self.reference, calls)
             # The reference goes first: where it fails the check is to blame, not the student.
-            if not all(self._met(self._errors(expected, expected))):
+            if not all(met_by(self.criteria, expected, expected)):
                 raise ArithmeticError("the reference does not pass its own check")
         except Exception as error:
-            return self._failed(error)
+            return verdict.check_failed(self.id, error)
         try:
             started = time.monotonic()
             replies = ask(calls)
             ask_again = ask if time.monotonic() - started < SLOW else None
         except CannotRunError as error:
-            return self._failed(error)
+            return verdict.check_failed(self.id, error)
         try:
             # Near the largest float, their numbers less ours overflow: wrong, but not our failure.
             with np.errstate(over="ignore", invalid="ignore"):
-                verdict = self._judge_replies(calls, expected, replies, ask_again)
+                found = self._judge_replies(calls, expected, replies, ask_again)
         except Exception as error:
-            return self._failed(error)
-        if verdict.state is not State.CORRECT and replies[0].caret:
-            remarks = filter(None, [verdict.remark, CARET.format(self.name)])
-            return replace(verdict, remark=" ".join(remarks))
-        return verdict
+            return verdict.check_failed(self.id, error)
+        if found.state is not State.CORRECT and replies[0].caret:
+            remarks = filter(None, [found.remark, CARET.format(self.name)])
+            return replace(found, remark=" ".join(remarks))
+        return found
 
     def _judge_replies(
         self, calls: list[Call], expected: Numbers, replies: list[Reply], ask: Ask | None
     ) -> Verdict:
         fault = next((reply.fault for reply in replies if reply.fault), None)
         if fault and fault.kind is FaultKind.NOT_IMPLEMENTED:
-            return self._not_attempted()
+            return verdict.not_attempted(self.id, self.signature)
         changed = changes.changed(self.signature, calls, replies)
         try:
             given = self._given(calls, replies)
         except NoNumbersError as error:
-            return self._error(str(error), error.failed)
+            return verdict.error(self.id, str(error), error.failed)
         if not any(reply.again for reply in replies):
             return self.judge(calls, expected, given, changed=changed, ask=ask)
         second = [reply.again or reply for reply in replies]
@@ -151,7 +159,7 @@ class Check:
             again = self._given(calls, second, describe_second_fault)
         except NoNumbersError as error:
             said = f"{changes.remark(self.name, changed, True)} On the second call, {error}"
-            return self._error(said, error.failed)
+            return verdict.error(self.id, said, error.failed)
         return self.judge(calls, expected, given, again, changed, ask)
 
     def _given(
@@ -171,9 +179,9 @@ class Check:
         met where both are right. changed: the names of these arguments. ask: by which more may be found
         out of an answer that no mistake explains.
         """
-        right = met = self._met(self._errors(expected, given.numbers))
+        right = met = met_by(self.criteria, expected, given.numbers)
         if again is not None:
-            later = self._met(self._errors(expected, again.numbers))
+            later = met_by(self.criteria, expected, again.numbers)
             met = [one and two for one, two in zip(right, later, strict=True)]
         remark = changes.remark(self.name, changed, met != right)
         credit = sum(c.share for c, ok in zip(self.criteria, met, strict=True) if ok)
@@ -212,18 +220,6 @@ class Check:
         found = zip(self.criteria, met, said, strict=True)
         return tuple(Row(c.text, c.share, ok, sentences) for c, ok, sentences in found)
 
-    def _errors(self, expected: Numbers, given: Numbers) -> list[np.ndarray]:
-        """For each criterion the relative error of each case."""
-        return [
-            relative_errors([e[k] for e in expected], [g[k] for g in given])
-            for k in range(len(self.criteria))
-        ]
-
-    def _met(self, errors: list[np.ndarray]) -> list[bool]:
-        return [
-            criterion.met(error) for error, criterion in zip(errors, self.criteria, strict=True)
-        ]
-
     def _quantities_of(self, model: Model, calls: list[Call]) -> Numbers:
         return self.quantities(calls, list(evaluated(model, calls)))
 
@@ -232,7 +228,7 @@ class Check:
     ) -> list[tuple[str, ...]]:
         """What to say of each criterion: nothing of one that is met."""
         layout = layouts(given, expected)
-        wrong = self._wrong(layout, calls)
+        wrong = wrong_numbers(self.mistakes, self.catalogue, self.quantities, layout, calls)
         if mistake := wrong.explaining(self.criteria, layout, rows(layout, given), met):
             return [() if ok else (mistake.sentence,) for ok in met]
 
@@ -246,7 +242,7 @@ class Check:
             if not criterion.unit or criterion.is_property or (found := tried(last)) is None:
                 return ""
             unsteady = findings.of_repeats(criterion, given[last][k], found.theirs[0][k])
-            errors = self._errors(expected, given)[k][:last]
+            errors = errors_of(self.criteria, expected, given)[k][:last]
             best = int(np.argmin(errors)) if len(errors) else last
             return unsteady or dependence.sentence(criterion.text, k, found, lambda: tried(best))
 
@@ -256,26 +252,6 @@ class Check:
             return [(term, self._quantities_of(term.model, calls)) for term in terms]
 
         return sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
-
-    def _wrong(self, layout: list[Layout], calls: list[Call]) -> Wrong:
-        """The numbers of every mistake."""
-        mistakes = list(self.mistakes)
-        found = [rows(layout, self._quantities_of(m.wrong, calls)) for m in mistakes]
-        parts = [
-            np.array([own[k] for own in found]).reshape(len(found), of.length)
-            for k, of in enumerate(layout)
-        ]
-        made = self.catalogue(calls) if self.catalogue else []
-        mistakes += [mistake for mistake, _ in made]
-        for shape, group in groupby((values for _, values in made), _shape):
-            alike = list(group)
-            if shape is None:
-                more = unlike(layout, self.quantities, calls, alike)
-            else:
-                numbers = np.array([np.asarray(own, dtype=float) for own in alike])
-                more = stacked(layout, self.quantities, calls, numbers)
-            parts = [np.vstack(both) for both in zip(parts, more, strict=True)]
-        return Wrong(mistakes, parts)
 
     def _tried(self, ask: Ask, base: Call) -> dependence.Tried | None:
         """The call with one number changed at a time, if numbers came for all."""
@@ -300,7 +276,7 @@ class Check:
     ) -> Witness:  # fmt: skip
         k = met.index(False)
         criterion = self.criteria[k]
-        worst = int(np.argmax(self._errors(expected, given)[k]))
+        worst = int(np.argmax(errors_of(self.criteria, expected, given)[k]))
         right, theirs = expected[worst][k], given[worst][k]
         name = self.returns or self.name
         at = worst_entry(right, theirs)
@@ -319,32 +295,4 @@ class Check:
         found = witness(
             call, self.signature, right, theirs, criterion, largest, where, what, self.pose
         )
-        return replace(found, given_by=given_by(call, self.signature, self.id), of=call)
-
-    def _not_attempted(self) -> Verdict:
-        return Verdict(
-            self.id,
-            State.NOT_ATTEMPTED,
-            next_step=f"Write {self.signature} where it says NotImplementedError, "
-            "run its cell, then run this cell again.",
-        )
-
-    def _error(self, problem: str, failed: Failed | None) -> Verdict:
-        step = "Fix this first: until then the check can't look at the physics."
-        return Verdict(self.id, State.ERROR, problem=problem, next_step=step, failed=failed)
-
-    def _failed(self, error: Exception) -> Verdict:
-        return Verdict(
-            self.id,
-            State.CHECK_FAILED,
-            problem=f"{type(error).__name__} in the check {self.id}: {shortened(str(error))}.",
-            next_step="This is not your fault. Please tell your instructor.",
-        )
-
-
-def _shape(values) -> tuple[int, ...] | None:
-    """Of what came for all calls; None where calls differ in it, as motions do."""
-    if isinstance(values, np.ndarray) and values.dtype != object:
-        return values.shape
-    shapes = {np.shape(value) for value in values}
-    return (len(values), *shapes.pop()) if len(shapes) == 1 else None
+        return replace(found, given_by=given_by(call, self.signature, self.id))

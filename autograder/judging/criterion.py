@@ -1,6 +1,6 @@
 """What is asked of an answer, and whether its numbers meet it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -89,6 +89,20 @@ class Criterion:
     def allows(self, met: bool) -> float:
         """The relative error within which a mistake's numbers are an answer's, met or not."""
         return self.tolerance if met or self.matching is None else self.matching
+
+
+def errors_of(criteria: Sequence[Criterion], expected: Numbers, given: Numbers) -> list[np.ndarray]:
+    """For each criterion the relative error of each case."""
+    return [
+        relative_errors([e[k] for e in expected], [g[k] for g in given])
+        for k in range(len(criteria))
+    ]
+
+
+def met_by(criteria: Sequence[Criterion], expected: Numbers, given: Numbers) -> list[bool]:
+    """Which criteria an answer meets."""
+    errors = errors_of(criteria, expected, given)
+    return [own.met(error) for own, error in zip(criteria, errors, strict=True)]
 
 
 def relative_errors(expected: list, given: list) -> np.ndarray:

@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from autograder.judging import findings
-from autograder.judging.criterion import TOLERANCE, Answered, Criterion
+from autograder.judging.criterion import Answered, Criterion
 from autograder.judging.models import Model
 from autograder.judging.quantities import Numbers
 from autograder.judging.stacked import Layout, layouts, rows
@@ -50,14 +50,6 @@ class Catalogue(Protocol):
     def mistakes(self) -> list[Mistake]: ...
 
     def __call__(self, calls: list[Call], /) -> Sequence[tuple[Mistake, Sequence | np.ndarray]]: ...
-
-
-@dataclass(frozen=True)
-class Known:
-    """A mistake's numbers: one array a case, for one criterion."""
-
-    of: Mistake
-    values: list[np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -213,20 +205,6 @@ def _borne_out(expected: list[np.ndarray], given: list[np.ndarray], wrong: Wrong
     for right, theirs, own in zip(expected, given, wrong.rows, strict=True):
         found &= np.all((own == right) | (own == theirs), axis=1)
     return found
-
-
-def mistakes_shown(
-    expected: list, given: list, mistakes: list[Known], tolerance: float = TOLERANCE
-) -> tuple[Mistake, ...]:
-    """The first mistake whose numbers these are; or the first two whose errors add up to theirs."""
-    layout = Layout.of(given, expected)
-    wrong = np.array([layout.row(known.values) for known in mistakes])
-    known = [one.of for one in mistakes]
-    every = np.ones(len(known), dtype=bool)
-    return _shown(
-        layout, layout.row(expected), layout.row(given), known, wrong, every,
-        lambda first, second: True, tolerance,
-    )  # fmt: skip
 
 
 def _shown(

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from autograder.judging.call_text import given_by, shapes, shown_call
+from autograder.judging.call_text import by_name, given_by, shapes, shown_call
 from autograder.judging.faults import NUMBERS, describe_unfit
 from autograder.judging.models import Model, evaluated
 from autograder.judging.partial import is_finite, partial, where_not_finite
@@ -137,6 +137,8 @@ class Reading:
             "" if working == shown else working,  # symbols, which say nothing
             given_by(first, self.signature, self.id),
             first,
+            by_name(first, self.signature),
+            None if works is None else calls[works],
         )
 
     def _unfit(self, calls: list[Call], values: list) -> list[int]:

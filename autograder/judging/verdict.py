@@ -1,10 +1,11 @@
 """The verdict on one answer, and how it reads as plain text."""
 
-import textwrap
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
-from autograder.protocol import Call
+from autograder.judging.passages import Passage, as_text, failing, filled, if_said, worst_case
+from autograder.protocol import Call, shortened
 
 AS_ABOVE = "For the same reason as above."
 
@@ -39,8 +40,8 @@ class Witness:
     value is right or wrong, so its `off` is empty.
 
     pose: the arm's joints in that call, one (x, y) in m each, where drawing it helps. where: the entry
-    of what came back, "M[0, 1]", where it is one. given_by: the line of Python that gives the call's
-    arguments. of: the call itself.
+    of what came back, "M[0, 1]", where it is one. given_by: the lines of Python that give the call's
+    arguments. by_name: the call with the names of these, "M(q, arm)". of: the call itself.
     """
 
     call: str
@@ -49,6 +50,7 @@ class Witness:
     pose: tuple[tuple[float, float], ...] = ()
     where: str = ""
     given_by: str = ""
+    by_name: str = ""
     of: Call | None = field(default=None, repr=False, compare=False)
 
 
@@ -57,8 +59,8 @@ class Failed:
     """The first call that gave no numbers, or some that are not finite.
 
     count, tried: of so many calls, so many failed; tried is 0 where the check stopped at the first, as
-    at a loop that never ends. works: a call that gave numbers, "" for none. given_by, of: as in a
-    Witness.
+    at a loop that never ends. works: a call that gave numbers, "" for none. given_by, by_name, of: as
+    in a Witness. of_works: the call that works.
     """
 
     call: str
@@ -67,6 +69,8 @@ class Failed:
     works: str = ""
     given_by: str = ""
     of: Call | None = field(default=None, repr=False, compare=False)
+    by_name: str = ""
+    of_works: Call | None = field(default=None, repr=False, compare=False)
 
 
 @dataclass(frozen=True)
@@ -94,7 +98,9 @@ class Verdict:
 
     def without_inputs(self) -> "Verdict":
         """The same verdict for a feedback page: the worst case without the inputs that showed it."""
-        witness = self.witness and replace(self.witness, call="", pose=(), given_by="", of=None)
+        witness = self.witness and replace(
+            self.witness, call="", pose=(), given_by="", by_name="", of=None
+        )
         return replace(self, witness=witness, failed=None)
 
     @property
@@ -105,9 +111,20 @@ class Verdict:
 
     @property
     def given_by(self) -> str:
-        """The line of Python that gives the arguments of `worst`; "" where none does."""
+        """The lines of Python that give the arguments of `worst`; "" where none do."""
         shown = self.failed or self.witness
         return shown.given_by if shown else ""
+
+    @property
+    def again(self) -> str:
+        """Lines of Python that make the call of `worst` again, in any cell; "" where none do."""
+        shown = self.failed or self.witness
+        return f"{shown.given_by}\n{shown.by_name}".strip() if shown and shown.given_by else ""
+
+    @property
+    def _why_again(self) -> str:
+        which = "the failed call" if self.failed else "the worst case"
+        return f"To work with {which}, run this in a cell of your own:"
 
     @property
     def headline(self) -> str:
@@ -132,71 +149,80 @@ class Verdict:
         return found
 
     def lines(self) -> list[str]:
-        """The verdict in sentences, the headline apart, most useful first."""
-        return [*self._first(), *self.diagnosis, *self._last()]
+        """The verdict in sentences and code, the headline apart, in the order of their use."""
+        said = [*self.passages_above(), *(Passage("diagnosis", text) for text in self.diagnosis)]
+        said += [*self.passages_below(), self.step]
+        return [text for own in said for text in (own.text, own.code) if text]
 
-    def _first(self) -> list[str]:
-        """Why there are no numbers."""
-        said = [self.problem] if self.problem else []
-        return said + (failing(self.failed) if self.failed else [])
+    def passages_above(self) -> list[Passage]:
+        """What stands above the criteria: why there are no numbers."""
+        return [*if_said("problem", self.problem), *(failing(self.failed) if self.failed else [])]
 
-    def _last(self) -> list[str]:
-        """Beside the reasons, what to look at and to do."""
+    def passages_below(self) -> list[Passage]:
+        """What stands below the criteria: what is true of the whole, the worst case, where it leads."""
         return [
-            *([self.remark] if self.remark else []),
-            *([worst_case(self.witness)] if self.witness else []),
-            *([arguments_by(self)] if self.given_by else []),
-            *([self.further] if self.further else []),
-            *([self.next_step] if self.next_step else []),
+            *if_said("remark", self.remark),
+            *(worst_case(self.witness) if self.witness else []),
+            *([Passage("again", self._why_again, code=self.again)] if self.again else []),
+            *if_said("further", self.further),
         ]
 
+    @property
+    def step(self) -> Passage:
+        """What to do; its text is "" where nothing is to be done."""
+        return Passage("next", self.next_step)
+
+    @property
+    def step_is_last(self) -> bool:
+        """Whether there is something to look at before it: of wrong numbers, not of missing ones."""
+        return self.state in (State.INCORRECT, State.PARTLY_CORRECT)
+
     def __str__(self):
-        rows = []
-        for row, said in self.said_of_rows():
-            # A single criterion has the whole credit, so its share says nothing.
-            share = f" ({row.share:.0%})" if len(self.rows) > 1 else ""
-            rows.append(f"  [{'x' if row.met else ' '}] {row.text}{share}")
-            rows += [filled(sentence, 6) for sentence in said]
-        last = [*self.of_the_whole, *self._last()]
-        return "\n".join([self.headline, *map(filled, self._first()), *rows, *map(filled, last)])
+        return plain(self)
 
 
-def filled(text: str, indent: int = 2) -> str:
-    """A sentence as lines of at most 78 characters."""
-    margin = " " * indent
-    return textwrap.fill(text, 78, initial_indent=margin, subsequent_indent=margin)
+def not_attempted(check: str, signature: str) -> Verdict:
+    """Of a function that still says NotImplementedError."""
+    step = (
+        f"Write {signature} where it says NotImplementedError, "
+        "run its cell, then run this cell again."
+    )
+    return Verdict(check, State.NOT_ATTEMPTED, next_step=step)
 
 
-def worst_case(witness: Witness) -> str:
-    """The witness as a sentence."""
-    if not witness.off:  # a truth value is right or wrong, not more or less
-        return f"Worst case: {witness.call or 'your function'} gave {witness.returned}."
-    if witness.call:
-        return f"Worst case: {witness.call} gave {witness.returned}, off by {witness.off}."
-    return f"Worst case: {f'{witness.where} is ' if witness.where else ''}off by {witness.off}."
+def error(check: str, problem: str, failed: Failed | None) -> Verdict:
+    """Of code that gives nothing to judge. failed: the call because of which; None for none."""
+    step = "Fix this first: until then the check can't look at the physics."
+    return Verdict(check, State.ERROR, problem=problem, next_step=step, failed=failed)
 
 
-def failing(failed: Failed) -> list[str]:
-    """Which calls fail and which work, in sentences."""
-    if failed.tried == 0:
-        said = "The check stopped at this call"
-    elif failed.tried == 1:
-        said = "The one call failed"
-    elif failed.count == failed.tried == 2:
-        said = "Both calls failed, the first of them"
-    elif failed.count == failed.tried:
-        said = f"All {failed.tried} calls failed, the first of them"
-    elif failed.count == 1:
-        said = f"1 of {failed.tried} calls failed"
-    else:
-        said = f"{failed.count} of {failed.tried} calls failed, the first of them"
-    return [
-        f"{said}: {failed.call}",
-        *([f"This one works: {failed.works}"] if failed.works else []),
+def check_failed(check: str, error: Exception) -> Verdict:
+    """Where the check itself stopped with an error."""
+    return Verdict(
+        check,
+        State.CHECK_FAILED,
+        problem=f"{type(error).__name__} in the check {check}: {shortened(str(error))}.",
+        next_step="This is not your fault. Please tell your instructor.",
+    )
+
+
+def plain(verdict: Verdict, lines: Sequence[str] = (), last: Sequence[str] = ()) -> str:
+    """The verdict as plain text. lines: more to look at, as text that is filled; last: what ends it."""
+    rows = []
+    for row, said in verdict.said_of_rows():
+        # A single criterion has the whole credit, so its share says nothing.
+        share = f" ({row.share:.0%})" if len(verdict.rows) > 1 else ""
+        rows.append(f"  [{'x' if row.met else ' '}] {row.text}{share}")
+        rows += [filled(sentence, 6) for sentence in said]
+    step = [filled(verdict.step.text)] if verdict.step.text else []
+    then = [*lines, *step] if verdict.step_is_last else [*step, *lines]
+    said = [
+        verdict.headline,
+        *map(as_text, verdict.passages_above()),
+        *rows,
+        *map(filled, verdict.of_the_whole),
+        *map(as_text, verdict.passages_below()),
+        *then,
+        *last,
     ]
-
-
-def arguments_by(verdict: Verdict) -> str:
-    """Where a student finds the arguments of the call that failed, or of the worst case."""
-    whose = "failed call" if verdict.failed else "worst case"
-    return f"The arguments of the {whose}: {verdict.given_by}"
+    return "\n".join(filter(None, said))

@@ -1,10 +1,11 @@
 """The worst case of a wrong answer, as a student would type the call, with what came back."""
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
-from autograder.judging.call_text import shown_call
+from autograder.judging.call_text import by_name, shown_call
 from autograder.judging.criterion import LEAST_SCALE, Criterion, scales
 from autograder.judging.places import Place
 from autograder.judging.quantities import Numbers
@@ -49,12 +50,14 @@ def witness(
     """
     at = worst_entry(right, given)
     joints = tuple((float(x), float(y)) for x, y in pose(call)) if pose else ()
+    named = by_name(call, signature)
+    made = partial(Witness, shown_call(call, signature), pose=joints, by_name=named, of=call)
     if criterion.is_truth:
         asked = f" ({what})" if what else ""
         said = f"{bool(given[at])}; the right answer is {bool(right[at])}{asked}"
         if not call.truth:  # it is the check that asks, of what came back
             said = f"a result for which “{criterion.text}” has the answer {_yes_or_no(given[at])}"
-        return Witness(shown_call(call, signature), said, "", joints)
+        return made(said, "")
     off, size = abs(float(given[at] - right[at])), abs(float(right[at]))
     shares = has_share(size, largest, criterion)
     share = f" ({_percent(off / size)} of the right value)" if shares else ""
@@ -66,12 +69,10 @@ def witness(
     entry = f" at {where}" if place.is_entry else ""
     made_of = f"made of {where}" if where and not entry else ""
     of = ", ".join(filter(None, [what, made_of]))
-    return Witness(
-        shown_call(call, signature),
+    return made(
         f"{float(given[at]):.4g}{unit}{entry}{f' ({of})' if of else ''}",
         f"{off:.3g}{unit}{share}",
-        joints,
-        where if entry else "",
+        where=where if entry else "",
     )
 
 

@@ -1,7 +1,6 @@
 """Which answers have a picture, and the sentence on a card that offers it. Light: every card asks."""
 
 from collections.abc import Mapping
-from html import escape
 
 from autograder.judging.card import Line
 from autograder.judging.check import Check
@@ -39,5 +38,4 @@ def offer(verdict: Verdict, check: Check, namespace: Mapping) -> list[Line]:
     brought = "" if "watch" in namespace else "from autograder import watch; "
     moves = f"See what your {check.name} does to the motion" if name in MOVES else ""
     said = moves or f"See {CURVES[name]}, yours and the right one"
-    call = f'{brought}watch("{check.id}")'
-    return [Line(f"{said}: {call}", f"{escape(said)}: <code>{escape(call)}</code>")]
+    return [Line.with_code(f"{said}: {{}}", f'{brought}watch("{check.id}")')]

@@ -64,6 +64,7 @@ def _picture(shown: Shown) -> str:
     still = f"<p data-still-only>{STILL}</p>" if shown.motion else ""
     return (
         f'<div data-armdyn-picture="{key}">'
-        f'<img alt="{escape(shown.alt)}" src="data:image/svg+xml;base64,{image}">{still}</div>'
+        f'<img alt="{escape(shown.alt)}" style="max-width: 100%; height: auto"'
+        f' src="data:image/svg+xml;base64,{image}">{still}</div>'
         f"<script>{player.replace('@KEY@', key).replace('@DATA@', data)}</script>"
     )

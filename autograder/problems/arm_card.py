@@ -37,7 +37,8 @@ def mimebundle(own: Convention, whose: str, arm: object, code: str) -> dict[str,
         [title, *(f"  {name:11} {value}" for name, value in rows), *filter(None, [note])]
     )
     cells = "".join(
-        f'<tr><th style="text-align: left; vertical-align: top">{escape(name)}</th>'
+        f'<tr><th style="text-align: left; vertical-align: top; padding-right: 0.8em">'
+        f"{escape(name)}</th>"
         f'<td style="text-align: left">{escape(value)}</td></tr>'
         for name, value in rows
     )
@@ -101,7 +102,7 @@ def picture(own: Convention) -> str:
     )
     return (
         f'<svg role="img" aria-label="{escape(said)}" viewBox="0 0 {WIDTH} {HEIGHT}"'
-        f' width="{WIDTH}" height="{HEIGHT}" style="max-width: 100%; background: #ffffff"'
+        f' width="{WIDTH}" height="{HEIGHT}" style="max-width: 100%; height: auto; background: #ffffff"'
         f' font-family="serif" font-size="16"><title>{escape(said)}</title>{"".join(parts)}</svg>'
     )
 

@@ -3,77 +3,10 @@
 from autograder.proofs import energy, inertia
 from autograder.proofs.derivation import Derivation, FalseStep, Misuse, Row
 from autograder.proofs.energy import FREE, WITH_FRICTION
+from autograder.proofs.false_energy import ENERGY_IS_NOT_ENOUGH, K_WITHOUT_HALF, OF_C, of_energy
 from autograder.proofs.inertia import ARM
 from autograder.proofs.pendulum import PENDULUM
 from autograder.proofs.weights import WEIGHTS
-
-_ENERGY_IS_NOT_ENOUGH = (
-    "Energy does not give this. It says that Ṁ − 2C gives zero between q̇ᵀ and q̇, with the same "
-    "q̇ that stands in C. What is claimed here is about every entry of the matrix: which other "
-    "fact does that need?"
-)
-_OF_C = (
-    FalseStep(
-        "C is skew",
-        "This step takes C itself to be skew-symmetric. Is it C that has this property, or "
-        "another matrix?",
-        property=energy.C_IS_SKEW,
-    ),
-    FalseStep(
-        "Ṁ = 2C",
-        "This step puts 2C for Ṁ, as if they were equal. A matrix that gives zero between q̇ᵀ "
-        "and q̇ need not be zero.",
-        (("Mdot", "2 C"),),
-    ),
-    FalseStep(
-        "Ṁ = C",
-        "This step puts C for Ṁ, as if they were equal. How much of Ṁ does C hold?",
-        (("Mdot", "C"),),
-    ),
-    FalseStep(
-        "M constant",
-        "This step loses the change of M. M depends on q, and q moves.",
-        (("Mdot", "0 M"),),
-        gone="Mdot",
-    ),
-)
-_K_WITHOUT_HALF = FalseStep(
-    "K without its half",
-    "Look at the factor of the kinetic energy in this step.",
-    (("K", "qd' M qd"),),
-)
-
-
-def _of_energy(friction: str = "") -> tuple[FalseStep, ...]:
-    """friction: what else is in the equation of motion, as " + f"."""
-    return (
-        FalseStep(
-            "gravity reversed",
-            "In this step gravity has the wrong sign. On which side of the equation of motion "
-            "does it stand?",
-            (("u", f"M qdd + C qd - g{friction}"),),
-        ),
-        FalseStep(
-            "C reversed",
-            "In this step C q̇ has the wrong sign. On which side of the equation of motion does "
-            "it stand?",
-            (("u", f"M qdd - C qd + g{friction}"),),
-        ),
-        *_OF_C,
-        FalseStep(
-            "no gravity",
-            "This step loses gravity, or counts it once too often. Look for it in each term.",
-            (("g", "0 qd"),),
-        ),
-        FalseStep(
-            "no torque",
-            "This step takes the motors to give no torque. Who has switched them off?",
-            (("qdd", f"-M^-1 (C qd + g{friction})"),),
-            gone="u",
-        ),
-        _K_WITHOUT_HALF,
-    )
-
 
 _MILESTONE_1 = "qd' M qdd + 1/2 qd' Mdot qd + qd' g"
 _MILESTONE_2 = "qd' u + 1/2 qd' (Mdot - 2 C) qd"
@@ -139,7 +72,7 @@ P1_POSITIVE = Derivation(
             gives=">=",
         ),
     ),
-    mistakes=(_K_WITHOUT_HALF,),
+    mistakes=(K_WITHOUT_HALF,),
 )
 P2_ENERGY = Derivation(
     id="p2-E",
@@ -160,7 +93,7 @@ P2_ENERGY = Derivation(
         "collect what stands between qd' and qd: which matrix is it, and what is known of it?",
     ),
     to_prove=(energy.BALANCE,),
-    mistakes=_of_energy(),
+    mistakes=of_energy(),
 )
 P2_SKEW = Derivation(
     id="p2-skew",
@@ -180,8 +113,8 @@ P2_SKEW = Derivation(
         "it?",
     ),
     to_prove=(energy.SKEW,),
-    misused=(Misuse(energy.BALANCE, _ENERGY_IS_NOT_ENOUGH),),
-    mistakes=_OF_C,
+    misused=(Misuse(energy.BALANCE, ENERGY_IS_NOT_ENOUGH),),
+    mistakes=OF_C,
 )
 P3_LAGRANGE = Derivation(
     id="p3-L",
@@ -305,7 +238,7 @@ P5_ENERGY = Derivation(
             "stand?",
             (("u", "M qdd + C qd + g - f"),),
         ),
-        *_of_energy(" + f"),
+        *of_energy(" + f"),
     ),
 )
 DERIVATIONS = {

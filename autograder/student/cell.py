@@ -63,7 +63,7 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     progress.note(verdict)
     worst_case.remember(verdict)
     pictured = offer(verdict, known_check(id), namespace)
-    shown = card.mimebundle(verdict, [*pictured, *below.lines(verdict)])
+    shown = card.mimebundle(verdict, below.lines(verdict, pictured), below.points(verdict))
     show(shown)
     if said := reminder(id):
         print(said)
@@ -77,9 +77,11 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
     count = HIDDEN_CASES if fresh else VISIBLE_CASES
     judged = known_check(id, drawn_for(id))
     name = judged.name
+    asked: list[Call] = []
 
     def ask(calls: list[Call]) -> list[Reply]:
         replies = answer_all(calls, namespace)
+        asked.extend(() if asked else calls)
         error = _definitions.missing(name) if _definitions else ""
         if error and replies[0].fault and replies[0].fault.kind is FaultKind.MISSING:
             return [Reply(fault=Fault(FaultKind.CELL_FAILED, error))]
@@ -88,7 +90,7 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
     started = time.monotonic()
     verdict = judged.run(ask, rng, count)
     quick = time.monotonic() - started < SLOW
-    return as_pasted(verdict, judged, ask) if quick else verdict
+    return as_pasted(verdict, judged, ask, asked, namespace) if quick else verdict
 
 
 def _naming_an_old_function(verdict: Verdict) -> Verdict:

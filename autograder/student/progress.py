@@ -32,12 +32,15 @@ class Progress:
     by_person: dict[str, float]
 
     def __str__(self):
-        parts = [f"{_number(self.right)} of {_number(self.total)} points checked"]
-        if self.left:
-            parts.append(f"left: {_listed(self.left)}")
-        if self.by_person:
-            parts.append(f"read by a person: {_listed(self.by_person)}")
-        return "; ".join(parts) + "."
+        said = f"{_number(self.right)} of {_number(self.total)} points checked"
+        read = sum(self.by_person.values())
+        return f"{said}; a person gives {_number(read)} more." if read else f"{said}."
+
+    @property
+    def rest(self) -> list[str]:
+        """What is not checked yet and what a person reads, with the points of each."""
+        kinds = (("left to check", self.left), ("read by a person", self.by_person))
+        return [f"{kind}: {_listed(points)}" for kind, points in kinds if points]
 
 
 def note(verdict: Verdict) -> None:

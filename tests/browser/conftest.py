@@ -66,19 +66,25 @@ def address(course):
 
 
 @pytest.fixture(scope="package")
-def page(needs, address):
-    """The address opened in Chromium, on a small laptop, as a student first sees it."""
+def browser(needs):
+    """Chromium."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=needs("chromium"), headless=True, args=CHROMIUM
         )
-        page = browser.new_page(viewport={"width": 1366, "height": 768})
         # Generous, for a machine that is busy with other things; what is there sooner is seen sooner.
-        page.set_default_timeout(PATIENCE)
         expect.set_options(timeout=PATIENCE)
-        page.goto(address)
-        yield page
+        yield browser
         browser.close()
+
+
+@pytest.fixture(scope="package")
+def page(browser, address):
+    """The address opened in Chromium, on a small laptop, as a student first sees it."""
+    page = browser.new_page(viewport={"width": 1366, "height": 768})
+    page.set_default_timeout(PATIENCE)
+    page.goto(address)
+    return page
 
 
 @pytest.fixture
@@ -99,9 +105,9 @@ def terminal(course):
 
 
 @pytest.fixture
-def tab(page, request):
+def tab(browser, request):
     """A tab without a network; whether it runs scripts is the test's parameter."""
-    context = page.context.browser.new_context(java_script_enabled=getattr(request, "param", True))
+    context = browser.new_context(java_script_enabled=getattr(request, "param", True))
     context.route(re.compile(r"^(?!file:)"), lambda route: route.abort())
     tab = context.new_page()
     tab.set_default_timeout(20_000)

@@ -116,7 +116,9 @@ def test_notebooks_that_are_only_opened_stay_unchanged(page, problem, terminal):
     assert terminal() == ""
 
 
-def test_problem_from_blank_to_validated(page, problem, terminal):
+def test_problem_from_blank_to_validated(page, opened, problem, terminal):
+    opened("problems/p3-pendulum/p3-pendulum.ipynb")
+    expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle")
     problem.run("from autograder import check")
 
     problem.run("def M(")
@@ -187,27 +189,34 @@ def test_a_mistake_is_named_drawn_and_mended(inertia):
           - listitem: "met: M22 (25%)"
         - paragraph:
           - text: "Worst case:"
-          - code: /M\\(.*l1=/
+          - code: M(q, arm)
           - text: /gave .* kg·m².*, off by .* kg·m²/
-        - paragraph:
-          - text: "The arguments of the worst case:"
-          - code: from autograder import worst_case; q, arm = worst_case("p1-M")
-        - paragraph: /Change your function/
+        - group: "This call in numbers:"
+        - paragraph: "To work with the worst case, run this in a cell of your own:"
+        - code: from autograder import worst_case q, arm = worst_case("p1-M") M(q, arm)
         - paragraph:
           - text: Stuck? Run
           - code: hint("p1-M")
           - text: for a hint. Hints cost no points.
         - paragraph:
+          - text: "See what your M does to the motion:"
+          - code: from autograder import watch; watch("p1-M")
+        - paragraph:
           - text: "Lesson 03 prepares this:"
           - 'link "By hand: the 2R arm"'
           - text: .
-        - paragraph: /3 of 15 points checked; left. p1-inertia_from_links/
+        - paragraph: /Change your function/
+        - group: "3 of 15 points checked; a person gives 4 more."
         - img /The arm in the worst case. link 1 at .*° from the x axis/
     """)
     arm, words = card.get_by_role("img").bounding_box(), card.locator("p").first.bounding_box()
     assert arm["width"] > 40
     assert arm["height"] > 20
     assert words["x"] + words["width"] <= arm["x"]  # beside the text, not between its lines
+    card.get_by_text("This call in numbers").click()
+    expect(card.locator("details", has_text="l1=").locator("code")).to_be_visible()
+    card.get_by_text("3 of 15 points").click()
+    expect(card.get_by_text("left to check: p1-inertia_from_links (2)")).to_be_visible()
     inertia.picture("mistaken")
 
     inertia.insert_below('check("p1-M")', 'hint("p1-M")')

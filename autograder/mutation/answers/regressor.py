@@ -6,7 +6,6 @@ those of wrong mechanisms whose parameters are the entries of π.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator
 from functools import lru_cache, partial
 from types import SimpleNamespace
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from autograder.judging.quantities import UnfitError, each
-from autograder.mechanisms.outline import Outline, Parameter
+from autograder.mechanisms.outline import Outline
 from autograder.mechanisms.units import spelled
 from autograder.mutation import velocities
 from autograder.mutation.answers.answer import (
@@ -25,21 +24,18 @@ from autograder.mutation.answers.answer import (
     criterion,
     in_other_units,
 )
+from autograder.mutation.answers.columns import TIMES, of_columns, pi_of
 from autograder.mutation.answers.composition import Composition, Group, throughout
 from autograder.mutation.answers.coriolis import propagated
-from autograder.mutation.formulas import Numbers, formulas
 from autograder.mutation.in_pi import in_pi
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.steps import times
 from autograder.mutation.whole import whole
 
 if TYPE_CHECKING:
-    import sympy as sp
-
     from autograder.mechanisms import Mechanism
 
 PARTS = ("M q̈", "C q̇", "g(q)")
-TIMES = {"dropped": 0.0, "wrong sign": -1.0, "doubled": 2.0, "halved": 0.5}
 # What is no mistake in a column, as an entry of π is 1 or 0 there, or would not be linear in π.
 OF_A_NUMBER = (
     "parameter left out", "kind left out", "point mass", "mass for inertia", "parallel axis added",
@@ -48,7 +44,7 @@ OF_A_NUMBER = (
 
 
 def _judged(mechanism: Mechanism) -> Judged:
-    n, entries = mechanism.n, _pi(mechanism)
+    n, entries = mechanism.n, pi_of(mechanism)
     shape = (n, len(entries))
 
     @each
@@ -93,7 +89,7 @@ def _columns(calls: list[tuple]) -> tuple:
 def _composition(mechanism: Outline) -> Composition:
     linear = in_pi(mechanism)
     right = whole(linear)
-    count = len(_pi(mechanism))
+    count = len(pi_of(mechanism))
 
     def made(torque: Callable, q, qd, qdd, arms) -> np.ndarray:
         """Y (…, cases, n, p) of a torque (…, columns · cases, n)."""
@@ -130,7 +126,7 @@ def _composition(mechanism: Outline) -> Composition:
 
         yield Group([Mutant(o, PARTS[k], row) for o, k, row in names], partial(made, of_parts))
         yield _readings(mechanism, partial(made, whole_torque))
-        yield _of_columns(mechanism, partial(made, whole_torque))
+        yield of_columns(mechanism, partial(made, whole_torque))
         for mutants, torque in _of_energies(linear, catalogue, parts):
             yield Group(mutants, partial(made, torque))
 
@@ -157,85 +153,6 @@ def _readings(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
 def _only(row: str, torque: np.ndarray) -> np.ndarray:
     """A torque in one row alone: "row 1"."""
     return torque * np.eye(torque.shape[-1])[int(row.removeprefix("row ")) - 1]
-
-
-def _of_columns(mechanism: Outline, right: Callable[..., np.ndarray]) -> Group:
-    """Columns in another order, missing, of the wrong sign, with their parameters in them, or with what
-    belongs to another one.
-    """
-    entries, values = _pi(mechanism), _values(mechanism)
-    orders = _orders([pi.unit for pi in entries])
-    rows: list[list[int]] = [list(range(mechanism.n)), *([i] for i in range(mechanism.n))]
-    changes = [
-        (Mutant(operator, f"the column of {pi.doc}", _row(row)), row, k, TIMES[operator])
-        for operator in TIMES
-        for k, pi in enumerate(entries)
-        for row in rows
-    ]
-
-    taken = list(itertools.permutations(range(len(entries)), 2))
-
-    def numbers(q, qd, qdd, arms):
-        Y = right(q, qd, qdd, arms)
-        pi = values(q, qd, arms).T
-        found = [Y * pi[:, np.newaxis], Y[:, ::-1], -Y]
-        found += [Y[..., order] for order in orders]
-        for _, row, column, factor in changes:
-            wrong = Y.copy()
-            wrong[:, row, column] *= factor
-            found.append(wrong)
-        for source, target in taken:
-            wrong = Y.copy()
-            wrong[..., target] = Y[..., source]
-            found.append(wrong)
-        return np.array(found)
-
-    names = ("parameters inside", "joints exchanged", "sign of the whole")
-    mutants = [Mutant(name) for name in names]
-    words = [pi.doc for pi in entries]
-    mutants += [
-        Mutant("columns in another order", detail=", ".join(words[k] for k in order))
-        for order in orders
-    ]
-    mutants += [mutant for mutant, *_ in changes]
-    mutants += [
-        Mutant("column of another", f"the column of {entries[target].doc}", put=entries[source].doc)
-        for source, target in taken
-    ]
-    return Group(mutants, numbers)
-
-
-def _pi(mechanism: Outline) -> list[Parameter]:
-    """π, in order; doc: what an entry is made of, as I1 + m1·lc1²."""
-    return [p for p in in_pi(mechanism).parameters if not p.known]
-
-
-def _values(mechanism: Outline) -> Numbers:
-    """A function of q, q̇ and the arms to π, (entries, cases)."""
-
-    def made(of: Mechanism) -> list[sp.Expr]:
-        from autograder.mutation.inertial_parameters import inertial_parameters
-
-        return [pi.value for pi in inertial_parameters(of)]
-
-    return formulas(mechanism, ("pi",), made, len(_pi(mechanism)))
-
-
-def _row(rows: list[int]) -> str:
-    return f"row {rows[0] + 1}" if len(rows) == 1 else ""
-
-
-def _orders(units: list[str]) -> list[list[int]]:
-    """Orders in which people write columns: from the end, by kind, or two of them exchanged."""
-    places = list(range(len(units)))
-    found = [places[::-1]]
-    for kinds in itertools.permutations(dict.fromkeys(units)):
-        found.append([k for kind in kinds for k in places if units[k] == kind])
-    for a, b in itertools.combinations(places, 2):
-        exchanged = places.copy()
-        exchanged[a], exchanged[b] = b, a
-        found.append(exchanged)
-    return found
 
 
 def _of_energies(linear: Outline, catalogue: Callable, parts: Callable) -> Iterator[tuple]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from autograder.judging.call_text import EXACT, arguments, given_by, rounded, shown_call
+from autograder.judging.call_text import EXACT, arguments, by_name, given_by, rounded, shown_call
 from autograder.judging.check import VISIBLE_CASES
 from autograder.problems import CHECKS
 from autograder.protocol import Call, Function, Symbol, real
@@ -30,9 +30,10 @@ def test_a_call_passes_what_it_says(check):
     for call in calls_of(check):
         text = shown_call(call, check.signature, EXACT)
         if text.startswith((f"{check.name}({', '.join(names)})", "sp.Matrix(")) and names:
-            assert given_by(call, check.signature, check.id).startswith(
-                f"from autograder import worst_case; {', '.join(names)} = worst_case("
-            )
+            lines = given_by(call, check.signature, check.id).splitlines()
+            assert f'{", ".join(names)} = worst_case("{check.id}")' in lines
+            assert "from autograder import worst_case" in lines
+            assert ("import sympy as sp" in lines) == text.startswith("sp.")
             continue
         given = passed(text, check.name)
         assert len(given) == len(call.args) == len(names)
@@ -83,8 +84,15 @@ def test_symbols_are_filled_in_by_their_names():
 def test_long_arrays_stand_by_their_names_and_their_shapes_are_told():
     call = Call("f", (np.zeros((5, 3)), 1.0))
     assert shown_call(call, "f(J, m)") == "f(J, m)"
-    said = 'from autograder import worst_case; J, m = worst_case("x-f")  # J (5, 3)'
+    said = 'from autograder import worst_case\nJ, m = worst_case("x-f")\n# J (5, 3)'
     assert given_by(call, "f(J, m)", "x-f") == said
+
+
+def test_by_name_a_call_has_the_names_that_the_lines_give():
+    short = Call("f", (np.zeros(2), 1.0))
+    assert by_name(short, "f(q, m)") == "f(q, m)"
+    symbolic = Call("L", (Symbol("q"), 1.0), at=({"q": 0.5},))
+    assert by_name(symbolic, "L(q, m)") == shown_call(symbolic, "L(q, m)")
 
 
 def test_a_function_without_arguments():

@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from autograder.judging.card import LOOKS, Line, drawing, html_card, mimebundle
-from autograder.judging.verdict import AS_ABOVE, Failed, Row, State, Verdict, Witness, failing
+from autograder.judging.passages import failing
+from autograder.judging.verdict import AS_ABOVE, Failed, Row, State, Verdict, Witness
 from autograder.problems.material.planar_2r import joints
 
 TEXT = st.text(max_size=120) | st.sampled_from(
@@ -51,6 +52,7 @@ VERDICTS = st.builds(
     next_step=TEXT,
     failed=st.none() | st.builds(Failed, TEXT, st.just(1), st.integers(0, 9), TEXT, TEXT),
 )
+TAGS = ("div", "p", "strong", "span", "ul", "li", "code", "pre", "details", "summary")
 MARK = '<b>"it\'s"&</b>'
 
 
@@ -89,7 +91,14 @@ def full(state: State) -> Verdict:
         ("The sign is wrong.", "And the unit."),
         "It changes q.",
         next_step="Change your function.",
-        failed=Failed("g_vec([0.0], m=1)", 2, 6, "g_vec([0.3], m=1)", 'q = worst_case("p3-g_vec")'),
+        failed=Failed(
+            "g_vec([0.0], m=1)",
+            2,
+            6,
+            "g_vec([0.3], m=1)",
+            'q = worst_case("p3-g_vec")',
+            by_name="g_vec(q)",
+        ),
     )
 
 
@@ -97,7 +106,7 @@ def full(state: State) -> Verdict:
 def test_the_card_has_only_its_own_tags(verdict):
     text, _, picture = html_card(verdict).partition("<svg ")
     card = Card(text)
-    assert set(card.tags) <= {"div", "p", "strong", "span", "ul", "li", "code"}
+    assert set(card.tags) <= set(TAGS)
     names = {name for attributes in card.attributes for name in attributes}
     assert names <= {"class", "data-state", "role", "aria-label", "style", "aria-hidden"}
     if picture:
@@ -121,6 +130,9 @@ def test_the_card_has_only_its_own_tags(verdict):
         Verdict("a", State.ERROR, failed=Failed(MARK)),
         Verdict("a", State.ERROR, failed=Failed("f", works=MARK)),
         Verdict("a", State.ERROR, failed=Failed("f", given_by=MARK)),
+        Verdict("a", State.ERROR, failed=Failed("f", given_by="x", by_name=MARK)),
+        Verdict("a", State.ERROR, failed=Failed(9 * MARK, by_name=MARK)),
+        Verdict("a", State.INCORRECT, witness=Witness(9 * MARK, "1", "2", by_name=MARK)),
     ],
 )
 def test_what_comes_from_a_student_is_shown_as_it_is(verdict):
@@ -182,7 +194,8 @@ def test_sentences_come_in_the_order_of_their_use(state):
         "And the unit.",
         "It changes q.",
         "Worst case: g_vec([0.3], m=1) gave 2.1 N·m, off by 0.3 N·m (14% of the right value).",
-        'The arguments of the failed call: q = worst_case("p3-g_vec")',
+        "To work with the failed call, run this in a cell of your own:",
+        'q = worst_case("p3-g_vec")\ng_vec(q)',
         "Change your function.",
     ]
     for text in (str(verdict), " ".join(Card(html_card(verdict)).words)):
@@ -208,7 +221,7 @@ def test_without_inputs_only_the_size_of_the_error_is_told():
         assert "2.1" not in text
         assert "worst_case" not in text
         assert "[0.0]" not in text
-    assert (verdict.worst, verdict.failed, verdict.given_by) == (None, None, "")
+    assert (verdict.worst, verdict.failed, verdict.again) == (None, None, "")
     assert Verdict("a", State.CORRECT).without_inputs() == Verdict("a", State.CORRECT)
 
 
@@ -361,14 +374,70 @@ def test_met_and_unmet_rows_differ_by_word_mark_and_bar():
 
 @given(VERDICTS, TEXT)
 def test_lines_of_the_notebook_come_last_and_as_text(verdict, said):
-    bundle = mimebundle(verdict, [Line(said), Line("a lesson", '<a href="x">a lesson</a>')])
-    card = Card(bundle["text/html"])
+    lesson = Line("a lesson", '<a href="x">a lesson</a>')
+    bundle = mimebundle(verdict, [lesson], [Line(said), Line("9 points")])
+    card = Card(bundle["text/html"].partition("<svg")[0])
     assert card.tags.count("a") == 1
-    assert (
-        squeezed("".join(card.words)).endswith(squeezed(f"{said}a lesson"))
-        or "<svg" in (bundle["text/html"])
+    for text in ("".join(card.words), bundle["text/plain"]):
+        assert squeezed(text).endswith(squeezed(f"{said}9 points"))
+
+
+@pytest.mark.parametrize("state", State)
+def test_numbers_are_looked_at_before_they_are_changed_and_missing_ones_are_not(state):
+    lines = [Line("a hint"), Line("a lesson")]
+    bundle = mimebundle(full(state), lines, [Line("9 points")])
+    order = ["a hint", "a lesson", "Change your function.", "9 points"]
+    if state not in (State.INCORRECT, State.PARTLY_CORRECT):
+        order = ["Change your function.", "a hint", "a lesson", "9 points"]
+    for text in ("\n".join(Card(bundle["text/html"]).words), bundle["text/plain"]):
+        places = [text.index(said) for said in order]
+        assert places == sorted(places)
+
+
+LONG = f"M(np.array([{', '.join(40 * ['0.5'])}]))"
+NAMED = {"by_name": "M(q)", "given_by": 'q = worst_case("a")'}
+
+
+@pytest.mark.parametrize(
+    "verdict",
+    [
+        Verdict("a", State.INCORRECT, witness=Witness(LONG, "1 N·m", "2 N·m", **NAMED)),
+        Verdict("a", State.ERROR, failed=Failed(LONG, **NAMED)),
+        Verdict("a", State.ERROR, failed=Failed("M(0)", 1, 2, LONG, **NAMED)),
+    ],
+)
+def test_a_long_call_is_folded_away(verdict):
+    html = html_card(verdict)
+    folds = re.findall(r"<details[^>]*><summary[^>]*>.*?</details>", html)
+    assert len(folds) == 1
+    assert LONG in folds[0]
+    assert LONG not in html.replace(folds[0], "")
+    shown = re.findall(r"<code[^>]*>([^<]*)</code>", html.replace(folds[0], ""))
+    assert shown
+    assert all(len(line) <= 90 for code in shown for line in code.splitlines())
+
+
+def test_plain_text_shows_a_long_call_up_to_a_few_lines():
+    short = Verdict("a", State.INCORRECT, witness=Witness(LONG, "1", "2", **NAMED))
+    assert squeezed(LONG) in squeezed(str(short))
+    longer = Witness(LONG.replace("0.5", "-0.123456"), "1", "2", **NAMED)
+    text = str(Verdict("a", State.INCORRECT, witness=longer))
+    assert "numbers" not in text
+    assert 'q = worst_case("a")\n      M(q)' in text
+
+
+def test_python_in_plain_text_is_broken_only_where_it_still_runs():
+    call = f"from autograder import watch; watch({('p1-' + 9 * 'M')!r})"
+    bundle = mimebundle(
+        Verdict("a", State.INCORRECT), [Line.with_code("See what it does: {}", call)]
     )
-    assert squeezed(bundle["text/plain"]).endswith(squeezed(f"{said}a lesson"))
+    assert call in bundle["text/plain"]
+    witness = Witness(LONG, "1", "2", by_name="M(q)", given_by=f"q = {LONG}")
+    lines = str(Verdict("a", State.INCORRECT, witness=witness)).splitlines()
+    start = next(k for k, line in enumerate(lines) if "q = M(" in line)
+    names = {"np": np, "M": lambda q: q}
+    exec("\n".join(line.strip() for line in lines[start:]), names)
+    assert names["q"].shape == (40,)
 
 
 @pytest.mark.parametrize(
@@ -382,7 +451,7 @@ def test_lines_of_the_notebook_come_last_and_as_text(verdict, said):
     ],
 )
 def test_how_many_calls_failed(failed, said):
-    assert failing(failed) == [said]
+    assert [own.text for own in failing(failed)] == [said]
     card = html_card(Verdict("a", State.ERROR, failed=failed))
     assert "".join(Card(card).words).endswith(said)
     assert ">f(1)</code>" in card

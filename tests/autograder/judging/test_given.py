@@ -8,7 +8,8 @@ import pytest
 
 from autograder.judging.check import VISIBLE_CASES
 from autograder.judging.partial import is_finite
-from autograder.judging.verdict import State, failing
+from autograder.judging.passages import failing
+from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from autograder.protocol import FaultKind, Reply, answer, calls
 from tests.autograder.verdicts import function_of, judged
@@ -65,7 +66,7 @@ def test_some_calls_fail_and_one_that_works_is_shown(bad):
     if bad != "np.nan":  # which says itself where it came
         (q,) = map(float, re.findall(r"np\.array\(\[(.*?)\]", failed.works))
         assert q < 0
-    assert verdict.lines()[1] == failing(failed)[0]
+    assert verdict.lines()[1] == failing(failed)[0].text
 
 
 def test_where_arguments_are_long_the_shapes_tell_which_calls_work():

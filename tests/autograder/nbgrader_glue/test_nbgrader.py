@@ -193,6 +193,7 @@ def test_feedback_shows_no_hidden_input_and_no_reference(course):
     assert "gave" not in page.partition("p3-g_vec: incorrect")[2].partition("Change your")[0]
     assert "autograder/problems" not in page
     assert "p3_pendulum.py" not in page
+    assert "HIDDEN TESTS" not in page
 
 
 def test_instructor_is_told_what_was_mended(course):

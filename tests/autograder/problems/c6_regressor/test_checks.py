@@ -7,8 +7,11 @@ from armdyn import Planar2R
 from armdyn.base_parameters import base_parameters, on_link_axes
 from armdyn.identify import identify
 from armdyn.regressor import parameters
+from autograder.judging import diagnosis
 from autograder.judging.check import VISIBLE_CASES
-from autograder.judging.diagnosis import Known, mistakes_shown
+from autograder.judging.criterion import Criterion
+from autograder.judging.diagnosis import Wrong
+from autograder.judging.stacked import layouts
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from autograder.problems.c6_regressor import mistakes
@@ -120,10 +123,14 @@ def test_a_weighted_fit_is_told_what_least_squares_means():
 
 def test_a_doubled_error_is_not_two_mistakes():
     """Two orders of the columns leave a column empty; taken twice, that would make it −1 times it."""
-    right = [np.array([2.0]), np.array([3.0])]
-    empty = [np.zeros(1), np.zeros(1)]
-    known = [Known(mistake, empty) for mistake in CHECKS["c6-regressor"].mistakes[:2]]
-    assert mistakes_shown(right, [-value for value in right], known) == ()
+    right = [(np.array([2.0]),), (np.array([3.0]),)]
+    theirs = [(-value,) for (value,) in right]
+    both = list(CHECKS["c6-regressor"].mistakes[:2])
+    empty = Wrong(both, [np.zeros((2, layouts(theirs, right)[0].length))])
+    said = diagnosis.sentences(
+        (Criterion("column"),), right, theirs, [False], empty, lambda: [], lambda k: ""
+    )
+    assert said == [()]
 
 
 @pytest.mark.parametrize(
