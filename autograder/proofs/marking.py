@@ -4,6 +4,7 @@ import numpy as np
 
 from autograder.proofs.derivation import ALGEBRA, MOST_REASONS, Derivation, Row
 from autograder.proofs.expression import Node, names_in
+from autograder.proofs.forms import shows
 from autograder.proofs.lines import Line, nearest
 from autograder.proofs.marks import Marked, MarkedLine
 from autograder.proofs.parsing import LineError, relation_and_sides
@@ -37,7 +38,7 @@ class _Marking:
 
     def marked(self, lines: list[Line]) -> Marked:
         marked: list[MarkedLine] = []
-        earned: set[Row] = set()
+        shown: set[Row] = set()
         before, holding, last, strict = self._start, True, self._start, False
         steps, brought = 0, set[str]()  # names that a fact has brought in
         for at, line in enumerate(lines[:MOST_LINES]):
@@ -55,21 +56,17 @@ class _Marking:
             before = after
             if holding:
                 last, strict = after, strict or relation == ">"
-                earned.update(self._earned_by(after))
-        done = holding and bool(lines) and self._is_goal(last, strict)
-        still = "" if done else self._still(last, holding, bool(lines))
-        if done and (one_go := self._one_go(steps, brought)):
-            done, still = False, one_go
-        if len(lines) > MOST_LINES:
-            done, still = False, f"Only the first {MOST_LINES} lines are read."
+                shown.update(self._shown_by(after))
         rows = self._derivation.rows
-        return Marked(
-            self._derivation,
-            tuple(marked),
-            done,
-            still,
-            tuple(row for row in rows if done or row in earned),
-        )
+        still = self._still(last, holding, bool(lines), strict) or self._one_go(steps, brought)
+        if len(lines) > MOST_LINES:
+            still = f"Only the first {MOST_LINES} lines are read."
+        reached = not still
+        unshown = [row.form.said for row in rows if row.form and row not in shown]
+        if reached and unshown:
+            still = f"All lines hold. Still to be shown: {unshown[0]}."
+        earned = (row for row in rows if self._is_earned(row, row in shown, reached))
+        return Marked(self._derivation, tuple(marked), not still, still, tuple(earned))
 
     def _step(self, line: Line, before: Node, first: bool):
         """The step that a line claims, None for a first line that only says where it starts; and the
@@ -141,16 +138,21 @@ class _Marking:
                 )
         return ""
 
-    def _earned_by(self, node: Node) -> list[Row]:
-        read = self._derivation.read
-        return [
-            row
-            for row in self._derivation.rows
-            if row.milestone and self._worlds.same(node, read(row.milestone))
-        ]
+    def _shown_by(self, node: Node) -> list[Row]:
+        """The rows whose milestone this line is, or whose form it shows where they have none."""
+        return [row for row in self._derivation.rows if self._shows(node, row)]
 
-    def _is_goal(self, last: Node, strict: bool) -> bool:
-        return self._worlds.same(last, self._goal) and (strict or self._derivation.relation == "=")
+    def _shows(self, node: Node, row: Row) -> bool:
+        if row.milestone and not self._worlds.same(node, self._derivation.read(row.milestone)):
+            return False
+        if row.form is None:
+            return bool(row.milestone)
+        return shows(node, row.form, self._derivation, self._worlds)
+
+    def _is_earned(self, row: Row, shown: bool, reached: bool) -> bool:
+        if row.milestone and shown:
+            return True
+        return reached and (shown or row.form is None)
 
     def _one_go(self, steps: int, brought: set[str]) -> str:
         """What is said of lines that hold and show nothing; a line that repeats the one before is no
@@ -166,15 +168,17 @@ class _Marking:
     def _names(self, node: Node) -> set[str]:
         return set(names_in(node, self._subject.rates))
 
-    def _still(self, last: Node, holding: bool, any_lines: bool) -> str:
+    def _still(self, last: Node, holding: bool, any_lines: bool, strict: bool) -> str:
+        """What keeps the lines from their end; "" where they reach it."""
         said = self._derivation.goal_said
         if not any_lines:
             return f"To be shown: {said}."
         if not holding:
             return f"Mend the lines marked ✗. To be shown: {said}."
-        if self._worlds.same(last, self._goal):
+        left = sorted(self._names(last) - self._names(self._goal))
+        if not left and self._worlds.same(last, self._goal):
+            if strict or self._derivation.relation == "=":
+                return ""
             return f"Still to be shown: {said}. So far you have ≥."
-        rates = self._subject.rates
-        left = sorted(names_in(last, rates) - names_in(self._goal, rates))
         more = f" Your last line still holds {', '.join(left)}." if left else ""
         return f"All lines hold. Still to be shown: {said}.{more}"

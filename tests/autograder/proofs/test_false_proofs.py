@@ -7,7 +7,7 @@ import pytest
 
 from autograder.proofs import DERIVATIONS, mark
 from autograder.protocol import handed_in
-from tests.autograder.proofs.models import marked, models, said
+from tests.autograder.proofs.models import said
 
 # Derivation, mistake: a line, the false one behind it, and the reasons given for that.
 TABLE = {
@@ -154,11 +154,3 @@ def test_a_left_side_is_where_one_stands_or_started():
 def test_later_lines_are_marked_against_the_line_before_though_it_is_wrong():
     lines = [("qd' u", "algebra"), ("u' qd", "algebra")]
     assert [bool(text) for text in said("p2-E", *lines)] == [True, False]
-
-
-def test_rows_are_earned_up_to_the_first_wrong_line():
-    lines = list(models()["p2-E"])
-    assert [row.number for row in marked("p2-E", lines[:5]).earned] == [1]
-    assert [row.number for row in marked("p2-E", lines[:7]).earned] == [1, 2]
-    lines[1] = ("= d/dt(1/2 qd' M qd) + Pdot", "chain rule")
-    assert marked("p2-E", lines).earned == ()

@@ -44,6 +44,7 @@ WAYS = {
             "symmetry of M",
         ),
         (r"= \dot q^T u - \dot q^T C \dot q + \frac{1}{2} \dot q^T \dot M \dot q", "equation of motion"),
+        (r"= \dot q^T u - \dot q^T (C - \tfrac12 \dot M) \dot q", "algebra"),
         (r"= \dot q^T u", "skew-symmetry"),
     ),
     "p2-skew, term by term": (
