@@ -235,6 +235,11 @@ P3_LAGRANGE = Derivation(
             (("K", "1/2 I qd^2 + 1/2 m lc^2 qd^2"),),
         ),
         FalseStep(
+            "point mass",
+            "This K is that of a mass in one point. What does I hold beside it?",
+            (("K", "1/2 m lc^2 qd^2"),),
+        ),
+        FalseStep(
             "K without its half",
             "Look at the factor of the kinetic energy in this step.",
             (("K", "I qd^2"),),
@@ -243,6 +248,12 @@ P3_LAGRANGE = Derivation(
             "P with the sign of K",
             "In this step the slope of P has the wrong sign. Which two signs meet there?",
             (("u", "d/dt(d/dqd(L)) + d/dq(L)"),),
+        ),
+        FalseStep(
+            "derivatives exchanged",
+            "Which of the two derivatives of L is differentiated in time: the one by the angle, or the "
+            "one by the velocity?",
+            (("u", "d/dt(d/dq(L)) - d/dqd(L)"),),
         ),
         FalseStep(
             "no derivative in time",

@@ -1,12 +1,43 @@
-"""Whether a line shows a form: not only has its value, but holds it as a whole."""
+"""What a line looks like, and not only what its value is: whether it shows a form as a whole."""
 
 import numpy as np
 
 from autograder.proofs.derivation import Derivation, Form
 from autograder.proofs.evaluating import Value
-from autograder.proofs.expression import Derivative, Node, names_in, parts
+from autograder.proofs.expression import (
+    Derivative,
+    Name,
+    Node,
+    Power,
+    Quotient,
+    Sum,
+    Transpose,
+    names_in,
+    parts,
+    walk,
+)
 from autograder.proofs.parsing import LineError
 from autograder.proofs.steps import ROUNDING, Worlds
+
+MOTION = frozenset({"qd", "v1", "v2"})
+
+
+def divides_by_motion(node: Node) -> bool:
+    """Whether a velocity stands below a fraction line."""
+    below = []
+    for part in walk(node):
+        match part:
+            case Quotient(_, under) | Power(under, -1):
+                below.append(under)
+    return any(Name(name) in walk(under) for under in below for name in MOTION)
+
+
+def half(node: Node) -> Node | None:
+    """X of X + X'."""
+    match node:
+        case Sum((first, Transpose(second))) if first == second:
+            return first
+    return None
 
 
 def shows(node: Node, form: Form, derivation: Derivation, worlds: Worlds) -> bool:

@@ -3,8 +3,8 @@
 import numpy as np
 
 from autograder.proofs.derivation import ALGEBRA, MOST_REASONS, Derivation, Row
-from autograder.proofs.expression import Node, names_in
-from autograder.proofs.forms import shows
+from autograder.proofs.expression import Node, Number, names_in
+from autograder.proofs.forms import divides_by_motion, half, shows
 from autograder.proofs.lines import Line, nearest
 from autograder.proofs.marks import Marked, MarkedLine
 from autograder.proofs.parsing import LineError, relation_and_sides
@@ -16,6 +16,10 @@ from autograder.protocol.proofs import MOST_LINES
 
 # Wrong lines for which all other reasons and mistakes are tried: people mend the first ones first.
 MOST_DIAGNOSED = 6
+DIVIDES = (
+    "This line divides by what is zero at rest, where it then says nothing. Which way leads there "
+    "without a division?"
+)
 
 
 def mark(derivation: Derivation, given: HandedIn, rng: np.random.Generator) -> Marked:
@@ -77,6 +81,7 @@ class _Marking:
         after = read(right)
         if left:
             head = read(left)
+            self._worlds.given(()).value(head)
             if first and not self._worlds.same(head, before):
                 raise LineError("The derivation starts elsewhere: look at what is given.")
             if not (self._worlds.same(head, before) or self._worlds.same(head, self._start)):
@@ -96,8 +101,10 @@ class _Marking:
         circular = [reason.name for reason in given if reason.name in derivation.to_prove]
         if circular:
             return f'"{circular[0]}" is what is to be proved; here it is assumed.'
+        if divides_by_motion(step.after) and not divides_by_motion(step.before):
+            return DIVIDES
         if self._worlds.hold(step, given):
-            return self._unneeded(step, given)
+            return self._unneeded(step, given) or self._first_half(step, given)
         if said := self._why.misused(step, given):
             return said
         self._diagnosed += 1
@@ -128,7 +135,11 @@ class _Marking:
 
     def _unneeded(self, step: Step, given: tuple[Reason, ...]) -> str:
         if given and self._worlds.hold(step, ()):
-            return f"The line is right, and follows by algebra alone; {named(given)} is not used in it."
+            are = "are" if len(given) > 1 else "is"
+            return (
+                f"The line is right, and follows by algebra alone; {named(given)} {are} not used in "
+                "it."
+            )
         for reason in given:
             rest = tuple(other for other in given if other is not reason)
             if self._worlds.hold(step, rest):
@@ -137,6 +148,18 @@ class _Marking:
                     "used in it."
                 )
         return ""
+
+    def _first_half(self, step: Step, given: tuple[Reason, ...]) -> str:
+        """What is said of X + X' = Y + Y' where Y + Y' is zero whatever stands for Y, and X is not Y."""
+        before, after = half(step.before), half(step.after)
+        if before is None or after is None or not self._worlds.same(step.after, Number(0.0)):
+            return ""
+        if self._worlds.hold(Step("=", before, after), given):
+            return ""
+        return (
+            "Both sums are zero, but what stands in the first bracket is not what stood there before. "
+            "Look at each sign and factor in it."
+        )
 
     def _shown_by(self, node: Node) -> list[Row]:
         """The rows whose milestone this line is, or whose form it shows where they have none."""
