@@ -114,7 +114,7 @@ def _given(derivation: Derivation) -> list[str]:
     subject = derivation.subject
     return [
         f"Start from {derivation.start}. Write a' for the transpose of a, a^-1 for an inverse, "
-        "d/dt(...) for a derivative.",
+        "d/dt(...) for a derivative; or paste a formula in LaTeX.",
         "Names:",
         *(f"  {name}: {meaning}" for name, meaning in subject.meanings.items()),
         "Reasons, one or two to a line:",

@@ -20,6 +20,7 @@ from autograder.proofs.expression import (
     Wave,
     minus,
 )
+from autograder.proofs.indices import SLOPE, UNREAD
 from autograder.proofs.notation import plain
 from autograder.protocol.proofs import MOST_CHARACTERS
 
@@ -94,6 +95,10 @@ class Parser:
             found = _TOKEN.match(text, at)
             if found is None:
                 odd = text[at:].split()[0][:20]
+                if odd.startswith(SLOPE):
+                    raise LineError(
+                        "A slope of an entry of M is read in a sum with the velocity of k."
+                    )
                 raise LineError(f"{odd!r} cannot be read here.")
             kind = str(found.lastgroup)
             value = found.group(kind)
@@ -105,6 +110,8 @@ class Parser:
             at = found.end()
 
     def _unknown(self, name: str) -> str:
+        if name == UNREAD:
+            return "A sum is read over k with the velocity of k, or over the two links."
         known = ", ".join(sorted([*self._names, *self._rates]))
         return f"{name[:20]!r} is no name of this derivation. The names are {known}."
 
@@ -180,7 +187,7 @@ class Parser:
         if kind == "by":
             by = "t" if value == "ddt" else value.rpartition("/")[2].strip()[1:]
             if by not in ("t", *self._variables):
-                raise LineError(f"There is no derivative by {by} here.")
+                return self._slopes(by)
             self._differentiated += 1
             if self._differentiated > MOST_DERIVATIVES:
                 raise LineError("A derivative of a derivative of a derivative is not needed here.")
@@ -201,6 +208,13 @@ class Parser:
         if kind == "end":
             raise LineError("This line stops where something should follow.")
         raise LineError(f"{value!r} is not expected there.")
+
+    def _slopes(self, by: str) -> Node:
+        """∂P/∂q where the column of these slopes is a name of its own."""
+        inner = self._operand()
+        if isinstance(inner, Name) and (name := f"d{inner.name}d{by}") in self._names:
+            return Name(name)
+        raise LineError(f"There is no derivative by {by} here.")
 
     def _operand(self) -> Node:
         """What a function or a derivative acts on: brackets, a name, or another derivative."""
