@@ -9,11 +9,21 @@ import re
 _M = r"\\partial\s*M_?\{?([ijk])([ijk])\}?"
 _Q = r"\\partial\s*q_?\{?([ijk])\}?"
 _SLOPE = re.compile(rf"\\[dt]?frac\s*\{{\s*{_M}\s*\}}\s*\{{\s*{_Q}\s*\}}|{_M}\s*/\s*{_Q}")
-_SYMBOL = re.compile(r"(?<![A-Za-z\\])h_\{?([ijk])([ijk])([ijk])\}?")
-_ENTRY = re.compile(r"(\\dot\s*M|(?<![A-Za-z\\])[MC])_\{?(ij|ji)\}?")
+_SYMBOL = re.compile(r"(?<![A-Za-z\\])h_\{?([ijk])([ijk])([ijk])\}?(?:\s*\(\s*q\s*\))?")
+_ENTRY = re.compile(r"(\\dot\s*M|(?<![A-Za-z\\])[MCN])_\{?(ij|ji)\}?")
 _SUM = r"\\sum(?:_(?:\{\s*([a-z])[^{}]*\}|([a-z])))?(?:\^(?:\{[^{}]*\}|\w))?\s*"
 _SUMS = re.compile(rf"(?:{_SUM})+")
 _VELOCITY = re.compile(r"\s*\\dot\s*q_\{?([ijk])\}?")
+_OF_P = re.compile(
+    rf"\\sum_\{{?([ijk])\}}?\s*(?:\\dot\s*q_\1\s*)?"
+    rf"(?:\\[dt]?frac\s*\{{\s*\\partial\s*P\s*\}}\s*\{{\s*{_Q}\s*\}}|\\partial\s*P\s*/\s*{_Q})"
+    r"(?:\s*\\dot\s*q_\1)?"
+)
+# M_ij q̇_j, added up over j; or over both.
+_ENTRIES = re.compile(
+    r"((?:\\d?dot\s*)?[MC])_\{?([ijk])([ijk])\}?(?:\s*\(\s*q\s*\))?\s*"
+    r"((?:\\d?dot\s*q_\{?[ijk]\}?\s*){1,2})$"
+)
 _SUBSCRIPT = r"_(?:\{{\s*(?:[a-z],)?{0}\s*\}}|{0})"
 MOST_SUMS = 8
 SLOPE = "⟨"  # ∂M_ij/∂q_k, until a sum takes it
@@ -24,6 +34,7 @@ def without_indices(text: str) -> str:
     """The formula without sums and indices, where it has some that can be read; else as it is."""
     if "_" not in text and "\\sum" not in text:
         return text
+    text = _OF_P.sub(_rate_of_P, text)
     text = _SLOPE.sub(lambda found: "⟨" + "".join(filter(None, found.groups())) + "⟩", text)
     text = _SYMBOL.sub(lambda found: _christoffel(*found.groups()), text)
     for _ in range(MOST_SUMS):
@@ -43,6 +54,8 @@ def _added_up(sums: str, rest: str) -> str:
     """What stands for sums and what is behind them."""
     body, behind = _body(rest)
     over = re.findall(r"_\{?\s*([a-z])", sums)
+    if (found := _ENTRIES.search(body.strip())) and (made := _of_entries(over, *found.groups())):
+        return f" {body.strip()[: found.start()]} {made} {behind}"
     if "⟨" not in body:
         return _over_links(over, body) + behind
     velocities = sorted(_VELOCITY.findall(body))
@@ -52,6 +65,29 @@ def _added_up(sums: str, rest: str) -> str:
     matrix = re.sub(r"⟨(.)(.)(.)⟩", lambda found: _matrix(*found.groups()), inside)
     dressed = {1: "({})", 2: "({}) qd", 3: "qd' ({}) qd"}[len(velocities)]
     return f" {dressed.format(matrix)} {behind}"
+
+
+def _rate_of_P(found: re.Match) -> str:
+    """Σ ∂P/∂q_i q̇_i, with q̇_i on one side."""
+    over, *by = filter(None, found.groups())
+    has_one = len(re.findall(r"\\dot", found[0])) == 1
+    return " qd' dPdq " if by == [over] and has_one else found[0]
+
+
+def _of_entries(over: list[str], matrix: str, row: str, column: str, behind: str) -> str:
+    """What the entries of a matrix, times rates, add up to; "" where the indices do not fit."""
+    rates = {index: dots for dots, index in re.findall(r"\\(d?dot)\s*q_\{?([ijk])", behind)}
+    if sorted(over) != sorted(rates) or len(rates) != behind.count("q_"):
+        return ""
+    last = rf"\{rates.get(column) or rates.get(row)} q"
+    match row in rates, column in rates:
+        case True, True if row != column:
+            return rf"\{rates[row]} q' {matrix} {last}"
+        case False, True:
+            return f"{matrix} {last}"
+        case True, False:
+            return f"{matrix}' {last}"
+    return ""
 
 
 def _matrix(first: str, second: str, by: str) -> str:

@@ -67,15 +67,21 @@ class Parser:
     """Reads expressions in given names.
 
     rates: the name of a rate → the name it is the rate of (Mdot → M). variables: those of partial
-    derivatives.
+    derivatives. short: names → what they stand for, as text.
     """
 
     def __init__(
-        self, names: Collection[str], rates: Mapping[str, str], variables: Collection[str]
+        self,
+        names: Collection[str],
+        rates: Mapping[str, str],
+        variables: Collection[str],
+        short: Mapping[str, str],
     ):
+        self._short: dict[str, Node] = {}
         self._variables = frozenset(variables)
         self._names = frozenset(names)
         self._rates = rates
+        self._short |= {name: self.read(text) for name, text in short.items()}
 
     def read(self, text: str) -> Node:
         """The tree. LineError, naming what cannot be read."""
@@ -102,7 +108,7 @@ class Parser:
                 raise LineError(f"{odd!r} cannot be read here.")
             kind = str(found.lastgroup)
             value = found.group(kind)
-            if kind == "name" and value not in (*WAVES, *self._names, *self._rates):
+            if kind == "name" and value not in (*WAVES, *self._names, *self._rates, *self._short):
                 raise LineError(self._unknown(value))
             if kind == "number" and float(value) > LARGEST_NUMBER:
                 raise LineError(f"The number {value} is larger than {LARGEST_NUMBER:g}.")
@@ -112,7 +118,7 @@ class Parser:
     def _unknown(self, name: str) -> str:
         if name == UNREAD:
             return "A sum is read over k with the velocity of k, or over the two links."
-        known = ", ".join(sorted([*self._names, *self._rates]))
+        known = ", ".join(sorted([*self._names, *self._rates, *self._short]))
         return f"{name[:20]!r} is no name of this derivation. The names are {known}."
 
     def _next(self) -> tuple[str, str]:
@@ -199,7 +205,7 @@ class Parser:
                 return Wave(value, self._operand())
             if value in self._rates:
                 return Derivative(Name(self._rates[value]), "t")
-            return Name(value)
+            return self._short.get(value) or Name(value)
         if kind == "sign" and value in "([":
             inner = self._sum()
             if not self._take({"(": ")", "[": "]"}[value]):

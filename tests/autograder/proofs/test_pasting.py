@@ -27,6 +27,13 @@ SAME = {
         r"\frac{d}{dt}\left(\tfrac12 \dot q^T M \dot q\right) + \frac{dP}{dt}":
             "d/dt(1/2 qd' M qd) + Pdot",
         r"C_{ji}": "C'",
+        r"N_{ij} + N_{ji}": "(Mdot - 2 C) + (Mdot - 2 C)'",
+        r"\dot q^{\mathsf T}N\dot q": "qd' (Mdot - 2 C) qd",
+        r"\tfrac12\sum_{j=1}^n\sum_{k=1}^n M_{jk}(q)\,\dot q_j\,\dot q_k": "1/2 qd' M qd",
+        r"\sum_j M_{ij}\,\ddot q_j + \sum_k M_{ki}\dot q_k": "M qdd + M' qd",
+        r"\sum_i \frac{\partial P}{\partial q_i}\dot q_i": "qd' dPdq",
+        r"\sum_i \dot q_i\,\partial P/\partial q_i": "qd' dPdq",
+        r"\sum_{k=1}^n h_{ijk}(q)\,\dot q_k": "1/2 (Mdot + W - W')",
         rf"\dot M_{{ij}} - \sum_k {BY_K}\dot q_k": "0 M",
         r"\sum_k h_{ijk}\,\dot q_k": "1/2 (Mdot + W - W')",
         rf"\sum_{{k=1}}^n \tfrac12\left({BY_K} + {BY_J} - {BY_I}\right)\dot q_k":
@@ -122,6 +129,9 @@ def test_indices_mean_what_they_say(pasted, indices):
         r"\sum_j \frac{\partial M_{ij}}{\partial q_k}\dot q_j",
         r"\frac{\partial M_{ij}}{\partial q_k}",
         r"\sum_k K",
+        r"\sum_j M_{ij}\dot q_k",
+        r"\sum_j M_{jj}\dot q_j",
+        r"\sum_i \partial P/\partial q_j \dot q_i",
         r"\sum_j\sum_k h_{ijk}\dot q_k",
     ],
 )
