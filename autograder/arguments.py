@@ -47,6 +47,12 @@ def name(text: str) -> str:
     return text
 
 
+def mechanism(text: str) -> str:
+    if not text.strip():
+        raise ArgumentTypeError("name a mechanism, such as cart-pole")
+    return name(text)
+
+
 def answers(text: str) -> list[str]:
     """The names of answers, as "M,C" or "M, C"."""
     found = [one.strip() for one in text.split(",")]

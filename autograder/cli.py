@@ -86,7 +86,7 @@ def main(arguments: list[str] | None = None) -> int:
     )
     trying.add_argument(
         "mechanism",
-        type=argument.name,
+        type=argument.mechanism,
         help="its name, such as cart-pole, or a file with MECHANISM",
     )
     trying.add_argument(
@@ -114,7 +114,7 @@ def main(arguments: list[str] | None = None) -> int:
     )
     new.add_argument(
         "mechanism",
-        type=argument.name,
+        type=argument.mechanism,
         help="its name, such as cart-pole; for a name that is new, its file to fill in is written",
     )
     new.add_argument(

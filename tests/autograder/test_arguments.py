@@ -26,8 +26,10 @@ REFUSED = {
         ".": "is no name of a file",
         "": "is no name of a file",
     },
+    ("try",): {"": "name a mechanism, such as cart-pole", LONG: "more than 100 characters"},
+    ("new-problem",): {" ": "name a mechanism, such as cart-pole", LONG: "more than 100 characters"},
     **{(command,): {LONG: "more than 100 characters"}
-       for command in ("grade", "report", "open-solution", "try", "new-problem")},
+       for command in ("grade", "report", "open-solution")},
 }  # fmt: skip
 
 
