@@ -46,6 +46,7 @@ c.GenerateAssignment.preprocessors = nbgrader_glue.generate_preprocessors()
 c.Autograde.sanitize_preprocessors = nbgrader_glue.sanitize_preprocessors()
 c.Autograde.autograde_preprocessors = nbgrader_glue.autograde_preprocessors()
 c.Autograde.exporter_class = nbgrader_glue.SUBMISSION_EXPORTER
+c.GenerateFeedback.preprocessors = nbgrader_glue.feedback_preprocessors()
 c.GenerateFeedback.exporter_class = nbgrader_glue.FEEDBACK_EXPORTER
 c.HTMLExporter.filters = nbgrader_glue.PAGE_FILTERS
 

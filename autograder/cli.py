@@ -10,6 +10,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from autograder import arguments as argument
 from autograder.terminal import say
 
 if TYPE_CHECKING:
@@ -31,15 +32,20 @@ def main(arguments: list[str] | None = None) -> int:
     grading = commands.add_parser(
         "grade", help="grade all submissions of an assignment, and record them in the gradebook"
     )
-    grading.add_argument("assignment", help="its name in solutions/, such as p3-pendulum")
+    grading.add_argument(
+        "assignment", type=argument.name, help="its name in solutions/, such as p3-pendulum"
+    )
     grading.add_argument(
         "--jobs",
-        type=int,
+        type=argument.processes,
         default=os.cpu_count(),
         help="number of processes (default: one per core)",
     )
     grading.add_argument(
-        "--scheduler", metavar="tcp://…", help="judge on the Dask cluster at this address"
+        "--scheduler",
+        type=argument.scheduler,
+        metavar="tcp://…",
+        help="judge on the Dask cluster at this address",
     )
     grading.add_argument(
         "--force", action="store_true", help="judge every submission again, changed or not"
@@ -50,6 +56,7 @@ def main(arguments: list[str] | None = None) -> int:
     reporting.add_argument(
         "assignment",
         nargs="?",
+        type=argument.name,
         help="its name in solutions/, such as p1-inertia (default: all of the term)",
     )
     opening = commands.add_parser(
@@ -57,10 +64,14 @@ def main(arguments: list[str] | None = None) -> int:
         help="let students see an assignment's worked answers with solution(), now or from a time on",
     )
     opening.add_argument(
-        "assignment", nargs="?", help="its name in solutions/ (default: all whose time has come)"
+        "assignment",
+        nargs="?",
+        type=argument.name,
+        help="its name in solutions/ (default: all whose time has come)",
     )
     opening.add_argument(
         "--on",
+        type=argument.time,
         metavar="TIME",
         help="from then on, as 2026-12-15 or 2026-12-15T12:00 (default: now)",
     )
@@ -73,15 +84,26 @@ def main(arguments: list[str] | None = None) -> int:
         "try",
         help="try the checks of a mechanism: right answers, every mistake, and what students read",
     )
-    trying.add_argument("mechanism", help="its name, such as cart-pole, or a file with MECHANISM")
-    trying.add_argument("--asks", help="try these answers alone, as M,C (default: all)")
+    trying.add_argument(
+        "mechanism",
+        type=argument.mechanism,
+        help="its name, such as cart-pole, or a file with MECHANISM",
+    )
+    trying.add_argument(
+        "--asks", type=argument.answers, help="try these answers alone, as M,C (default: all)"
+    )
     trying.add_argument("--all", action="store_true", help="print every mistake's sentence, too")
     trying.add_argument(
         "--names",
         action="store_true",
         help="as --all, with each mistake's name, for sentences of your own",
     )
-    trying.add_argument("--to", metavar="FILE", help="write every mistake's sentence to this file")
+    trying.add_argument(
+        "--to",
+        type=argument.new_file,
+        metavar="FILE",
+        help="write every mistake's sentence to this file",
+    )
     trying.add_argument(
         "--every",
         action="store_true",
@@ -92,10 +114,12 @@ def main(arguments: list[str] | None = None) -> int:
     )
     new.add_argument(
         "mechanism",
+        type=argument.mechanism,
         help="its name, such as cart-pole; for a name that is new, its file to fill in is written",
     )
     new.add_argument(
         "--asks",
+        type=argument.answers,
         help="what students write, in this order, with commas between (default: "
         "potential_energy,M,g_vec,C, less what is 0 for every motion)",
     )
@@ -185,7 +209,7 @@ def try_mechanism(root: Path, given: argparse.Namespace) -> int:
         files = files_of(root, given.mechanism, mechanism)
     except (NoMechanismError, MechanismFileError) as error:
         return _complain(str(error))
-    asked = list(ANSWERS) if given.asks is None else _listed(given.asks)
+    asked = list(ANSWERS) if given.asks is None else given.asks
     if unknown := [answer for answer in asked if answer not in ANSWERS]:
         return _complain(f"there is no answer {unknown[0]!r}; known are {', '.join(ANSWERS)}")
     made: list[Tried] = []
@@ -206,7 +230,7 @@ def try_mechanism(root: Path, given: argparse.Namespace) -> int:
         say("\n".join(["", "All of it:", *every]))
     if given.to:
         try:
-            put_in_place(Path(given.to), "\n".join(every) + "\n")
+            put_in_place(given.to, "\n".join(every) + "\n")
         except OSError as error:
             return _complain(f"{given.to} cannot be written: {error}")
         say(f"All of it: {given.to}")
@@ -215,7 +239,7 @@ def try_mechanism(root: Path, given: argparse.Namespace) -> int:
     return 0
 
 
-def new_problem(root: Path, name: str, asks: str | None) -> int:
+def new_problem(root: Path, name: str, asks: list[str] | None) -> int:
     """Write a mechanism's problem to solutions/, or first the file of a new mechanism."""
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.authoring.course import FillInError, NoMechanismError, own
@@ -224,7 +248,7 @@ def new_problem(root: Path, name: str, asks: str | None) -> int:
 
     try:
         mechanism = own(root, name)
-        asked = usual_asks(mechanism) if asks is None else _listed(asks)
+        asked = usual_asks(mechanism) if asks is None else asks
         path = write_problem(root, mechanism, asked)
     except FillInError as error:
         say(str(error))
@@ -236,11 +260,6 @@ def new_problem(root: Path, name: str, asks: str | None) -> int:
     say(f"  autograder try {mechanism.name}")
     say(f"  nbgrader generate_assignment {mechanism.name}")
     return 0
-
-
-def _listed(asks: str) -> list[str]:
-    """The names of "M, C", with or without the space."""
-    return [name.strip() for name in asks.split(",")]
 
 
 def report(root: Path, assignment: str | None) -> int:
@@ -278,7 +297,7 @@ def report(root: Path, assignment: str | None) -> int:
     return 0
 
 
-def open_solution(root: Path, assignment: str | None, on: str | None, full_marks: bool) -> int:
+def open_solution(root: Path, assignment: str | None, on: datetime | None, full_marks: bool) -> int:
     """Open an assignment's worked answers to students; without a name, all whose time has come."""
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.nbgrader_glue.worked import open_answers, settings
@@ -290,7 +309,7 @@ def open_solution(root: Path, assignment: str | None, on: str | None, full_marks
         return _complain("name the assignment whose answers open then")
     if assignment is not None and (why := _unknown(root, _name_of(assignment))):
         return _complain(why)
-    when = FULL_MARKS if full_marks else on or datetime.now().isoformat()
+    when = FULL_MARKS if full_marks else (on or datetime.now()).isoformat()
     asked = settings(root) if assignment is None else {_name_of(assignment): when}
     try:
         for line in open_answers(root, asked):

@@ -16,6 +16,7 @@ OPENS = ".worked-answers-open.json"  # the key WHEN → a time, or FULL_MARKS
 WHEN = "when"
 FULL_MARKS = "with full marks"
 MOST_BYTES = 4 << 20
+MOST_SHOWN = 60  # characters of what is no time
 # nbgrader's feedback pages break code within words otherwise, and JupyterLab breaks its lines.
 LOOK = "margin: 0.3em 0; overflow-x: auto; white-space: pre; word-break: normal"
 OF_THE_BOOK = (
@@ -45,7 +46,14 @@ def time_of(said: str) -> datetime | None:
 
     A time without a zone is of this machine's. ValueError if it is none.
     """
-    return None if said == FULL_MARKS else datetime.fromisoformat(said).astimezone()
+    if said == FULL_MARKS:
+        return None
+    try:
+        return datetime.fromisoformat(said).astimezone()
+    except (ValueError, OverflowError):
+        raise ValueError(
+            f"{said[:MOST_SHOWN]!r} is no time; write it as 2026-12-15 or 2026-12-15T12:00"
+        ) from None
 
 
 def mimebundle(id: str, answer: str, is_text: bool, remark: str = "") -> dict[str, str]:

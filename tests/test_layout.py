@@ -154,11 +154,13 @@ MAY_IMPORT = {
         "notebook",
         "report",
     ),
+    "arguments": ("worked_answers",),
     "lab": (),
     "lab_server": (),
     "lean": (),
     "__init__": ("protocol", "student"),
     "cli": (
+        "arguments",
         "authoring",
         "files",
         "lab",

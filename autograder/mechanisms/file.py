@@ -62,7 +62,9 @@ def mechanism_in(path: Path, shown: str = "", name: str = "") -> Mechanism:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
         raise MechanismFileError(f"{shown}: there is no such file") from None
-    except (OSError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError:
+        raise MechanismFileError(f"{shown}: is no text in UTF-8") from None
+    except OSError as error:
         raise MechanismFileError(f"{shown}: cannot be read: {error}") from error
     return mechanism_of(text, shown, name)
 

@@ -11,6 +11,7 @@ from autograder.nbgrader_glue.steps import (
     PAGE_FILTERS,
     SUBMISSION_EXPORTER,
     autograde_preprocessors,
+    feedback_preprocessors,
     generate_preprocessors,
     sanitize_preprocessors,
 )
@@ -25,6 +26,7 @@ __all__ = [
     "SUBMISSION_EXPORTER",
     "TEXT_STUB",
     "autograde_preprocessors",
+    "feedback_preprocessors",
     "generate_preprocessors",
     "sanitize_preprocessors",
     "write_problem",

@@ -3,6 +3,8 @@
 from datetime import datetime
 from pathlib import Path
 
+import nbformat
+from nbformat import NotebookNode
 from nbgrader import api
 
 from autograder import hints_seen
@@ -11,6 +13,8 @@ from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.submitted import RefusedError
+from autograder.notebook.own_arm import drawn_for
+from autograder.problems import families
 from autograder.report import Class, Student, read_graded
 from autograder.terminal import shown_name
 
@@ -28,7 +32,10 @@ def read_class(root: Path, assignment: str) -> Class:
         standings, most = rows.standings(), sum(rows.points.values())
     finally:
         rows.close()
-    students = [_student(name, folders, standings.get(name)) for name in folders.submissions()]
+    source = _source(folders, assignment)
+    students = [
+        _student(name, folders, standings.get(name), source) for name in folders.submissions()
+    ]
     return Class(assignment, most, students)
 
 
@@ -51,7 +58,17 @@ def read_term(root: Path) -> tuple[list[Class], list[str]]:
     return [of for of in classes if of.students], left_out
 
 
-def _student(name: str, folders: Folders, standing: Standing | None) -> Student:
+def _source(folders: Folders, assignment: str) -> NotebookNode | None:
+    """The assignment's source; None if it has been taken away since."""
+    course = folders.course
+    folder = Path(course.format_path(course.source_directory, ".", assignment))
+    path = folder / f"{assignment}.ipynb"
+    return nbformat.read(path, as_version=4) if path.is_file() else None
+
+
+def _student(
+    name: str, folders: Folders, standing: Standing | None, source: NotebookNode | None
+) -> Student:
     if why := names.refusal(name):
         return Student(shown_name(name), note=why)
     notebook, when = folders.autograded(name), _handed_in(folders, name)
@@ -71,7 +88,16 @@ def _student(name: str, folders: Folders, standing: Standing | None) -> Student:
         handed_in=when,
         hints=_hints(folders.submitted(name) / hints_seen.FILE, [*verdicts, *derivations]),
         derivations=derivations,
+        arms=_arms(source, name, list(verdicts)),
     )
+
+
+def _arms(source: NotebookNode | None, name: str, checks: list[str]) -> dict[str, str]:
+    """Which arm a student's answers are about, by the checks of which the arms' answers differ."""
+    drawn = drawn_for(source, name) if source else None
+    if drawn is None or drawn.own is None:
+        return {}
+    return dict.fromkeys(set(checks) & set(families.OF_THE_ARM), ", ".join(drawn.own.facts))
 
 
 def _handed_in(folders: Folders, name: str) -> datetime | None:

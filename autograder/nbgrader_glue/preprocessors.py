@@ -1,4 +1,4 @@
-"""The course's preprocessors for `nbgrader generate_assignment` and `nbgrader autograde`."""
+"""The course's preprocessors for nbgrader's generate_assignment, autograde and generate_feedback."""
 
 import secrets
 from collections.abc import Iterable
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import nbformat
 from nbformat import NotebookNode
-from nbgrader.preprocessors import NbGraderPreprocessor, SaveAutoGrades
+from nbgrader.preprocessors import GetGrades, NbGraderPreprocessor, SaveAutoGrades
 from traitlets import Unicode
 
 from autograder.files import put_in_place
@@ -101,21 +101,36 @@ class SaveSuggestions(SaveAutoGrades):
     def _add_score(self, cell, resources):
         super()._add_score(cell, resources)
         if suggestion := suggestion_of(cell):
-            grade = self.gradebook.find_grade(*self._place(cell))
+            grade = self.gradebook.find_grade(*_place(self, cell))
             grade.auto_score, grade.needs_manual_grade = suggestion.points, True
             self.gradebook.db.commit()
 
     def _add_comment(self, cell, resources):
         super()._add_comment(cell, resources)
         if suggestion := suggestion_of(cell):
-            comment = self.gradebook.find_comment(*self._place(cell))
+            comment = self.gradebook.find_comment(*_place(self, cell))
             said = filter(None, [comment.auto_comment, suggestion.comment])
             comment.auto_comment = " ".join(said)
             self.gradebook.db.commit()
 
-    def _place(self, cell):
-        name = cell.metadata["nbgrader"]["grade_id"]
-        return name, self.notebook_id, self.assignment_id, self.student_id
+
+class GetDecidedGrades(GetGrades):
+    """For `generate_feedback`, instead of nbgrader's GetGrades: once a person has decided on an answer,
+    the page no longer says which points its lines suggest.
+    """
+
+    def _get_comment(self, cell, resources):
+        super()._get_comment(cell, resources)
+        said = cell.metadata.nbgrader["comment"]
+        if said and (suggestion := suggestion_of(cell)):
+            grade = self.gradebook.find_grade(*_place(self, cell))
+            if grade.manual_score is not None or not grade.needs_manual_grade:
+                cell.metadata.nbgrader["comment"] = suggestion.without_points(said) or None
+
+
+def _place(of, cell):
+    """Where the gradebook has a cell's grade and comment."""
+    return cell.metadata["nbgrader"]["grade_id"], of.notebook_id, of.assignment_id, of.student_id
 
 
 def _warn(log: Logger, student: str, notes: Iterable[str]) -> None:

@@ -58,3 +58,11 @@ def generate_preprocessors() -> list[str]:
         "nbgrader.preprocessors.ComputeChecksums",
         "nbgrader.preprocessors.CheckCellMetadata",
     ]
+
+
+def feedback_preprocessors() -> list[str]:
+    """nbgrader's own, with GetDecidedGrades instead of GetGrades."""
+    return [
+        f"{OURS}.GetDecidedGrades",
+        "nbconvert.preprocessors.CSSHTMLHeaderPreprocessor",
+    ]

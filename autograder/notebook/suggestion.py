@@ -15,10 +15,17 @@ KEY = "armdyn_suggestion"
 
 @dataclass(frozen=True)
 class Suggestion:
-    """points: of the answer, until a person gives others. comment: no word of it is the student's."""
+    """points: of the answer, until a person gives others. comment: no word of it is the student's.
+    of_lines: its part that stays true whatever the person gives.
+    """
 
     points: float
     comment: str
+    of_lines: str = ""
+
+    def without_points(self, comment: str) -> str:
+        """What is left of a comment that holds the suggestion, when a person has given the points."""
+        return comment.replace(self.comment, self.of_lines).strip()
 
 
 def suggest(cell: NotebookNode, marks: list[Marked]) -> None:
@@ -27,19 +34,27 @@ def suggest(cell: NotebookNode, marks: list[Marked]) -> None:
     if any(marked.lines for marked in marks):
         most = float(cell.metadata["nbgrader"]["points"])
         points = min(sum(marked.points for marked in marks), most)
-        cell.metadata[KEY] = {"points": points, "comment": _comment(marks, points, most)}
+        said = " ".join(f"{_said(marked)}." for marked in marks if marked.lines)
+        cell.metadata[KEY] = {
+            "points": points,
+            "comment": f"{said} {_suggested(marks, points, most)}",
+            "of_lines": said,
+        }
 
 
 def suggestion_of(cell: NotebookNode) -> Suggestion | None:
     said = cell.metadata.get(KEY)
-    return Suggestion(float(said["points"]), str(said["comment"])) if said else None
+    if not said:
+        return None
+    # A notebook that an earlier version graded has no of_lines.
+    of_lines = str(said.get("of_lines", ""))
+    return Suggestion(float(said["points"]), str(said["comment"]), of_lines)
 
 
-def _comment(marks: list[Marked], points: float, most: float) -> str:
+def _suggested(marks: list[Marked], points: float, most: float) -> str:
     rows = sorted({row.number for marked in marks for row in marked.earned})
     which = f": row{'s' if len(rows) > 1 else ''} {_listed(rows)} of the table" if rows else ""
-    said = " ".join(f"{_said(marked)}." for marked in marks if marked.lines)
-    return f"{said} The lines suggest {points:g} of {most:g} points{which}."
+    return f"The lines suggest {points:g} of {most:g} points{which}."
 
 
 def _said(marked: Marked) -> str:

@@ -41,6 +41,8 @@ ASKED = {
     "p5-f": "f",
     "p5-energy_drift": "energy_drift",
 }
+# All whose right answer depends on the arm.
+OF_THE_ARM = (*ASKED, "p1-singular_arm", "p2-C_other", "p4-equilibria")
 # Those in which gravity's pull is typed by the student.
 WITH_GRAVITY = ("p4-potential_energy", "p4-g_vec", "p5-energy_drift")
 SHOULDER = "change of P as link 1 turns from the x axis and link 2 keeps its direction"
@@ -49,7 +51,7 @@ SHOULDER = "change of P as link 1 turns from the x axis and link 2 keeps its dir
 @lru_cache(maxsize=256)
 def on(own: Convention, check: Check) -> Check:
     """The check on this arm; the same check where the arm does not matter to it."""
-    if check.id not in (*ASKED, "p1-singular_arm", "p2-C_other", "p4-equilibria"):
+    if check.id not in OF_THE_ARM:
         return check
     if own == BOOK:
         more = askew(own) if check.id == "p4-equilibria" else ()

@@ -33,8 +33,8 @@ def text(marked: Marked, with_names: bool = True) -> str:
 def earned(marked: Marked) -> list[str]:
     """A sentence for each row of the table of points that the lines earn."""
     return [
-        f"Row {row.number} of the table: all its lines hold ({row.points:g} "
-        f"{'point' if row.points == 1 else 'points'}, which a person confirms)."
+        f"Row {row.number} of the table ({row.points:g} {'point' if row.points == 1 else 'points'}): "
+        "all its lines hold. The person who reads your text decides on it."
         + (f" The text should still say: {row.left}." if row.left else "")
         for row in marked.earned
     ]
@@ -114,7 +114,7 @@ def _given(derivation: Derivation) -> list[str]:
     subject = derivation.subject
     return [
         f"Start from {derivation.start}. Write a' for the transpose of a, a^-1 for an inverse, "
-        "d/dt(...) for a derivative.",
+        "d/dt(...) for a derivative; or paste a formula in LaTeX.",
         "Names:",
         *(f"  {name}: {meaning}" for name, meaning in subject.meanings.items()),
         "Reasons, one or two to a line:",

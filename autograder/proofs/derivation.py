@@ -10,17 +10,31 @@ MOST_REASONS = 2  # on one line, so that a proof is no single step
 
 
 @dataclass(frozen=True)
+class Form:
+    """What a line has to show, which another line of the same value may not.
+
+    ways: of each, all texts stand in the line as a whole, up to a constant factor or a transpose, and
+    their names stand nowhere else in it. said: what is missing, for the student.
+    """
+
+    ways: tuple[tuple[str, ...], ...]
+    said: str
+
+
+@dataclass(frozen=True)
 class Row:
     """A row of the problem's table of points.
 
     number: which row, from 1. points: its points. milestone: the line at which it is earned, if all
-    lines up to it hold; "" where the whole derivation earns it. left: what the person still looks for.
+    lines up to it hold; "" where the whole derivation earns it. form: what the line of the milestone
+    shows, or where there is none, any line. left: what the person still looks for.
     """
 
     number: int
     points: float
     milestone: str = ""
     left: str = ""
+    form: Form | None = None
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """The derivations that the problems ask for, and the usual false proofs of each."""
 
 from autograder.proofs import energy, inertia
-from autograder.proofs.derivation import Derivation, FalseStep, Misuse, Row
+from autograder.proofs.derivation import Derivation, FalseStep, Form, Misuse, Row
 from autograder.proofs.energy import FREE, WITH_FRICTION
 from autograder.proofs.false_energy import ENERGY_IS_NOT_ENOUGH, K_WITHOUT_HALF, OF_C, of_energy
 from autograder.proofs.inertia import ARM
@@ -10,6 +10,20 @@ from autograder.proofs.weights import WEIGHTS
 
 _MILESTONE_1 = "qd' M qdd + 1/2 qd' Mdot qd + qd' g"
 _MILESTONE_2 = "qd' u + 1/2 qd' (Mdot - 2 C) qd"
+_ONE_MATRIX = Form(
+    (("Mdot - 2 C",),),
+    "what is left between qd' and qd when the equation of motion is put in, collected in one matrix "
+    "(row 2 of the table)",
+)
+_ENERGY_OF_EACH_LINK = Form(
+    (("v1' I1 v1", "v2' I2 v2"), ("qd' J1' I1 J1 qd", "qd' J2' I2 J2 qd")),
+    "a line in which qd' M qd is a sum of numbers, each of which is the energy of a link but for a "
+    "factor",
+)
+_BEHIND_QD = Form(
+    (("m1 J1' g0 + m2 J2' g0",),),
+    "a line with qd' in front, and all the rest in one bracket behind it",
+)
 
 P1_SYMMETRY = Derivation(
     id="p1-symmetry",
@@ -36,7 +50,7 @@ P1_POSITIVE = Derivation(
     goal="0",
     goal_said="that qd' M qd is above zero, of an arm in which no motion is without energy",
     relation=">",
-    rows=(Row(2, 1),),
+    rows=(Row(2, 1, form=_ENERGY_OF_EACH_LINK),),
     hints=(
         "Begin with qd' M qd. It is a number, and an energy: of which bodies?",
         "Put in M from the links, and group the factors so that the velocity of each link "
@@ -83,7 +97,7 @@ P2_ENERGY = Derivation(
     goal_said="that the rate of E is the power of the motors",
     rows=(
         Row(1, 1, _MILESTONE_1),
-        Row(2, 1, _MILESTONE_2, "for which matrices C it holds"),
+        Row(2, 1, _MILESTONE_2, "for which matrices C it holds", _ONE_MATRIX),
     ),
     hints=(
         "Begin with Edot. Put in what E is, then what K is, and differentiate the product.",
@@ -154,6 +168,11 @@ P3_LAGRANGE = Derivation(
             (("K", "1/2 I qd^2 + 1/2 m lc^2 qd^2"),),
         ),
         FalseStep(
+            "point mass",
+            "This K is that of a mass in one point. What does I hold beside it?",
+            (("K", "1/2 m lc^2 qd^2"),),
+        ),
+        FalseStep(
             "K without its half",
             "Look at the factor of the kinetic energy in this step.",
             (("K", "I qd^2"),),
@@ -162,6 +181,12 @@ P3_LAGRANGE = Derivation(
             "P with the sign of K",
             "In this step the slope of P has the wrong sign. Which two signs meet there?",
             (("u", "d/dt(d/dqd(L)) + d/dq(L)"),),
+        ),
+        FalseStep(
+            "derivatives exchanged",
+            "Which of the two derivatives of L is differentiated in time: the one by the angle, or the "
+            "one by the velocity?",
+            (("u", "d/dt(d/dq(L)) - d/dqd(L)"),),
         ),
         FalseStep(
             "no derivative in time",
@@ -177,7 +202,7 @@ P4_WEIGHT = Derivation(
     start="qd' g",
     goal="qd' (-m1 J1' g0 - m2 J2' g0)",
     goal_said="what stands behind qd', in terms of the masses, their Jacobians and g0 alone",
-    rows=(Row(3, 1, left="the sign, explained from the work of the weight"),),
+    rows=(Row(3, 1, left="the sign, explained from the work of the weight", form=_BEHIND_QD),),
     hints=(
         "Begin with qd' g: a power. What is g of P, and what does the chain rule make of its "
         "product with qd?",

@@ -26,6 +26,7 @@ MEANINGS = {
     "C": "the Coriolis matrix",
     "g": "the gravity vector",
     "dPdq": "the column of the slopes of P along the coordinates",
+    "N": "short for Mdot - 2 C",
     "W": "the matrix whose column j is the slope of M q̇ along qj, with q̇ held",
     "K": "the kinetic energy",
     "P": "the potential energy",
@@ -129,6 +130,7 @@ def subject(friction: bool) -> Subject:
         draw=draw,
         truth=frozenset({SYMMETRY, CHAIN}),
         true_definitions=tuple(pair for reason in reasons for pair in reason.defines),
+        short={"N": "Mdot - 2 C"},
     )
 
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from autograder.proofs.derivation import ALGEBRA, MOST_REASONS, Derivation, Row
-from autograder.proofs.expression import Node, names_in
+from autograder.proofs.expression import Node, Number, names_in
+from autograder.proofs.forms import divides_by_motion, half, shows
 from autograder.proofs.lines import Line, nearest
 from autograder.proofs.marks import Marked, MarkedLine
 from autograder.proofs.parsing import LineError, relation_and_sides
@@ -15,6 +16,10 @@ from autograder.protocol.proofs import MOST_LINES
 
 # Wrong lines for which all other reasons and mistakes are tried: people mend the first ones first.
 MOST_DIAGNOSED = 6
+DIVIDES = (
+    "This line divides by what is zero at rest, where it then says nothing. Which way leads there "
+    "without a division?"
+)
 
 
 def mark(derivation: Derivation, given: HandedIn, rng: np.random.Generator) -> Marked:
@@ -37,7 +42,7 @@ class _Marking:
 
     def marked(self, lines: list[Line]) -> Marked:
         marked: list[MarkedLine] = []
-        earned: set[Row] = set()
+        shown: set[Row] = set()
         before, holding, last, strict = self._start, True, self._start, False
         steps, brought = 0, set[str]()  # names that a fact has brought in
         for at, line in enumerate(lines[:MOST_LINES]):
@@ -55,21 +60,17 @@ class _Marking:
             before = after
             if holding:
                 last, strict = after, strict or relation == ">"
-                earned.update(self._earned_by(after))
-        done = holding and bool(lines) and self._is_goal(last, strict)
-        still = "" if done else self._still(last, holding, bool(lines))
-        if done and (one_go := self._one_go(steps, brought)):
-            done, still = False, one_go
-        if len(lines) > MOST_LINES:
-            done, still = False, f"Only the first {MOST_LINES} lines are read."
+                shown.update(self._shown_by(after))
         rows = self._derivation.rows
-        return Marked(
-            self._derivation,
-            tuple(marked),
-            done,
-            still,
-            tuple(row for row in rows if done or row in earned),
-        )
+        still = self._still(last, holding, bool(lines), strict) or self._one_go(steps, brought)
+        if len(lines) > MOST_LINES:
+            still = f"Only the first {MOST_LINES} lines are read."
+        reached = not still
+        unshown = [row.form.said for row in rows if row.form and row not in shown]
+        if reached and unshown:
+            still = f"All lines hold. Still to be shown: {unshown[0]}."
+        earned = (row for row in rows if self._is_earned(row, row in shown, reached))
+        return Marked(self._derivation, tuple(marked), not still, still, tuple(earned))
 
     def _step(self, line: Line, before: Node, first: bool):
         """The step that a line claims, None for a first line that only says where it starts; and the
@@ -80,6 +81,7 @@ class _Marking:
         after = read(right)
         if left:
             head = read(left)
+            self._worlds.given(()).value(head)
             if first and not self._worlds.same(head, before):
                 raise LineError("The derivation starts elsewhere: look at what is given.")
             if not (self._worlds.same(head, before) or self._worlds.same(head, self._start)):
@@ -99,8 +101,10 @@ class _Marking:
         circular = [reason.name for reason in given if reason.name in derivation.to_prove]
         if circular:
             return f'"{circular[0]}" is what is to be proved; here it is assumed.'
+        if divides_by_motion(step.after) and not divides_by_motion(step.before):
+            return DIVIDES
         if self._worlds.hold(step, given):
-            return self._unneeded(step, given)
+            return self._unneeded(step, given) or self._first_half(step, given)
         if said := self._why.misused(step, given):
             return said
         self._diagnosed += 1
@@ -131,7 +135,11 @@ class _Marking:
 
     def _unneeded(self, step: Step, given: tuple[Reason, ...]) -> str:
         if given and self._worlds.hold(step, ()):
-            return f"The line is right, and follows by algebra alone; {named(given)} is not used in it."
+            are = "are" if len(given) > 1 else "is"
+            return (
+                f"The line is right, and follows by algebra alone; {named(given)} {are} not used in "
+                "it."
+            )
         for reason in given:
             rest = tuple(other for other in given if other is not reason)
             if self._worlds.hold(step, rest):
@@ -141,16 +149,33 @@ class _Marking:
                 )
         return ""
 
-    def _earned_by(self, node: Node) -> list[Row]:
-        read = self._derivation.read
-        return [
-            row
-            for row in self._derivation.rows
-            if row.milestone and self._worlds.same(node, read(row.milestone))
-        ]
+    def _first_half(self, step: Step, given: tuple[Reason, ...]) -> str:
+        """What is said of X + X' = Y + Y' where Y + Y' is zero whatever stands for Y, and X is not Y."""
+        before, after = half(step.before), half(step.after)
+        if before is None or after is None or not self._worlds.same(step.after, Number(0.0)):
+            return ""
+        if self._worlds.hold(Step("=", before, after), given):
+            return ""
+        return (
+            "Both sums are zero, but what stands in the first bracket is not what stood there before. "
+            "Look at each sign and factor in it."
+        )
 
-    def _is_goal(self, last: Node, strict: bool) -> bool:
-        return self._worlds.same(last, self._goal) and (strict or self._derivation.relation == "=")
+    def _shown_by(self, node: Node) -> list[Row]:
+        """The rows whose milestone this line is, or whose form it shows where they have none."""
+        return [row for row in self._derivation.rows if self._shows(node, row)]
+
+    def _shows(self, node: Node, row: Row) -> bool:
+        if row.milestone and not self._worlds.same(node, self._derivation.read(row.milestone)):
+            return False
+        if row.form is None:
+            return bool(row.milestone)
+        return shows(node, row.form, self._derivation, self._worlds)
+
+    def _is_earned(self, row: Row, shown: bool, reached: bool) -> bool:
+        if row.milestone and shown:
+            return True
+        return reached and (shown or row.form is None)
 
     def _one_go(self, steps: int, brought: set[str]) -> str:
         """What is said of lines that hold and show nothing; a line that repeats the one before is no
@@ -166,15 +191,17 @@ class _Marking:
     def _names(self, node: Node) -> set[str]:
         return set(names_in(node, self._subject.rates))
 
-    def _still(self, last: Node, holding: bool, any_lines: bool) -> str:
+    def _still(self, last: Node, holding: bool, any_lines: bool, strict: bool) -> str:
+        """What keeps the lines from their end; "" where they reach it."""
         said = self._derivation.goal_said
         if not any_lines:
             return f"To be shown: {said}."
         if not holding:
             return f"Mend the lines marked ✗. To be shown: {said}."
-        if self._worlds.same(last, self._goal):
+        left = sorted(self._names(last) - self._names(self._goal))
+        if not left and self._worlds.same(last, self._goal):
+            if strict or self._derivation.relation == "=":
+                return ""
             return f"Still to be shown: {said}. So far you have ≥."
-        rates = self._subject.rates
-        left = sorted(names_in(last, rates) - names_in(self._goal, rates))
         more = f" Your last line still holds {', '.join(left)}." if left else ""
         return f"All lines hold. Still to be shown: {said}.{more}"

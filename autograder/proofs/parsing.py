@@ -20,6 +20,7 @@ from autograder.proofs.expression import (
     Wave,
     minus,
 )
+from autograder.proofs.indices import SLOPE, UNREAD
 from autograder.proofs.notation import plain
 from autograder.protocol.proofs import MOST_CHARACTERS
 
@@ -66,15 +67,21 @@ class Parser:
     """Reads expressions in given names.
 
     rates: the name of a rate → the name it is the rate of (Mdot → M). variables: those of partial
-    derivatives.
+    derivatives. short: names → what they stand for, as text.
     """
 
     def __init__(
-        self, names: Collection[str], rates: Mapping[str, str], variables: Collection[str]
+        self,
+        names: Collection[str],
+        rates: Mapping[str, str],
+        variables: Collection[str],
+        short: Mapping[str, str],
     ):
+        self._short: dict[str, Node] = {}
         self._variables = frozenset(variables)
         self._names = frozenset(names)
         self._rates = rates
+        self._short |= {name: self.read(text) for name, text in short.items()}
 
     def read(self, text: str) -> Node:
         """The tree. LineError, naming what cannot be read."""
@@ -94,10 +101,14 @@ class Parser:
             found = _TOKEN.match(text, at)
             if found is None:
                 odd = text[at:].split()[0][:20]
+                if odd.startswith(SLOPE):
+                    raise LineError(
+                        "A slope of an entry of M is read in a sum with the velocity of k."
+                    )
                 raise LineError(f"{odd!r} cannot be read here.")
             kind = str(found.lastgroup)
             value = found.group(kind)
-            if kind == "name" and value not in (*WAVES, *self._names, *self._rates):
+            if kind == "name" and value not in (*WAVES, *self._names, *self._rates, *self._short):
                 raise LineError(self._unknown(value))
             if kind == "number" and float(value) > LARGEST_NUMBER:
                 raise LineError(f"The number {value} is larger than {LARGEST_NUMBER:g}.")
@@ -105,7 +116,9 @@ class Parser:
             at = found.end()
 
     def _unknown(self, name: str) -> str:
-        known = ", ".join(sorted([*self._names, *self._rates]))
+        if name == UNREAD:
+            return "A sum is read over k with the velocity of k, or over the two links."
+        known = ", ".join(sorted([*self._names, *self._rates, *self._short]))
         return f"{name[:20]!r} is no name of this derivation. The names are {known}."
 
     def _next(self) -> tuple[str, str]:
@@ -180,7 +193,7 @@ class Parser:
         if kind == "by":
             by = "t" if value == "ddt" else value.rpartition("/")[2].strip()[1:]
             if by not in ("t", *self._variables):
-                raise LineError(f"There is no derivative by {by} here.")
+                return self._slopes(by)
             self._differentiated += 1
             if self._differentiated > MOST_DERIVATIVES:
                 raise LineError("A derivative of a derivative of a derivative is not needed here.")
@@ -192,7 +205,7 @@ class Parser:
                 return Wave(value, self._operand())
             if value in self._rates:
                 return Derivative(Name(self._rates[value]), "t")
-            return Name(value)
+            return self._short.get(value) or Name(value)
         if kind == "sign" and value in "([":
             inner = self._sum()
             if not self._take({"(": ")", "[": "]"}[value]):
@@ -201,6 +214,13 @@ class Parser:
         if kind == "end":
             raise LineError("This line stops where something should follow.")
         raise LineError(f"{value!r} is not expected there.")
+
+    def _slopes(self, by: str) -> Node:
+        """∂P/∂q where the column of these slopes is a name of its own."""
+        inner = self._operand()
+        if isinstance(inner, Name) and (name := f"d{inner.name}d{by}") in self._names:
+            return Name(name)
+        raise LineError(f"There is no derivative by {by} here.")
 
     def _operand(self) -> Node:
         """What a function or a derivative acts on: brackets, a name, or another derivative."""

@@ -41,6 +41,7 @@ class Subject:
     names that have numbers; rates of other names are Unknown. draw(rng, given): (WORLDS, rows,
     columns) for each of them, given: names of reasons and mistakes. truth: the names of properties and
     rules that hold in reality; true_definitions: all of them without contradiction.
+    short: names that only stand for an expression.
     """
 
     meanings: Mapping[str, str]
@@ -51,13 +52,15 @@ class Subject:
     draw: Callable[[np.random.Generator, frozenset[str]], dict[str, np.ndarray]]
     truth: frozenset[str]
     true_definitions: tuple[tuple[str, str], ...]
+    short: Mapping[str, str] = field(default_factory=dict)
     parser: Parser = field(init=False, repr=False, compare=False)
 
     def __post_init__(self):
         # A rate is read as the derivative that it is, but for one that partial derivatives hold still.
         backwards = {r: name for name, r in self.rates.items() if r not in self.variables}
-        names = [name for name in self.meanings if name not in backwards]
-        object.__setattr__(self, "parser", Parser(names, backwards, self.variables))
+        names = [name for name in self.meanings if name not in {*backwards, *self.short}]
+        parser = Parser(names, backwards, self.variables, self.short)
+        object.__setattr__(self, "parser", parser)
 
     def reason(self, name: str) -> Reason | None:
         return next((reason for reason in self.reasons if reason.name == name), None)

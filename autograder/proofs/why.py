@@ -4,9 +4,13 @@ import itertools
 from dataclasses import replace
 
 from autograder.proofs.derivation import ALGEBRA, Derivation, FalseStep, Misuse
-from autograder.proofs.expression import names_in
+from autograder.proofs.expression import Number, names_in, walk
+from autograder.proofs.slips import slips
 from autograder.proofs.steps import Step, Worlds
 from autograder.proofs.subject import Reason
+
+# Reasons, and names of properties that also hold.
+_Known = tuple[tuple[Reason, ...], tuple[str, ...]]
 
 
 class Why:
@@ -31,7 +35,13 @@ class Why:
             return said
         everything = (self._subject.everything,), self._subject.truth
         true = self._worlds.hold(step, *everything)
-        if found := self._mistake(step, given, true):
+        if not true and (said := self._numbers(step)):
+            return said
+        if found := self._mistake(step, [((), ()), (given, ())]):
+            return found.sentence
+        if not true and (said := self._slip(step, given)):
+            return said
+        if found := self._mistake(step, self._more(given, true)):
             return found.sentence
         if true:
             return (
@@ -55,7 +65,8 @@ class Why:
                 return f"The line is right, but not by {by}: it needs {other.kind}."
         for other in allowed:
             if given and self._worlds.hold(step, (*given, other)):
-                return f"The line is right, but {by} is not enough: it also needs {other.kind}."
+                are = "are" if len(given) > 1 else "is"
+                return f"The line is right, but {by} {are} not enough: it also needs {other.kind}."
         for other in others:
             if other not in allowed and self._worlds.hold(step, (*given, other)):
                 return "This step uses what is to be proved."
@@ -67,17 +78,43 @@ class Why:
                 return f"The line is right, but not by {by}: it needs {kinds}."
         return ""
 
-    def _mistake(self, step: Step, given: tuple[Reason, ...], true: bool) -> FalseStep | None:
-        """The first mistake with which the step would follow: alone, with the reasons given, with one
-        more, or with all that is true, if the step itself is not.
-        """
+    def _numbers(self, step: Step) -> str:
+        """What is said where numbers stand for names."""
+        if not names_in(step.after, self._subject.rates) and not _is_zero(step):
+            return (
+                "Here a number stands for what differs from one mechanism to the next. One example "
+                "proves nothing: write it in the names."
+            )
+        if any(isinstance(node, Number) and not (4 * node.value).is_integer()
+               for node in walk(step.after)):  # fmt: skip
+            return (
+                "A measured number stands here. The line is about every mechanism: write its name."
+            )
+        return ""
+
+    def _slip(self, step: Step, given: tuple[Reason, ...]) -> str:
+        """A slip without which the step would follow, from its reasons or from all that is true."""
+        everything = (self._subject.everything,), self._subject.truth
+        for facts, properties in ((given, ()), everything):
+            for mended, said in slips(step.after):
+                if self._worlds.same(mended, Number(0.0)):
+                    continue
+                if self._worlds.hold(replace(step, after=mended), facts, properties):
+                    return said
+        return ""
+
+    def _more(self, given: tuple[Reason, ...], true: bool) -> list[_Known]:
+        """With one reason more each, or with all that is true, if the step itself is not."""
         subject = self._subject
         others = [reason for reason in subject.reasons if reason not in given]
-        held = names_in(step.after, subject.rates)
-        known: list[tuple[tuple[Reason, ...], tuple[str, ...]]] = [((), ()), (given, ())]
-        known += [((*given, other), ()) for other in others]
+        known: list[_Known] = [((*given, other), ()) for other in others]
         if not true:
             known.append(((subject.everything,), tuple(subject.truth)))
+        return known
+
+    def _mistake(self, step: Step, known: list[_Known]) -> FalseStep | None:
+        """The first mistake with which the step would follow from one of these."""
+        held = names_in(step.after, self._subject.rates)
         for facts, properties in known:
             for mistake in self._derivation.mistakes:
                 if mistake.gone in held:
@@ -87,6 +124,10 @@ class Why:
                 if self._worlds.hold(step, (*facts, false), (*properties, *more)):
                     return mistake
         return None
+
+
+def _is_zero(step: Step) -> bool:
+    return all(node.value == 0 for node in walk(step.after) if isinstance(node, Number))
 
 
 def named(reasons: tuple[Reason, ...]) -> str:

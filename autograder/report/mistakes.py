@@ -40,6 +40,14 @@ class Together:
     expected: float
 
 
+@dataclass(frozen=True)
+class Example:
+    """An answer that names nobody. arm: which arm it is about; "" where all have one."""
+
+    code: str
+    arm: str
+
+
 def mistakes_made(students: Iterable[Student]) -> list[Made]:
     """Each sentence that a student got, the most frequent first."""
     to_whom = defaultdict(list)
@@ -93,15 +101,15 @@ def _chance(both: int, first: int, second: int, students: int) -> float:
     return ways / math.comb(students, second)
 
 
-def example_of(made: Made, students: list[Student]) -> str:
+def example_of(made: Made, students: list[Student]) -> Example | None:
     """The shortest answer of those who made the mistake, without what could name its author."""
     names = [student.name for student in students]
     answers = [
-        anonymous(student.answers[made.check], names)
+        Example(anonymous(student.answers[made.check], names), student.arms.get(made.check, ""))
         for student in students
         if student.name in made.students and made.check in student.answers
     ]
-    return min(filter(None, answers), key=len, default="")
+    return min((one for one in answers if one.code), key=lambda one: len(one.code), default=None)
 
 
 def _name_of(check: str, sentence: str) -> str:

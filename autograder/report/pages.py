@@ -9,7 +9,7 @@ import jinja2
 
 from autograder.judging.card import LOOKS
 from autograder.judging.verdict import State
-from autograder.report import figures
+from autograder.report import figures, term
 from autograder.report.mistakes import example_of, made_together, mistakes_made
 from autograder.report.students import Class, Student
 from autograder.terminal import shown_note, shown_points
@@ -39,8 +39,10 @@ def page(assignment: str, most: float, students: list[Student]) -> str:
 
 def term_page(classes: list[Class]) -> str:
     """The report on all assignments as an HTML page."""
+    classes = term.in_order(classes)
     students = _of_term(classes)
     made = mistakes_made(students)
+    standings = term.standings(classes)
     points = {
         of.assignment: {one.name: one.points for one in of.students if one.points is not None}
         for of in classes
@@ -48,7 +50,10 @@ def term_page(classes: list[Class]) -> str:
     return _rendered(
         "term.html",
         classes=[_of_class(of) for of in classes],
-        names=[student.name for student in students],
+        steps=term.steps(classes),
+        standings=standings,
+        behind=[one for one in standings if one.is_behind],
+        fall=term.FALL,
         points=points,
         worst=[(one, example_of(one, students)) for one in made[:MOST_MADE]],
         together=made_together(made, len(students)),
@@ -68,8 +73,11 @@ def summary(most: float, students: list[Student]) -> str:
 
 
 def term_summary(classes: list[Class]) -> str:
-    """The report on all assignments in a line each."""
-    return "\n".join(f"{of.assignment}: {_how_many(of)}" for of in classes)
+    """The report on all assignments in a line each, and how many students fall behind."""
+    lines = [f"{of.assignment}: {_how_many(of)}" for of in term.in_order(classes)]
+    standings = term.standings(term.in_order(classes))
+    behind = sum(one.is_behind for one in standings)
+    return "\n".join([*lines, f"fallen behind: {behind} of {len(standings)} students"])
 
 
 def _how_many(of: Class) -> str:
@@ -112,6 +120,7 @@ def _of_term(classes: list[Class]) -> list[Student]:
                 one.name,
                 verdicts=before.verdicts | one.verdicts,
                 answers=before.answers | one.answers,
+                arms=before.arms | one.arms,
             )
     return [found[name] for name in sorted(found)]
 

@@ -20,7 +20,8 @@ class Student:
     points: with those that a person gave; None if nothing is graded. to_read: how many cells a person
     still has to read. verdicts: by check. note: why there are none. answers: the code cell that defines
     each check's function, by check. handed_in: in UTC, None where that is not known. hints: how many
-    were seen, by check or derivation; None where that is not known. derivations: the marks, by id.
+    were seen, by check or derivation; None where that is not known. derivations: the marks, by id. arms:
+    which arm an answer is about, in words, by check, where arms differ from student to student.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Student:
     handed_in: datetime | None = None
     hints: dict[str, int] | None = None
     derivations: dict[str, dict] = field(default_factory=dict)
+    arms: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -4,17 +4,19 @@ import subprocess
 import sys
 
 import pytest
-from nbgrader.converters import Autograde, GenerateAssignment
+from nbgrader.converters import Autograde, GenerateAssignment, GenerateFeedback
 from nbgrader.preprocessors import SaveAutoGrades
 from traitlets import import_item
 
 from autograder.nbgrader_glue import (
     autograde_preprocessors,
+    feedback_preprocessors,
     generate_preprocessors,
     sanitize_preprocessors,
 )
 from autograder.nbgrader_glue.preprocessors import (
     ContinuePastErrors,
+    GetDecidedGrades,
     Judge,
     RepairCells,
     SaveSuggestions,
@@ -29,6 +31,7 @@ INSTEAD = {SaveAutoGrades: SaveSuggestions}
         (sanitize_preprocessors, Autograde.sanitize_preprocessors, RepairCells, 0),
         (autograde_preprocessors, Autograde.autograde_preprocessors, Judge, 1),
         (generate_preprocessors, GenerateAssignment.preprocessors, ContinuePastErrors, 0),
+        (feedback_preprocessors, GenerateFeedback.preprocessors, GetDecidedGrades, 1),
     ],
 )
 def test_steps_are_nbgraders_but_for_ours(ours, theirs, first, left_out):

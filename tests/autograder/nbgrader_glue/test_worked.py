@@ -153,7 +153,6 @@ def test_without_it_the_feedback_page_has_none(root):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ([P3, "--on", "in December"], "isoformat"),
         ([P3, "--on", SOON, "--full-marks"], "not both"),
         (["--on", SOON], "name the assignment"),
         (["p9-flying"], "there is no solutions/p9-flying"),

@@ -44,6 +44,7 @@ WAYS = {
             "symmetry of M",
         ),
         (r"= \dot q^T u - \dot q^T C \dot q + \frac{1}{2} \dot q^T \dot M \dot q", "equation of motion"),
+        (r"= \dot q^T u - \dot q^T (C - \tfrac12 \dot M) \dot q", "algebra"),
         (r"= \dot q^T u", "skew-symmetry"),
     ),
     "p2-skew, term by term": (
@@ -52,6 +53,21 @@ WAYS = {
         ("= 2 Mdot - 2 C - 2 C'", "symmetry of M"),
         ("= 2 Mdot - (Mdot + W - W') - (Mdot' + W' - W)", "Christoffel symbols"),
         ("= 0", "symmetry of M"),
+    ),
+    "p2-skew, in indices, in LaTeX": (
+        "p2-skew",
+        (
+            r"= \bigl(\dot M_{ij} - 2\sum_k h_{ijk}\,\dot q_k\bigr)"
+            r" + \bigl(\dot M_{ij} - 2\sum_k h_{ijk}\,\dot q_k\bigr)^{\mathsf T}",
+            "Christoffel symbols",
+        ),
+        (
+            r"= \sum_k\left(\frac{\partial M_{jk}}{\partial q_i} - \frac{\partial M_{ik}}{\partial q_j}"
+            r"\right)\dot q_k + \sum_k\left(\frac{\partial M_{ik}}{\partial q_j}"
+            r" - \frac{\partial M_{jk}}{\partial q_i}\right)\dot q_k",
+            "algebra",
+        ),
+        ("= 0 .", "algebra"),
     ),
     "p3-L, each derivative by itself": (
         "p3-L",

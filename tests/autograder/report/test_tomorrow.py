@@ -73,7 +73,7 @@ def test_three_mistakes_are_shown_with_the_shortest_answer_as_text():
     assert "script" not in Text(page).tags
     assert Text(page).tags.count("figure") == 1
     first, *_ = mistakes.mistakes_made(told)
-    assert mistakes.example_of(first, told) == "<script>alert(1)</script>"
+    assert mistakes.example_of(first, told) == mistakes.Example("<script>alert(1)</script>", "")
 
 
 def test_criteria_that_nobody_met():
@@ -203,9 +203,13 @@ def test_the_term_adds_up_assignments_and_names_each_student_once():
     assert text.count("ada ") == 1
     assert "2 of 3 students, p1-M" in text
     assert "2 of 2 students, p3-M" in text
+    assert "ada 1 1 2 8 %" in text
+    assert "bob 1 1 7 %" in text
+    assert "cem: nothing for p1-inertia" in text
     assert report.term_summary([first, second]).splitlines() == [
         "p1-inertia: 2 of 2 graded, mean 1, median 1 of 15 points",
         f"{P3}: 2 of 2 graded, mean 1, median 1 of 10 points",
+        "fallen behind: 2 of 3 students",
     ]
 
 

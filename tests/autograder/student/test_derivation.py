@@ -22,7 +22,7 @@ def test_outside_a_notebook_it_prints(capsys):
     derivation("p2-E", models()["p2-E"])
     printed = capsys.readouterr().out
     assert printed.startswith("p2-E: complete\n  ✓ Edot = d/dt (K + P)   (definition of E)\n")
-    assert "Row 2 of the table: all its lines hold (1 point, which a person confirms)." in printed
+    assert "Row 2 of the table (1 point): all its lines hold. The person who reads" in printed
     assert "Stuck?" not in printed
 
 

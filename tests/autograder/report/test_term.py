@@ -1,0 +1,102 @@
+"""The term in figures: the order and the mean of assignments, hints, totals, and who falls behind."""
+
+from dataclasses import replace
+from datetime import datetime
+
+import pytest
+
+from autograder import report
+from autograder.nbgrader_glue.class_list import _arms
+from autograder.problems.material.conventions import drawn
+from autograder.report import Class, Student, mistakes, term
+from tests.autograder.course_problems import problem
+from tests.autograder.report.test_report import Text
+
+
+def of_class(assignment: str, month: int | None, points: dict[str, float | None], **more) -> Class:
+    when = datetime(2026, month, 1) if month else None
+    return Class(assignment, 10.0, [Student(name, one, handed_in=when, **more)
+                                    for name, one in points.items()])  # fmt: skip
+
+
+STEADY = {"ada": 8.0, "bob": 6.0, "cem": 6.0, "dee": 4.0}
+TERM = [
+    of_class("p1", 11, STEADY, hints={"p1-M": 2, "p1-symmetry": 1}),
+    of_class("p3", 10, STEADY, to_read=1),
+    of_class("p4", 12, {"ada": 8.0, "bob": 3.0, "cem": 7.0}),
+]
+
+
+def standings(classes):
+    return {one.name: one for one in term.standings(term.in_order(classes))}
+
+
+def test_assignments_stand_as_they_were_handed_in():
+    assert [of.assignment for of in term.in_order(TERM)] == ["p3", "p1", "p4"]
+    unknown = [TERM[2], of_class("p0", None, STEADY)]
+    assert [of.assignment for of in term.in_order(unknown)] == ["p0", "p4"]
+
+
+def test_an_assignment_in_figures():
+    first, second, third = term.steps(term.in_order(TERM))
+    assert first == term.Step("p3", 4, 10.0, pytest.approx(0.6), None, 4)
+    assert second == term.Step("p1", 4, 10.0, pytest.approx(0.6), 3.0, 0)
+    assert (third.handed_in, third.share) == (3, pytest.approx(0.6))
+    (ungraded,) = term.steps([of_class("p1", 11, {"ada": None})])
+    assert ungraded.share is None
+    assert (
+        "%"
+        not in str(Text(report.term_page([of_class("p1", 11, {"ada": None})]))).split("Fallen")[0]
+    )
+
+
+def test_totals_are_of_what_is_graded():
+    found = standings(TERM)
+    assert (found["ada"].points, found["ada"].most) == (24.0, 30.0)
+    assert (found["dee"].points, found["dee"].most) == (8.0, 20.0)
+
+
+def test_who_falls_behind_is_missing_or_lower_than_before():
+    found = standings(TERM)
+    assert {name for name, one in found.items() if one.is_behind} == {"bob", "dee"}
+    assert found["dee"].missing == ("p4",)
+    assert found["bob"].fell == pytest.approx(0.3)
+    page = str(Text(report.term_page(TERM)))
+    assert "2 of 4 students: an assignment is missing" in page
+    assert "bob: 30 % lower than before" in page
+    assert "dee: nothing for p4" in page
+    assert report.term_summary(TERM).splitlines()[-1] == "fallen behind: 2 of 4 students"
+
+
+def test_a_hard_assignment_makes_nobody_fall_behind():
+    hard = of_class("p4", 12, {name: points - 4.0 for name, points in STEADY.items()})
+    assert not [one for one in standings([*TERM[:2], hard]).values() if one.is_behind]
+
+
+def test_an_assignment_that_is_still_open_makes_nobody_fall_behind():
+    still_open = of_class("p4", 12, {"ada": 8.0})
+    assert not [one for one in standings([*TERM[:2], still_open]).values() if one.is_behind]
+
+
+def test_an_example_says_whose_arm_it_is_about():
+    arms = _arms(problem("p1-inertia").source, "bob", ["p1-M", "p1-is_spd"])
+    assert arms == {"p1-M": ", ".join(drawn("bob", 2026).facts)}
+    verdict = {"check": "p1-M", "state": "incorrect", "credit": 0.0, "diagnosis": ["The sign."]}
+    told = Student(
+        "bob", 0.0, 0, {"p1-M": verdict}, answers={"p1-M": "def M(q, arm): ..."}, arms=arms
+    )
+    (made,) = mistakes.mistakes_made([told])
+    assert mistakes.example_of(made, [told]).arm == arms["p1-M"]
+    said = f"One of these answers, without comments. In this student's arm, {arms['p1-M']}:"
+    for page in (
+        report.page("p1-inertia", 15.0, [told]),
+        report.term_page([Class("p1", 15.0, [told])]),
+    ):
+        assert said in str(Text(page))
+    alone = replace(told, arms={})
+    assert "without comments:" in str(Text(report.page("p1-inertia", 15.0, [alone])))
+
+
+def test_a_problem_without_a_family_has_no_arms():
+    assert _arms(problem("p3-pendulum").source, "bob", ["p3-M"]) == {}
+    assert _arms(None, "bob", ["p1-M"]) == {}
