@@ -281,6 +281,18 @@ def test_the_failing_line_is_the_students_own_with_its_text():
     assert fault.line == "line 2: return np.linalg.inv(q)"
 
 
+def test_the_failing_line_of_a_module_beside_the_notebook(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    module = tmp_path / "mine.py"
+    module.write_text("def third(q):\n    return q[2]\n\ndef f(q):\n    return third(q)\n")
+    namespace: dict = {}
+    exec(compile(module.read_text(), module, "exec"), namespace)
+    call = Call("f", (np.zeros(2),))
+    assert protocol.answer(call, namespace).fault.line == "mine.py, line 2: return q[2]"
+    exec(compile("def f(q): return third(q)", "ipykernel_1/2.py", "exec"), namespace)
+    assert protocol.answer(call, namespace).fault.line == "mine.py, line 2: return q[2]"
+
+
 def test_long_messages_are_cut():
     fault = ask("def f(): raise ValueError('x' * 10**6)").fault
     assert len(fault.message) == words.MOST_CHARACTERS
