@@ -2,11 +2,16 @@
 
 from html import escape
 
-from autograder.problems import CHECKS, known_check
+from autograder.problems import CHECKS, UnknownCheckError, known_check
 from autograder.proofs import DERIVATIONS
 from autograder.student import failing, hint_counts
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for
+
+NONE_FAILED = (
+    "no check has failed since this kernel started: run the cell of a check first, or name one, as in "
+    'hint("p1-M")'
+)
 
 
 def hint(id: str | None = None) -> None:
@@ -18,6 +23,8 @@ def hint(id: str | None = None) -> None:
     this id, or where none is given and no check has failed.
     """
     id = failing.last() if id is None else id
+    if id is None:
+        raise UnknownCheckError(NONE_FAILED)
     proof = DERIVATIONS.get(id) if isinstance(id, str) else None
     known = proof or known_check(id, drawn_for(id))
     id, hints = known.id, known.hints
