@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from autograder.protocol import Call, Fault, FaultKind, Symbol, sentence_of
+from autograder.protocol import Call, Fault, FaultKind, Riddle, Symbol, sentence_of
 from autograder.sandbox import room as sandbox
 from autograder.sandbox.inside.left_out import INPUT
 from tests.autograder.sandbox.rooms import EVERY_WAY, failed, printed
@@ -155,7 +155,8 @@ class TestCalls:
         room.run("import numpy as np\nJ = np.ones((6, 3))")
         room.run("def f(q):\n    return J @ (2 * np.array([q, q]))")
         (reply,) = room.ask([Call("f", (1.0,))])
-        assert reply.fault.riddle is None  # what a call returned is not known any more
+        # What a call returned is not known any more.
+        assert reply.fault.riddle == Riddle("matmul of unknown shapes", ("3", "2"))
         room.run("def f(q):\n    pair = np.array([q, q])\n    return J @ (2 * pair)")
         (reply,) = room.ask([Call("f", (1.0,))])
         assert sentence_of(reply.fault.riddle).startswith("J is (6, 3), and 2 * pair is (2,). ")
