@@ -107,7 +107,7 @@ class Reading:
             "which is not a finite number."
         )
         if at_points:  # the call that is shown has numbers for its symbols: those that give this
-            point = first.at[first_bad_point(value)]
+            point = first.at[first_bad_point(np.asarray(value))]
             calls = [*calls[: bad[0]], replace(first, at=(point,)), *calls[bad[0] + 1 :]]
         failed = replace(self._failed(calls, bad), works="")
         if found is None:

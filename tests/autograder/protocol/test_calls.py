@@ -164,7 +164,11 @@ def test_whatever_holds_numbers_is_read(value, expected):
         ({"q": 1.0}, FaultKind.NOT_NUMBERS, "the dict {'q': 1.0}"),
         ({1.0}, FaultKind.NOT_NUMBERS, "the set {1.0}"),
         ([[1.0], [1.0, 2.0]], FaultKind.NOT_NUMBERS, "rows of different lengths"),
-        (np.linalg.lstsq(np.eye(3), np.ones(3)), FaultKind.NOT_NUMBERS, "a tuple of 4 unlike parts"),
+        (
+            np.linalg.lstsq(np.eye(3), np.ones(3)),
+            FaultKind.NOT_NUMBERS,
+            "a tuple of 4 unlike parts",
+        ),
         (ask, FaultKind.NOT_NUMBERS, "the function ask itself"),
         (np.sin, FaultKind.NOT_NUMBERS, "the function sin itself"),
         (float, FaultKind.NOT_NUMBERS, "the class float itself"),

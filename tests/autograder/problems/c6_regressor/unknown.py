@@ -41,7 +41,7 @@ UNFIT = {
         ("return arm.m1, 0, 0, 0", "has no attribute 'm1'"),
         (
             "return np.linalg.lstsq(np.ones((9, 4)), np.ones(9))",
-            "returned a tuple of 4 unlike parts; it must return numbers. Which of its parts is the answer?",
+            "a tuple of 4 unlike parts; it must return numbers. Which of its parts is the answer?",
         ),
         (
             "return np.linalg.lstsq(np.ones((2 * len(u), 4)), u)[0]",
