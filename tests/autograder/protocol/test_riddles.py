@@ -253,6 +253,16 @@ CASES = [
         "arm.m1(arm.l1 + arm.l2)",
         "arm.m1 is no function, and brackets right behind it call it. Is a * missing there?",
     ),
+    (
+        "called number",
+        "K = sp.ones(2, 2)\nreturn K(q)",
+        "K is no function, and brackets right behind it call it. Is a * missing there?",
+    ),
+    (
+        "called number",
+        "a = sp.Symbol('a')\nreturn (a + 1)(q[0])",
+        "a + 1 is no function, and brackets right behind it call it. Is a * missing there?",
+    ),
     ("text", "x = 'l1'\nreturn x * arm.m1", "x is a text, as it stands in quotes."),
     ("text", "'q' + q", "'q' is a text, as it stands in quotes."),
     (
