@@ -14,6 +14,7 @@ INSTEAD = {
     "an array of texts": "Without the quotes, Python would compute them.",
     "the complex number ": "Is it a root of something negative?",
     "an array of complex numbers": "Is there a root of something negative?",
+    "a tuple of ": "Which of its parts is the answer?",
 }
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from autograder.judging.call_text import by_name, given_by, shapes, shown_call
 from autograder.judging.faults import NUMBERS, describe_unfit
 from autograder.judging.models import Model, evaluated
-from autograder.judging.partial import is_finite, partial, where_not_finite
+from autograder.judging.partial import first_bad_point, is_finite, partial, where_not_finite
 from autograder.judging.quantities import Numbers, Quantities, UnfitError
 from autograder.judging.verdict import Failed
 from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol
@@ -100,10 +100,15 @@ class Reading:
                 evaluated(self.right, [first])[0],
             )
             raise NoNumbersError(said, self._failed(calls, unfit)) from None
+        first, value = calls[bad[0]], values[bad[0]]
+        at_points = bool(first.at)
         problem = (
-            f"{self.signature} returned {where_not_finite(values[bad[0]])}, "
+            f"{self.signature} returned {where_not_finite(value, at_points)}, "
             "which is not a finite number."
         )
+        if at_points:  # the call that is shown has numbers for its symbols: those that give this
+            point = first.at[first_bad_point(np.asarray(value))]
+            calls = [*calls[: bad[0]], replace(first, at=(point,)), *calls[bad[0] + 1 :]]
         failed = replace(self._failed(calls, bad), works="")
         if found is None:
             raise NoNumbersError(problem, failed)

@@ -35,8 +35,14 @@ def is_finite(value) -> bool:
     return bool(np.all(np.isfinite(value)))
 
 
-def where_not_finite(value) -> str:
-    """The first number of a value that is not finite, and its place: "nan at [2]"."""
+def where_not_finite(value, at_points: bool = False) -> str:
+    """The first number of a value that is not finite, and its place: "nan at [2]".
+
+    at_points: whether the value is an expression's at several points, one row each; the place is then
+    that in the expression, at the first point where it is not finite.
+    """
+    if at_points:
+        return where_not_finite(value[first_bad_point(value)])
     if isinstance(value, dict | list):
         named = value.items() if isinstance(value, dict) else enumerate(value)
         key, part = next((key, part) for key, part in named if not is_finite(part))
@@ -51,6 +57,11 @@ def where_not_finite(value) -> str:
         places.append(f"{left} more")
     *others, last = places
     return f"{first} at {', '.join(others)} and {last}" if others else f"{first} at {last}"
+
+
+def first_bad_point(value: np.ndarray) -> int:
+    """The first row of a value in which a number is not finite."""
+    return next(k for k, row in enumerate(value) if not is_finite(row))
 
 
 def partial(quantities: Quantities, calls: list[Call], values: list) -> Partial | None:

@@ -139,12 +139,15 @@ class Verdict:
         return tuple(sentence for sentence in self.diagnosis if sentence not in of_rows)
 
     def said_of_rows(self) -> list[tuple[Row, list[str]]]:
-        """Each row with what is said below it; a sentence that stands further up is not said again."""
-        above: set[str] = set()
+        """Each row with what is said below it; what stands right above, and nothing else there, is not
+        said again.
+        """
+        last: tuple[str, ...] = ()
         found = []
         for row in self.rows:
-            said = [AS_ABOVE if sentence in above else sentence for sentence in row.said]
-            above.update(row.said)
+            is_same = bool(last) and set(last) <= set(row.said)
+            said = [AS_ABOVE if is_same and own in last else own for own in row.said]
+            last = row.said or last
             found.append((row, list(dict.fromkeys(said))))
         return found
 

@@ -124,6 +124,10 @@ def _likeness(x, right, theirs, turns: bool, name: str, of_x: str, of_y: str) ->
     share = float(right @ theirs / (right @ right)) if np.any(right) else 0.0
     if share > 0 and same(share * right, theirs):
         return [f"Your curve is {written(share)} times as high as the right one everywhere."]
+    apart = float(np.mean(theirs - right))
+    if same(right + apart, theirs):
+        way = "above" if apart > 0 else "below"
+        return [f"Your curve is {written(abs(apart))} {of_y} {way} the right one everywhere."]
     if turns and same(right[0], right[-1]):
         for k in range(1, POINTS):
             if same(np.roll(right[:-1], k), theirs[:-1]):

@@ -28,7 +28,7 @@ from .readings import MOST_NUMBERS, FaultKind, NotNumbersError
 from .riddles import Riddle
 from .riddles import sentence as sentence_of
 from .wire import decode_call, decode_reply, encode_call, encode_reply
-from .words import one_line, shortened
+from .words import one_line, other_cell, shortened
 
 __all__ = [
     "CALL_SECONDS",
@@ -60,6 +60,7 @@ __all__ = [
     "message_of",
     "numbers_at",
     "one_line",
+    "other_cell",
     "read",
     "real",
     "sentence_of",

@@ -3,7 +3,6 @@
 import difflib
 import os
 import signal
-import sys
 import threading
 import time
 import traceback
@@ -24,7 +23,7 @@ from .readings import (
     read_numbers,
     read_parts,
 )
-from .words import shortened
+from .words import other_cell, shortened
 
 CALL_SECONDS = 2.0  # of the processor's time
 # Code that sleeps for ever uses no processor time, and on a busy machine honest code gets little. So
@@ -201,25 +200,26 @@ def own_names(namespace: Mapping) -> list[str]:
 
 def _failing_line(error: BaseException) -> str:
     """The last line of the student's own code on the way to the error, with its number, and with its
-    cell's number where that is another cell than the function's.
+    cell or its file where that is not the function's cell.
     """
-    own = [
-        frame
-        for frame in traceback.extract_tb(error.__traceback__)
-        if "ipykernel_" in frame.filename or frame.filename.startswith("<ipython-input")
-    ]
+    own = [frame for frame in traceback.extract_tb(error.__traceback__) if _is_own(frame.filename)]
     if not own:
         return ""
     line = f"line {own[-1].lineno}: {own[-1].line}".rstrip(": ")
-    cell = "" if own[-1].filename == own[0].filename else _cell(own[-1].filename)
-    return shortened(f"{cell}, {line}" if cell else line)
+    if not _is_cell(own[-1].filename):
+        where = os.path.basename(own[-1].filename)
+    else:
+        where = "" if own[-1].filename == own[0].filename else other_cell(own[-1].name)
+    return shortened(f"{where}, {line}" if where else line)
 
 
-def _cell(filename: str) -> str:
-    """ "cell In[3]" of a cell's file name, as its notebook numbers it; "" where IPython knows none."""
-    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
-    named = shell and shell.compile.format_code_name(filename)
-    return f"{named[0].lower()} {named[1]}" if named else "another cell"
+def _is_own(filename: str) -> bool:
+    """Whether code is a student's: of a cell, or of a file beside the notebook."""
+    return _is_cell(filename) or os.path.dirname(filename) == os.getcwd()
+
+
+def _is_cell(filename: str) -> bool:
+    return "ipykernel_" in filename or filename.startswith("<ipython-input")
 
 
 def kind_of(error: BaseException) -> str:

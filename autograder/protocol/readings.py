@@ -58,7 +58,9 @@ def read_numbers(value, truth: bool = False) -> np.ndarray:
     try:
         array = np.asarray(value)
     except ValueError:
-        raise NotNumbersError(FaultKind.NOT_NUMBERS, "rows of different lengths") from None
+        several = f"a tuple of {len(value)} unlike parts" if isinstance(value, tuple) else ""
+        text = several or "rows of different lengths"
+        raise NotNumbersError(FaultKind.NOT_NUMBERS, text) from None
     if array.size > MOST_NUMBERS:
         text = f"an array of {array.size} entries, which is far too large"
         raise NotNumbersError(FaultKind.NOT_NUMBERS, text)

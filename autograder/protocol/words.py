@@ -55,3 +55,9 @@ def one_line(text: str, most: int = MOST_CHARACTERS) -> str:
     if not text.isprintable():
         text = repr(text[:most])[1:-1]
     return shortened(text, most)
+
+
+def other_cell(function: str) -> str:
+    """How a card names the cell that defines a function, as a graded notebook numbers no cells."""
+    named = function.isidentifier()  # unlike a lambda
+    return f"the cell of {shortened(function, MOST_SHOWN)}" if named else "another cell"

@@ -3,11 +3,16 @@
 from html import escape
 
 from autograder.lesson_checks import known as known_in_lesson
-from autograder.problems import CHECKS, known_check
+from autograder.problems import CHECKS, UnknownCheckError, known_check
 from autograder.proofs import derivation_of
 from autograder.student import failing, hint_counts
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for
+
+NONE_FAILED = (
+    "no check has failed since this kernel started: run the cell of a check first, or name one, as in "
+    'hint("p1-M")'
+)
 
 
 def hint(id: str | None = None) -> None:
@@ -19,6 +24,8 @@ def hint(id: str | None = None) -> None:
     this id, or where none is given and no check has failed.
     """
     id = failing.last() if id is None else id
+    if id is None:
+        raise UnknownCheckError(NONE_FAILED)
     proof = derivation_of(id) if isinstance(id, str) else None
     in_lesson = known_in_lesson(id)
     known = proof or in_lesson or known_check(id, drawn_for(id))

@@ -278,13 +278,14 @@ IS_SPD = (
     Mistake(
         "symmetry alone",
         is_symmetric,
-        "You accept every symmetric matrix. What tells a positive definite one from the others?",
+        "You accept every symmetric matrix that was tried. What tells a positive definite one from "
+        "the others?",
     ),
     Mistake(
         "diagonal alone",
         _symmetric_and(lambda A: np.all(np.diag(A) > 0)),
-        "You accept every symmetric matrix with a positive diagonal. The diagonal must be "
-        "positive, but that is not enough: what if the other entries are larger?",
+        "You accept every symmetric matrix with a positive diagonal that was tried. The diagonal must "
+        "be positive, but that is not enough: what if the other entries are larger?",
     ),
     Mistake(
         "determinant of a symmetric matrix",
@@ -345,13 +346,14 @@ IS_SPD = (
     Mistake(
         "always True",
         lambda A: True,
-        "Your function accepts every matrix. What should it say of −1 times the identity?",
+        "Your function accepts every matrix that was tried. What should it say of −1 times the "
+        "identity?",
         whole=True,
     ),
     Mistake(
         "always False",
         lambda A: False,
-        "Your function refuses every matrix. What should it say of the identity?",
+        "Your function refuses every matrix that was tried. What should it say of the identity?",
         whole=True,
     ),
 )

@@ -263,8 +263,14 @@ OTHER = (
         Mistake(name, _other(STEPS["C"][name]), OF_ANY_C[name])
         for name in (
             *("transposed", "half the rate of M", "rate of M"),
-            *("torque for C", "C times ones", "zero"),
+            *("torque for C", "C times ones"),
         )
+    ),
+    Mistake(
+        "zero",
+        _other(STEPS["C"]["zero"]),
+        "Your C_other is zero, and so is its product with q̇. Is the torque C q̇ zero when the joints "
+        "turn?",
     ),
     Mistake(
         "scaled",

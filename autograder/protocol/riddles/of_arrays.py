@@ -160,6 +160,23 @@ def _called_with_number(scene: Scene, found, error) -> Words | None:
     return (text(call.func),) if call else None
 
 
+def _lengths(scene: Scene, found, error) -> Words:
+    """The last length of A and the first of B, as NumPy's message has them."""
+    last, first = found["last"] or found["last_of_dot"], found["first"] or found["first_of_dot"]
+    return last, first
+
+
+def _sides(scene: Scene, found, error) -> Words | None:
+    """The matrix and the right side of equations, with their shapes."""
+    call = scene.find(ast.Call)
+    given = call.args[:2] if call else []
+    shapes = [scene.shape(node) for node in given]
+    if len(given) != 2 or None in shapes:
+        return None
+    words = zip(given, shapes, strict=True)
+    return tuple(word for node, shape in words for word in (text(node), str(shape)))
+
+
 def _assigned(scene: Scene, found, error) -> Words | None:
     return found[1], found[2]
 
@@ -180,6 +197,22 @@ ROWS = (
         MATMUL,
         "{0} is {1}, and {2} is {3}. " + PRODUCT,
         _two_shapes,
+    ),
+    Row(
+        "matmul of unknown shapes",
+        ("ValueError",),
+        r"^matmul: .*size (?P<first>\d+) is different from (?P<last>\d+)|"
+        r"^shapes .* not aligned: (?P<last_of_dot>\d+) \(dim \d\) != (?P<first_of_dot>\d+)",
+        PRODUCT + " Here they are {0} and {1}.",
+        _lengths,
+    ),
+    Row(
+        "two sides",
+        ("ValueError", "LinAlgError"),
+        r"^solve1?: Input operand|^Incompatible dimensions",
+        "{0} is {1}, and {2} is {3}. Each row of the matrix is an equation and needs its number on the "
+        "right side.",
+        _sides,
     ),
     Row(
         "broadcast",

@@ -261,7 +261,8 @@ ROWS = (
     Row(
         "called number",
         ("TypeError",),
-        r"'(float|int|numpy\.float64|numpy\.ndarray|list|tuple)' object is not callable",
+        r"'(float|int|numpy\.float64|numpy\.ndarray|list|tuple|(Imm|M)utableDenseMatrix|Symbol|Add|Mul|Pow)'"
+        r" object is not callable",
         "{0} is no function, and brackets right behind it call it. Is a * missing there?",
         _called,
     ),

@@ -169,7 +169,7 @@ def _error(shell, source, kind, value, lines, protocol):
 
     at, line, is_offline = 0, "", False
     with suppress(Exception):  # it may be of a student's own class
-        at, line = shell.typed_lines(value, source)
+        at, line = shell.typed_lines(value, source, protocol.other_cell)
         is_offline = needed_network(value)
     if kind is protocol.TimeLimitError:
         kind, value, lines = TimeoutError, f"this cell ran longer than {value.seconds:g} s", []

@@ -250,10 +250,10 @@ class RoomShell(InteractiveShell):
         magic = CELL_MAGIC.match(source.lstrip())
         return magic is not None and self._is_cell_magic(magic[1])
 
-    def typed_lines(self, error, source):
+    def typed_lines(self, error, source, other_cell):
         """Where an error comes from: the number of the line at which it stopped the running cell, and
-        the last line of the student's own that led to it, with its cell where that is another one; 0 and
-        "" where they cannot be known.
+        the last line of the student's own that led to it, with its cell where that is another one, as
+        `other_cell` names it by a function; 0 and "" where they cannot be known.
         """
         above = int(self.is_below_magic(source))
         # `%%capture` runs what is below it as a cell of its own, and `%%time` as a file of this name.
@@ -266,8 +266,8 @@ class RoomShell(InteractiveShell):
             here = frame.filename.startswith(cells)
             number = (frame.lineno or 0) + (above if here else 0)
             text = "".join(source.split("\n")[number - 1 : number]) if here else frame.line
-            named = None if here else self.compile.format_code_name(frame.filename)
-            cell = f"{named[0].lower()} {named[1]}, " if named else ""
+            is_other = not here and frame.filename.startswith(TYPED[0])
+            cell = f"{other_cell(frame.name)}, " if is_other else ""
             typed.append((here, number, text, cell))
         at = next((number for here, number, *_ in typed if here), 0)
         _, number, text, cell = typed[-1] if typed else (False, 0, "", "")

@@ -338,7 +338,7 @@ ENTRIES = Verdict(
     (
         Row("M11", 0.5, False, ("The sign.", "The half.")),
         Row("M22", 0.25, True),
-        Row("M12", 0.25, False, ("The sign.",)),
+        Row("M12", 0.25, False, ("The sign.", "The half.")),
     ),
     diagnosis=("The sign.", "The half.", "Of all."),
 )

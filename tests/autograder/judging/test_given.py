@@ -12,7 +12,7 @@ from autograder.judging.passages import failing
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from autograder.protocol import FaultKind, Reply, answer, calls
-from tests.autograder.verdicts import function_of, judged
+from tests.autograder.verdicts import function_of, judged, namespace_of
 
 ASKED = {"p1-M": 12, "p1-is_spd": 17, "p4-equilibria": 2}
 
@@ -169,3 +169,27 @@ def test_nothing_that_came_back_is_the_fault_of_the_check(check):
             assert verdict.state is not State.CHECK_FAILED, (value, other, verdict.problem)
             if verdict.state is State.CORRECT:
                 assert all(map(is_finite, values))
+
+
+ROOT_IN_AN_ENTRY = """A = sp.ones(len(q), len(q))
+if len(q) > 1:
+    A[1, 0] = sp.sqrt(-1 - q[0]**2)
+return A"""
+
+
+@pytest.mark.parametrize(
+    ("check_id", "body", "found"),
+    [
+        ("p3-lagrangian", "I*qd**2/2 + m*g*lc*sp.sqrt(q)", "nan"),
+        ("p3-lagrangian", "I*sp.log(qd)", "-inf"),
+        ("p2-christoffel", ROOT_IN_AN_ENTRY, "nan at [1, 0]"),
+    ],
+)
+def test_an_expression_that_has_no_number_is_shown_where_it_has_none(check_id, body, found):
+    """Its place is counted in the expression, and the call that is shown gives it."""
+    verdict = shown(check_id, body)
+    assert f" returned {found}, which" in verdict.problem
+    (point,) = verdict.failed.of.at
+    numbers = answer(verdict.failed.of, namespace_of(check_id, body)).value
+    assert not np.all(np.isfinite(numbers))
+    assert all(f": {float(f'{value:.6g}')!r}" in verdict.failed.call for value in point.values())

@@ -5,7 +5,7 @@ import pytest
 
 from autograder.judging.check import VISIBLE_CASES
 from autograder.judging.given import Given
-from autograder.judging.verdict import AS_ABOVE, State
+from autograder.judging.verdict import AS_ABOVE, Row, State, Verdict
 from autograder.problems import CHECKS
 from autograder.protocol import Reply
 from tests.autograder.verdicts import judged
@@ -79,3 +79,23 @@ def test_a_right_answer_is_led_further_and_a_wrong_one_is_not():
     )
     assert wrong.state is State.INCORRECT
     assert wrong.further == ""
+
+
+def test_a_reason_is_called_the_one_above_only_where_no_other_stands_between():
+    """is_spd takes positive entries for positive eigenvalues, and does not ask for symmetry."""
+    verdict = judged("p1-is_spd", "np.all(A > 0)", count=VISIBLE_CASES)
+    first, second, third, fourth = [said for _, said in verdict.said_of_rows()]
+    assert first[0].startswith("You ask for positive entries.")
+    assert second == [AS_ABOVE]
+    assert third[0].startswith("You accept a matrix that is not symmetric.")
+    assert fourth == first
+
+
+def test_one_of_two_reasons_above_is_said_again():
+    rows = (
+        Row("M11", 0.5, False, ("a",)),
+        Row("M12", 0.25, False, ("a", "b")),
+        Row("M22", 0.25, False, ("a",)),
+    )
+    shown = [said for _, said in Verdict("id", State.INCORRECT, rows=rows).said_of_rows()]
+    assert shown == [["a"], [AS_ABOVE, "b"], ["a"]]

@@ -73,6 +73,10 @@ def test_gravity_goes_round_with_the_other_angle_held():
             "pend.m * pend.g * pend.lc + 0 * q",
             "Your curve does not change with q; the right one does.",
         ),
+        (
+            "pend.m * pend.g * pend.lc * np.sin(q) - 0.5",
+            "Your curve is 0.5 N·m below the right one everywhere.",
+        ),
         ("pend.m * pend.g * pend.lc * q", "They are furthest apart at q = −3.14 rad: yours is −"),
         (
             "q**3 + q",

@@ -164,6 +164,11 @@ def test_whatever_holds_numbers_is_read(value, expected):
         ({"q": 1.0}, FaultKind.NOT_NUMBERS, "the dict {'q': 1.0}"),
         ({1.0}, FaultKind.NOT_NUMBERS, "the set {1.0}"),
         ([[1.0], [1.0, 2.0]], FaultKind.NOT_NUMBERS, "rows of different lengths"),
+        (
+            np.linalg.lstsq(np.eye(3), np.ones(3)),
+            FaultKind.NOT_NUMBERS,
+            "a tuple of 4 unlike parts",
+        ),
         (ask, FaultKind.NOT_NUMBERS, "the function ask itself"),
         (np.sin, FaultKind.NOT_NUMBERS, "the function sin itself"),
         (float, FaultKind.NOT_NUMBERS, "the class float itself"),
@@ -279,6 +284,18 @@ def test_the_failing_line_is_the_students_own_with_its_text():
     fault = protocol.answer(Call("f", (np.zeros((2, 2)),)), namespace).fault
     assert fault.message == "LinAlgError: Singular matrix"
     assert fault.line == "line 2: return np.linalg.inv(q)"
+
+
+def test_the_failing_line_of_a_module_beside_the_notebook(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    module = tmp_path / "mine.py"
+    module.write_text("def third(q):\n    return q[2]\n\ndef f(q):\n    return third(q)\n")
+    namespace: dict = {}
+    exec(compile(module.read_text(), module, "exec"), namespace)
+    call = Call("f", (np.zeros(2),))
+    assert protocol.answer(call, namespace).fault.line == "mine.py, line 2: return q[2]"
+    exec(compile("def f(q): return third(q)", "ipykernel_1/2.py", "exec"), namespace)
+    assert protocol.answer(call, namespace).fault.line == "mine.py, line 2: return q[2]"
 
 
 def test_long_messages_are_cut():

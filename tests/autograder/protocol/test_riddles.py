@@ -43,6 +43,7 @@ def fault_of(body: str) -> Fault:
     return reply.fault
 
 
+SIDES = "Each row of the matrix is an equation and needs its number on the right side."
 PRODUCT = "In a product A @ B, the last length of A must be the first of B."
 ENTRY_BY_ENTRY = "The signs +, −, * and / join arrays entry by entry."
 COLUMNS = "some of its columns follow from others, or are zero. Which columns?"
@@ -80,6 +81,15 @@ CASES = [
     ("matmul", "J.dot(I)", "J is (6, 3), and I is (6, 6). " + PRODUCT),
     ("matmul", "J.T @ I @ J.T", "J.T @ I is (3, 6), and J.T is (3, 6). " + PRODUCT),
     ("matmul", "K = sp.ones(2, 3)\nreturn K * K", "K is (2, 3), and K is (2, 3). " + PRODUCT),
+    (
+        "matmul of unknown shapes",
+        "np.linalg.pinv(J) @ q",
+        PRODUCT + " Here they are 6 and 2.",
+    ),
+    ("matmul of unknown shapes", "np.dot(J, np.dot(I, J))", PRODUCT + " Here they are 3 and 6."),
+    ("two sides", "np.linalg.solve(I, q)", f"I is (6, 6), and q is (2,). {SIDES}"),
+    ("two sides", "np.linalg.solve(I, J.T)", f"I is (6, 6), and J.T is (3, 6). {SIDES}"),
+    ("two sides", "np.linalg.lstsq(J, q)[0]", f"J is (6, 3), and q is (2,). {SIDES}"),
     (
         "matmul number",
         "arm.m1 @ J",
@@ -242,6 +252,16 @@ CASES = [
         "called number",
         "arm.m1(arm.l1 + arm.l2)",
         "arm.m1 is no function, and brackets right behind it call it. Is a * missing there?",
+    ),
+    (
+        "called number",
+        "K = sp.ones(2, 2)\nreturn K(q)",
+        "K is no function, and brackets right behind it call it. Is a * missing there?",
+    ),
+    (
+        "called number",
+        "a = sp.Symbol('a')\nreturn (a + 1)(q[0])",
+        "a + 1 is no function, and brackets right behind it call it. Is a * missing there?",
     ),
     ("text", "x = 'l1'\nreturn x * arm.m1", "x is a text, as it stands in quotes."),
     ("text", "'q' + q", "'q' is a text, as it stands in quotes."),

@@ -39,6 +39,14 @@ UNFIT = {
             "6 numbers; it must return the four base parameters, since no motion shows all six of π.",
         ),
         ("return arm.m1, 0, 0, 0", "has no attribute 'm1'"),
+        (
+            "return np.linalg.lstsq(np.ones((9, 4)), np.ones(9))",
+            "a tuple of 4 unlike parts; it must return numbers. Which of its parts is the answer?",
+        ),
+        (
+            "return np.linalg.lstsq(np.ones((2 * len(u), 4)), u)[0]",
+            "Incompatible dimensions",
+        ),
     ],
     "c6-rank_of_excitation": [(count("matrix_rank(W)", "svd(W)[1]"), "it must return one number.")],
 }
