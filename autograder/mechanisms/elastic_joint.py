@@ -6,7 +6,7 @@ import sympy as sp
 
 from autograder.mechanisms.mechanism import EnergyTerm, Mechanism
 from autograder.mechanisms.outline import Coordinate, Parameter
-from autograder.mechanisms.shapes import Ground, Link, Mass, Spring
+from autograder.mechanisms.shapes import Ground, Link, Spring, rod
 
 
 def _elastic_joint() -> Mechanism:
@@ -45,7 +45,8 @@ def _drawn(at, arm):
     (x, y), (u, v) = ((math.cos(angle), math.sin(angle)) for angle in at)
     short, held = 0.5 * arm.lc, 0.6 * arm.lc
     motor, hook = (short * u, short * v), (held * x, held * y)
-    link = [Link((0.0, 0.0), (arm.lc * x, arm.lc * y)), Mass((arm.lc * x, arm.lc * y))]
+    spread = math.sqrt(max(arm.I / (arm.m * arm.lc**2) - 1, 0.0))
+    link = rod((0.0, 0.0), (arm.lc * x, arm.lc * y), spread)
     return [Ground((0.0, 0.0)), Spring(motor, hook), Link((0.0, 0.0), motor), *link]
 
 
