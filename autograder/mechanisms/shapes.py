@@ -83,7 +83,7 @@ def places(shape: Shape) -> list[Place]:
     return [shape.at] if isinstance(shape, Ground) else list(vars(shape).values())
 
 
-def rod(start: Place, centre: Place, spread: float) -> list[Shape]:
+def rod(start: Place, centre: Place, spread: float) -> tuple[Link, Mass]:
     """A body that turns about `start`: the uniform rod with its inertia, and its centre of mass.
 
     spread: √(I/m), I about the centre of mass, as a share of the distance from start to centre. A point
@@ -91,7 +91,7 @@ def rod(start: Place, centre: Place, spread: float) -> list[Shape]:
     """
     longer = 1 + math.sqrt(3) * spread
     x, y = longer * (centre[0] - start[0]), longer * (centre[1] - start[1])
-    return [Link(start, (start[0] + x, start[1] + y)), Mass(centre)]
+    return Link(start, (start[0] + x, start[1] + y)), Mass(centre)
 
 
 def arm(points: list[Place]) -> list[Shape]:
