@@ -1,7 +1,7 @@
 """Make one small mistake in a lesson at a time, and list the mistakes that no assert notices.
 
     python tests/notebooks/change_lessons.py lessons/03-inertia-matrix.ipynb
-    python tests/notebooks/change_lessons.py --only sign index lessons/*.ipynb
+    python tests/notebooks/change_lessons.py --only sign --only index lessons/*.ipynb
 
 - sign: a plus becomes a minus, a minus a plus, a leading minus goes, sin becomes cos and cos sin;
 - number: a number is doubled;
@@ -196,11 +196,12 @@ def _noticed(namespace, changed, later) -> bool:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("lessons", nargs="+", type=Path)
-    parser.add_argument("--only", nargs="+", choices=KINDS, default=list(KINDS))
+    parser.add_argument("--only", action="append", choices=KINDS, help="one kind; may be repeated")
     given = parser.parse_args()
+    kinds = tuple(given.only or KINDS)
     for path in given.lessons:
         here = Path.cwd()
-        for cell, line, kind, words in survivors(path.resolve(), tuple(given.only)):
+        for cell, line, kind, words in survivors(path.resolve(), kinds):
             print(
                 f"{path.stem}: {cell}, line {line}, {kind}: {' '.join(words.split())}", flush=True
             )

@@ -13,7 +13,8 @@ TOOL = Path(__file__).with_name("change_lessons.py")
 def run(folder, *cells, only=()):
     notebook = new_notebook(cells=[new_code_cell(c, id=f"c{i}") for i, c in enumerate(cells)])
     nbformat.write(notebook, folder / "lesson.ipynb")
-    command = [sys.executable, str(TOOL), "lesson.ipynb", *(("--only", *only) if only else ())]
+    chosen = [f"--only={kind}" for kind in only]
+    command = [sys.executable, str(TOOL), *chosen, "lesson.ipynb"]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
 
 
