@@ -72,8 +72,9 @@ def test_statements(tmp_path):
     assert listed(
         tmp_path,
         "total = 0\nfor k in range(3):\n    total += k\nassert total == 3",
-        "total = 3\nprint(total)\ntotal",
+        "total = 3\nprint(total)\ntotal\nfor k in range(3):\n    assert k < total",
         "def twice(x):\n    '''2 x'''\n    x = 2 * x\n    return x\n\n\nassert twice(2)",
+        "try:\n    1 / 0\nexcept ZeroDivisionError:\n    pass\nelse:\n    raise AssertionError",
         only=["statement"],
     ) == ["c1, line 1, statement: total = 3", "c2, line 3, statement: x = 2 * x"]
 
