@@ -129,11 +129,11 @@ def _index(node: ast.AST) -> ast.AST | None:
 
 
 def _statement(node: ast.AST) -> ast.AST | None:
-    kept = ast.Import | ast.ImportFrom | ast.FunctionDef | ast.ClassDef | ast.Pass | ast.Raise
+    kept = ast.Import | ast.ImportFrom | ast.FunctionDef | ast.ClassDef | ast.Pass
     if not isinstance(node, ast.stmt) or isinstance(node, kept):
         return None
-    # Without the assert in it nothing can be noticed.
-    if any(isinstance(part, ast.Assert) for part in ast.walk(node)):
+    # Without the assert or the error in it nothing can be noticed.
+    if any(isinstance(part, ast.Assert | ast.Raise) for part in ast.walk(node)):
         return None
     # What is printed or stands there to be shown is no claim, and a docstring does nothing.
     if isinstance(node, ast.Expr) and (
