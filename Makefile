@@ -14,7 +14,7 @@ help:
 	@echo 'make coverage  which lines the tests run; fails below the floor in pyproject.toml'
 	@echo 'make hooks     have git run "make lint" before each commit'
 	@echo 'make bench     time library, ports, grading and feedback; writes docs/benchmarks.md'
-	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md'
+	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md, references.md'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
 
 lab: .venv/lab.done
@@ -64,6 +64,7 @@ installed: .venv/$(TESTED).done
 lessons: .venv/$(TESTED).done
 	.venv/bin/python tests/notebooks/store_outputs.py lessons/*.ipynb
 	.venv/bin/python -m tests.notebooks.course_map docs/course-map.md
+	.venv/bin/python -m tests.notebooks.references docs/references.md
 
 bench: .venv/bench.done
 	.venv/bin/python -m tests.benchmarks.library docs/benchmarks.md

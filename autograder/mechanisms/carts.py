@@ -7,7 +7,7 @@ import sympy as sp
 from autograder.mechanisms.friction import joint_friction
 from autograder.mechanisms.mechanism import EnergyTerm, Mechanism
 from autograder.mechanisms.outline import Coordinate, Parameter
-from autograder.mechanisms.shapes import Cart, Link, Mass, Rail, Spring, Wall
+from autograder.mechanisms.shapes import Cart, Rail, Spring, Wall, rod
 
 
 def _cart(name: str, spring: bool) -> Mechanism:
@@ -42,7 +42,12 @@ def _cart(name: str, spring: bool) -> Mechanism:
     def draws(at, arm):
         cart, pole = points(at, arm)
         held = [Wall((-0.8, 0.0)), Spring((-0.8, 0.0), cart)] if spring else []
-        return [Rail(-0.8, 0.9), *held, Cart(cart), Link(cart, pole), Mass(pole)]
+        return [
+            Rail(-0.8, 0.9),
+            *held,
+            Cart(cart),
+            *rod(cart, pole, math.sqrt(arm.I / arm.m) / arm.lc),
+        ]
 
     return Mechanism(
         name,

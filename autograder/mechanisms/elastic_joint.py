@@ -6,7 +6,7 @@ import sympy as sp
 
 from autograder.mechanisms.mechanism import EnergyTerm, Mechanism
 from autograder.mechanisms.outline import Coordinate, Parameter
-from autograder.mechanisms.shapes import Ground, Link, Mass, Spring
+from autograder.mechanisms.shapes import Ground, Link, Spring, rod
 
 
 def _elastic_joint() -> Mechanism:
@@ -43,9 +43,10 @@ def _elastic_joint() -> Mechanism:
 def _drawn(at, arm):
     """The motor as a short bar, with the joint's spring between it and the link."""
     (x, y), (u, v) = ((math.cos(angle), math.sin(angle)) for angle in at)
-    short, held = 0.5 * arm.lc, 0.6 * arm.lc
-    motor, hook = (short * u, short * v), (held * x, held * y)
-    link = [Link((0.0, 0.0), (arm.lc * x, arm.lc * y)), Mass((arm.lc * x, arm.lc * y))]
+    spread = math.sqrt(max(arm.I / (arm.m * arm.lc**2) - 1, 0.0))
+    link = rod((0.0, 0.0), (arm.lc * x, arm.lc * y), spread)
+    length = math.hypot(*link[0].end)
+    motor, hook = (0.4 * length * u, 0.4 * length * v), (0.5 * length * x, 0.5 * length * y)
     return [Ground((0.0, 0.0)), Spring(motor, hook), Link((0.0, 0.0), motor), *link]
 
 

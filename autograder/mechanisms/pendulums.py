@@ -7,6 +7,7 @@ import sympy as sp
 from autograder.mechanisms.friction import joint_friction
 from autograder.mechanisms.mechanism import EnergyTerm, Mechanism
 from autograder.mechanisms.outline import Coordinate, Parameter
+from autograder.mechanisms.shapes import Ground, Link, rod
 from autograder.mechanisms.shapes import arm as links
 
 G = Parameter("g", "m/s²", "gravitational acceleration", 3.0, 15.0)
@@ -26,7 +27,15 @@ def _pendulum() -> Mechanism:
         (EnergyTerm("the weight of the body", weight * (1 - sp.cos(q.symbol))),),
         lambda at, arm: [(0.0, 0.0), (arm.lc * math.sin(at[0]), -arm.lc * math.cos(at[0]))],
         joint_friction((q, "the pivot")),
+        _drawn,
     )
+
+
+def _drawn(at, arm):
+    pivot, centre = (0.0, 0.0), (arm.lc * math.sin(at[0]), -arm.lc * math.cos(at[0]))
+    # I about the pivot may be drawn smaller than any body's with this m and lc: then a point mass.
+    spread = math.sqrt(max(arm.I / (arm.m * arm.lc**2) - 1, 0.0))
+    return [Ground(pivot, above=True), *rod(pivot, centre, spread)]
 
 
 def _spherical() -> Mechanism:
@@ -102,7 +111,9 @@ def _furuta_drawn(at, arm):
     x, y = arm.l1 * math.cos(at[0]), arm.l1 * math.sin(at[0])
     swing = arm.lc2 * math.sin(at[1])
     end = x - swing * math.sin(at[0]), y + swing * math.cos(at[0]), -arm.lc2 * math.cos(at[1])
-    return links([(0.0, 0.0), _seen(x, y, 0.0), _seen(*end)])
+    joint, centre = _seen(x, y, 0.0), _seen(*end)
+    pendulum = rod(joint, centre, math.sqrt(arm.I2 / arm.m2) / arm.lc2)
+    return [Ground((0.0, 0.0)), Link((0.0, 0.0), joint), *pendulum]
 
 
 def _spherical_drawn(at, arm):

@@ -3,6 +3,7 @@
 Positions are (x, y) in m; how large a cart or a mass is drawn is the picture's affair.
 """
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -80,6 +81,17 @@ def places(shape: Shape) -> list[Place]:
     if isinstance(shape, Rail):
         return [(shape.left, shape.height), (shape.right, shape.height)]
     return [shape.at] if isinstance(shape, Ground) else list(vars(shape).values())
+
+
+def rod(start: Place, centre: Place, spread: float) -> tuple[Link, Mass]:
+    """A body that turns about `start`: the uniform rod with its inertia, and its centre of mass.
+
+    spread: √(I/m), I about the centre of mass, as a share of the distance from start to centre. A point
+    mass (0) ends the rod. One of length L ends L/2 beyond its centre, and I/m = L²/12.
+    """
+    longer = 1 + math.sqrt(3) * spread
+    x, y = longer * (centre[0] - start[0]), longer * (centre[1] - start[1])
+    return Link(start, (start[0] + x, start[1] + y)), Mass(centre)
 
 
 def arm(points: list[Place]) -> list[Shape]:

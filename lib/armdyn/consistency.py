@@ -177,6 +177,7 @@ def _largest_margin(base, directions, largest_trace) -> tuple[float, np.ndarray 
     x[-1] = 1 + max(-np.linalg.eigvalsh(base).min(), trace - largest_trace, 0.0)
     weight, barriers = 1.0, base.shape[0] * k + 1
     while True:
+        last = np.inf
         for _ in range(1000):
             blocks = base + np.einsum("z,zlij->lij", x, slopes)
             room = largest_trace - trace + room_slopes @ x
@@ -187,8 +188,10 @@ def _largest_margin(base, directions, largest_trace) -> tuple[float, np.ndarray 
             hessian += np.outer(room_slopes, room_slopes) / room**2
             step = -np.linalg.lstsq(hessian, gradient, rcond=None)[0]
             decrement = np.sqrt(max(-gradient @ step, 0.0))
-            if decrement < 1e-3:
+            # So near, a step squares the decrement: where it no longer falls, it is rounding.
+            if decrement < 1e-3 or last / 2 < decrement < 0.1:
                 break
+            last = decrement
             # The barrier is self-concordant: so damped, the step stays inside.
             x = x + step / (1 + decrement)
         else:

@@ -507,3 +507,16 @@ def test_noise_can_make_a_light_link_impossible():
             assert "do not exist" in str(found)
         verdicts.append(found.consistent)
     assert not all(verdicts)
+
+
+@pytest.mark.parametrize(
+    ("more", "exists"), [(1.0, False), (0.1, True), (0.01, True), (-0.1, True)]
+)
+def test_where_the_two_bounds_of_the_2r_meet_the_search_still_ends(more, exists):
+    # m1 in joint 1 and m2 a point: J1 = 0 asks for m1 lc1 = 0, or a very heavy m1.
+    base = base_parameters(SMOOTH, on_link_axes(SMOOTH))
+    points = replace(SMOOTH, I1=0.0, I2=0.0, lc1=0.0)
+    estimate = base.combination @ parameters(points) + np.array([more, 0, 0, 0])
+    found = consistent_parameters(base.combination, estimate, base.columns, 2, reach(SMOOTH))
+    assert found.exists is exists
+    assert abs(found.margin) < 1e-6

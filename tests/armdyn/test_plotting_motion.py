@@ -60,8 +60,15 @@ def test_the_trace_is_the_way_of_the_tip():
     assert end[0] == pytest.approx(path[-1])
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("x (m)", "y (m)")
     painted(fig)
-    hanging = plotting.tip(PENDULUM, np.array([[0.0], [math.pi / 2]]))
-    assert hanging == pytest.approx(np.array([[0, -0.5], [0.5, 0]]))
+
+
+@pytest.mark.parametrize(
+    ("lc", "I", "end"), [(0.5, 1 / 3, 1.0), (0.5, 0.25, 0.5), (0.2, 0.07, 0.5)]
+)
+def test_a_pendulum_is_as_long_as_the_rod_with_its_inertia(lc, I, end):
+    # 1 kg: a rod of 1 m held at its end, a point mass, a rod of 0.6 m held 0.1 m below its upper end.
+    tip = plotting.tip(Pendulum(m=1.0, lc=lc, I=I), np.array([[0.0], [math.pi / 2]]))
+    assert tip == pytest.approx(np.array([[0, -end], [end, 0]]))
 
 
 @settings(max_examples=20)  # each example draws a figure

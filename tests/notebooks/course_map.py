@@ -25,8 +25,8 @@ ROOT = Path(__file__).parents[2]
 HEAD = """# The course, section by section
 
 Made from the notebooks by `make lessons`; do not edit it. Everything in the second column is called
-in the section's own cells, and their asserts hold what its text says; `pytest --nbval lessons` runs
-them all. The third column has the tests of what is called.
+in the section's own cells, and their asserts hold its formulas and numbers; `pytest --nbval lessons`
+runs them all. The third column has the tests of what is called.
 
 | lesson | reading | leads to | traps it shows |
 |---|---|---|---|

@@ -60,8 +60,7 @@ def of_pinocchio(model, configuration=lambda q: q) -> Peer:
     at = configuration
 
     def M(q):
-        upper = np.triu(pin.crba(model, data, at(q)))
-        return upper + np.triu(upper, 1).T
+        return pin.crba(model, data, at(q))
 
     def C(q, qd):
         return pin.computeCoriolisMatrix(model, data, at(q), qd).copy()

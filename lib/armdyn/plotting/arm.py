@@ -16,7 +16,8 @@ LINK = "#777777"
 def draw_arm(ax: Axes, model: Manipulator, q: ArrayLike) -> None:
     """Draw an arm at q on `ax`: links, joints, centres of mass, each angle from its own zero.
 
-    model: a Pendulum, a Planar2R or a PlanarChain. q: (n,), rad. The axes are in m, x to the right,
+    model: a Pendulum, a Planar2R or a PlanarChain. A Pendulum, which has no length, is drawn as the
+    uniform rod with its m, ℓc and I. q: (n,), rad. The axes are in m, x to the right,
     y up, and the same size for every q, so that pictures can be compared. Raises TypeError for
     another model and ValueError for a q of another shape.
     """
@@ -45,8 +46,9 @@ def draw_trace(
 ) -> None:
     """Draw the path of the tip on `ax`, from a hollow circle to a square; q: (T, n), rad.
 
-    A pendulum's tip is its centre of mass. Axes in m as in `draw_arm`, over which it can be drawn.
-    Raises TypeError for a model that `draw_arm` does not draw, ValueError for a q of another shape.
+    A pendulum's tip is the end of the rod that `draw_arm` draws. Axes in m as there, over which the
+    path can be drawn. Raises TypeError for a model that `draw_arm` does not draw, ValueError for a q of
+    another shape.
     """
     path = tip(model, q)
     if path.ndim != 2 or len(path) == 0:

@@ -56,7 +56,9 @@ def skeleton(model: Manipulator) -> Skeleton:
 
 @skeleton.register
 def _(model: Pendulum) -> Skeleton:
-    return _skeleton([model.lc], [model.lc], [0.0], -math.pi / 2)
+    # A pendulum has no length: the uniform rod with this m, lc and I ends here, a point mass at lc.
+    beyond = math.sqrt(3 * max(model.I / model.m - model.lc**2, 0.0))
+    return _skeleton([model.lc + beyond], [model.lc], [0.0], -math.pi / 2)
 
 
 @skeleton.register
