@@ -7,11 +7,15 @@ from functools import cached_property
 
 import numpy as np
 
-from autograder.judging.criterion import Criterion
+from autograder.judging.criterion import LEAST_SCALE, Criterion
 from autograder.judging.stacked import Layout
 
 # Before a sentence that says more than one part of the answer shows, and no other part bears out.
 OF_A_PART = "Judging by this part alone: "
+# So many mistakes are named of one criterion.
+MOST_NAMED = 2
+# A criterion of more numbers than these is taken as one.
+MOST_NUMBERS = 12
 
 
 class Claim(Enum):
@@ -56,6 +60,11 @@ class Compared:
         return self.changed & np.transpose(same)
 
     @cached_property
+    def is_zero(self) -> bool:
+        """Whether the answer is nothing but zeros, which many mistakes leave in places."""
+        return not any(np.any(row) for row in self.given)
+
+    @cached_property
     def of_truths(self) -> np.ndarray:
         """Which mistakes' errors the answer has all of, where numbers are counts or truths: (mistakes,).
 
@@ -79,6 +88,51 @@ class Compared:
             ):
                 return False
         return True
+
+    def of_single_numbers(self, k: int) -> list[int]:
+        """Mistakes that explain some numbers of criterion k, where others are wrong for other reasons.
+
+        All that such a mistake changes, anywhere, is its own in the answer. The one that explains most
+        comes first, then what that one leaves; at most MOST_NAMED.
+        """
+        of_changes = np.array([claim is Claim.CHANGED for claim in self.claims], dtype=bool)
+        judged = [j for j, c in enumerate(self.criteria) if not (c.is_property or c.is_truth)]
+        if k not in judged or self.is_zero:
+            return []
+        parts = {j: self._by_number(j) for j in judged}
+        found = of_changes
+        for changed, same in parts.values():
+            found = found & np.all(~changed | same, axis=1)
+        size = np.sum([np.sum(changed, axis=1) for changed, _ in parts.values()], axis=0)
+        left = parts[k][0].copy()
+        named: list[int] = []
+        while len(named) < MOST_NAMED and np.any(at := found & np.any(left, axis=1)):
+            one = int(np.argmax(np.where(at, size, 0)))
+            named.append(one)
+            left &= ~parts[k][0][one]
+        return named
+
+    def _by_number(self, k: int) -> tuple[np.ndarray, np.ndarray]:
+        """Of each number of criterion k, in all cases: which mistakes change it, and of which it is,
+        both (mistakes, numbers).
+        """
+        of = self.layout[k]
+        cases = [case for case, shape in enumerate(of.shapes) if np.prod(shape)]
+        sizes = {of.sizes[case] - 1 for case in cases}
+        if len(sizes) != 1 or max(sizes) > MOST_NUMBERS:
+            return self.changed[:, [k]], self.shown[:, [k]]
+        at = of.starts[cases][:, np.newaxis] + 1 + np.arange(*sizes)
+        right, given, wrong = self.right[k][at], self.given[k][at], self.wrong[k][:, at]
+        tolerance = self.criteria[k].tolerance
+
+        def same(numbers: np.ndarray) -> np.ndarray:
+            size = np.abs(numbers)
+            scale = np.maximum(size, LEAST_SCALE * np.max(size, axis=0))
+            scale = np.maximum(scale, of.floor)
+            error = np.abs(wrong - numbers)
+            return np.all(error <= tolerance * np.where(scale > 0, scale, 1.0), axis=1)
+
+        return ~same(right), same(given)
 
     def borne_out(self, named: Sequence[int]) -> np.ndarray:
         """Which mistakes' sentences the numbers bear out: (mistakes,).

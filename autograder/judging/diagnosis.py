@@ -112,11 +112,14 @@ def sentences(
         named = [(wrong.mistakes[i].sentence, true[i]) for i in shown[k]]
         said += [sentence if as_it_is else OF_A_PART + sentence for sentence, as_it_is in named]
         if not shown[k]:
+            some = [wrong.mistakes[i].sentence for i in compared.of_single_numbers(k)]
             right, theirs = _part(k, expected), _part(k, given)
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
             found = findings.of_numbers(criterion, right, theirs, parts)
-            found = found or criterion.unmet(Answered(expected, given, met))
-            said.append(found or ("" if any(said) else elsewhere(k)))
+            if not some:
+                found = found or criterion.unmet(Answered(expected, given, met))
+                found = found or ("" if any(said) else elsewhere(k))
+            said += [*some, found]
         of_each[k] = tuple(dict.fromkeys(filter(None, said[before:])))
     return of_each
 
@@ -148,7 +151,6 @@ def _of_each(
     likely: list[int], spoils: np.ndarray,
 ) -> list[tuple[int, ...]]:  # fmt: skip
     """The places of the mistakes that each criterion shows: one, two or none."""
-    nothing = not any(np.any(part) for case in given for part in case)
     found: list[tuple[int, ...]] = []
     for k, criterion in enumerate(compared.criteria):
         if met[k]:
@@ -171,7 +173,7 @@ def _of_each(
         right, theirs = _part(k, expected), _part(k, given)
         same = _is_one_number(theirs) or not any(map(np.any, theirs))
         if (len(shown) > 1 and same and not _is_one_number(right)) or (
-            nothing and not criterion.is_truth
+            compared.is_zero and not criterion.is_truth
         ):
             shown = ()
         found.append(tuple(kept[i] for i in shown))
