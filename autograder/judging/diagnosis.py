@@ -1,16 +1,19 @@
 """Finds the known mistake that wrong numbers show, or else what can be said of them.
 
 A mistake is named only if the student's numbers equal its numbers to rounding in every random case,
-or those of two mistakes at once. If none matches, `findings` says what is true of the numbers.
+or those of two mistakes at once. What its sentence claims beyond one criterion, the others must bear
+out; else it is said of that part alone. If none matches, `findings` says what is true of the numbers.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol
 
 import numpy as np
 
 from autograder.judging import findings
+from autograder.judging.claims import OF_A_PART, Claim, Compared
 from autograder.judging.criterion import Answered, Criterion
 from autograder.judging.models import Model
 from autograder.judging.quantities import Numbers
@@ -29,17 +32,15 @@ class Mistake:
     """A physics mistake that people make: a wrong model, and the sentence that names it.
 
     wrong: takes the arguments of the student's function and gives what the mistaken one returns.
-    sentence: says where to look, never the formula. whole: it is said only of an answer that it explains
-    altogether, as "twice the right one" is. combines: whether it may be one of two mistakes. of_all:
-    whether it is said only where it explains all that is judged, alone or together with another one.
+    sentence: says where to look, never the formula. claim: of which numbers it speaks. combines: whether
+    it may be one of two mistakes.
     """
 
     name: str
     wrong: Model
     sentence: str
-    whole: bool = False
+    claim: Claim = Claim.CHANGED
     combines: bool = True
-    of_all: bool = False
 
 
 class Catalogue(Protocol):
@@ -73,23 +74,6 @@ class Wrong:
             left = left[same]
         return self.mistakes[left[0]] if len(left) else None
 
-    def add_up(
-        self,
-        shown: tuple[Mistake, ...],
-        criteria: tuple[Criterion, ...],
-        expected: Numbers,
-        given: Numbers,
-    ) -> bool:
-        """Whether the errors of these mistakes add up to those given, in all criteria."""
-        places = [next(i for i, m in enumerate(self.mistakes) if m is one) for one in shown]
-        layout = layouts(given, expected)
-        right, theirs = rows(layout, expected), rows(layout, given)
-        for k, criterion in enumerate(criteria):
-            total = right[k] + np.sum(self.rows[k][places] - right[k], axis=0)
-            if not layout[k].same(total, theirs[k], criterion.allows(met=False)):
-                return False
-        return True
-
 
 def sentences(
     criteria: tuple[Criterion, ...],
@@ -105,65 +89,87 @@ def sentences(
     terms, elsewhere: asked only where no mistake matches. elsewhere: what more can be found out of
     criterion k, "" for nothing; it may cost calls.
     """
+    layout = layouts(given, expected)
+    compared = Compared(
+        criteria, layout, rows(layout, expected), rows(layout, given), wrong.rows,
+        [mistake.claim for mistake in wrong.mistakes],
+    )  # fmt: skip
+    shown, true = _named(compared, expected, given, met, wrong.mistakes)
     said: list[str] = []
     of_each: list[tuple[str, ...]] = [()] * len(criteria)
-    layout = layouts(given, expected)
-    expected_rows, given_rows = rows(layout, expected), rows(layout, given)
-    order, spoils = _likeliest_first(criteria, layout, expected_rows, given_rows, met, wrong)
-    likely = [i for i in order if not wrong.mistakes[i].whole]
-    borne_out = _borne_out(expected_rows, given_rows, wrong)
-    nothing = not any(np.any(part) for case in given for part in case)
-
-    def together(k: int, first: int, second: int) -> bool:
-        """Whether two mistakes that explain criterion k together show in no other as something else."""
-        for other, of in enumerate(layout):
-            if other == k or criteria[other].is_property or criteria[other].is_truth:
-                continue
-            right = expected_rows[other]
-            sums = wrong.rows[other][first] + wrong.rows[other][second] - right
-            tolerance = criteria[other].tolerance
-            if not (of.same(right, sums, tolerance) or of.same(given_rows[other], sums, tolerance)):
-                return False
-        return True
-
     for k, criterion in enumerate(criteria):
         if met[k]:
             continue
         before = len(said)
-        right, theirs = _part(k, expected), _part(k, given)
-        kept = likely
-        if criterion.is_property:
-            kept = [i for i in likely if wrong.mistakes[i].sentence in said]
-        if criterion.is_truth:
-            kept = [i for i in kept if borne_out[i]]
-        row = layout[k].row
-
-        def shown_by(kept: list[int], k: int = k, row=row, right=right, theirs=theirs):
-            # Two mistakes may cancel each other in what is right; one alone cannot.
-            return _shown(
-                layout[k], row(right), row(theirs), [wrong.mistakes[i] for i in kept],
-                wrong.rows[k][kept], criteria[k].is_truth | ~spoils[kept],
-                lambda i, j: together(k, kept[i], kept[j]), criteria[k].allows(False),
-            )  # fmt: skip
-
-        shown = shown_by(kept)
-        if any(m.of_all for m in shown) and not wrong.add_up(shown, criteria, expected, given):
-            shown = shown_by([i for i in kept if not wrong.mistakes[i].of_all])
-        # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.
-        # And nothing but zeros shows a mistake only where this explains the whole answer.
-        same = _is_one_number(theirs) or not any(map(np.any, theirs))
-        if (len(shown) > 1 and same and not _is_one_number(right)) or (
-            nothing and not criterion.is_truth
-        ):
-            shown = ()
-        said += [mistake.sentence for mistake in shown]
-        if not shown:
+        named = [(wrong.mistakes[i].sentence, true[i]) for i in shown[k]]
+        said += [sentence if as_it_is else OF_A_PART + sentence for sentence, as_it_is in named]
+        if not shown[k]:
+            some = [wrong.mistakes[i].sentence for i in compared.of_single_numbers(k)]
+            right, theirs = _part(k, expected), _part(k, given)
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
             found = findings.of_numbers(criterion, right, theirs, parts)
-            found = found or criterion.unmet(Answered(expected, given, met))
-            said.append(found or ("" if any(said) else elsewhere(k)))
+            if not some:
+                found = found or criterion.unmet(Answered(expected, given, met))
+                found = found or ("" if any(said) else elsewhere(k))
+            said += [*some, found]
         of_each[k] = tuple(dict.fromkeys(filter(None, said[before:])))
     return of_each
+
+
+def _named(
+    compared: Compared, expected: Numbers, given: Numbers, met: list[bool], mistakes: list[Mistake]
+) -> tuple[list[tuple[int, ...]], np.ndarray]:
+    """The places of the mistakes that each criterion shows; and whose sentences are true as they stand.
+
+    Those that the whole answer bears out come first. Where it bears none out, one may be named that a
+    part shows, but for those that claim properties, which no part shows.
+    """
+    order, spoils = _likeliest_first(compared, met)
+    likely = [i for i in order if mistakes[i].claim is not Claim.WHOLE]
+    doubted: set[int] = set()
+    while True:
+        kept = [i for i in likely if i not in doubted]
+        kept += [i for i in likely if i in doubted and mistakes[i].claim is Claim.CHANGED]
+        shown = _of_each(compared, expected, given, met, mistakes, kept, spoils)
+        named = sorted({i for found in shown for i in found})
+        true = compared.borne_out(named)
+        if doubted.issuperset(i for i in named if not true[i]):
+            return shown, true
+        doubted.update(np.flatnonzero(~true).tolist())
+
+
+def _of_each(
+    compared: Compared, expected: Numbers, given: Numbers, met: list[bool], mistakes: list[Mistake],
+    likely: list[int], spoils: np.ndarray,
+) -> list[tuple[int, ...]]:  # fmt: skip
+    """The places of the mistakes that each criterion shows: one, two or none."""
+    found: list[tuple[int, ...]] = []
+    for k, criterion in enumerate(compared.criteria):
+        if met[k]:
+            found.append(())
+            continue
+        kept = likely
+        if criterion.is_property:
+            before = {mistakes[i].sentence for shown in found for i in shown}
+            kept = [i for i in likely if mistakes[i].sentence in before]
+        if criterion.is_truth:
+            kept = [i for i in kept if compared.of_truths[i]]
+        # Two mistakes may cancel each other in what is right; one alone cannot.
+        shown = _shown(
+            compared.layout[k], compared.right[k], compared.given[k], [mistakes[i] for i in kept],
+            compared.wrong[k][kept], criterion.is_truth | ~spoils[kept],
+            partial(compared.together, k, kept), criterion.allows(False),
+        )  # fmt: skip
+        # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.
+        # And nothing but zeros shows a mistake only where this explains the whole answer.
+        right, theirs = _part(k, expected), _part(k, given)
+        same = _is_one_number(theirs) or not any(map(np.any, theirs))
+        if (len(shown) > 1 and same and not _is_one_number(right)) or (
+            compared.is_zero and not criterion.is_truth
+        ):
+            shown = ()
+        found.append(tuple(kept[i] for i in shown))
+    return found
 
 
 def _is_one_number(values: list[np.ndarray]) -> bool:
@@ -172,39 +178,17 @@ def _is_one_number(values: list[np.ndarray]) -> bool:
     return bool(np.any(first)) and all(np.array_equal(first, other) for other in values[1:])
 
 
-def _likeliest_first(
-    criteria: tuple[Criterion, ...],
-    layout: list[Layout],
-    expected: list[np.ndarray],
-    given: list[np.ndarray],
-    met: list[bool],
-    wrong: Wrong,
-) -> tuple[np.ndarray, np.ndarray]:
+def _likeliest_first(compared: Compared, met: list[bool]) -> tuple[np.ndarray, np.ndarray]:
     """The places of the mistakes, those last that are less likely where several explain a criterion; and
     which mistakes spoil what is right in the answer.
 
     Less likely is one that spoils what is right in the answer; that explains fewer criteria; that shows
     in others what the answer does not.
     """
-    spoils, same, unseen = np.zeros((3, len(wrong.mistakes)), dtype=int)
-    for k, criterion in enumerate(criteria):
-        right = layout[k].same(expected[k], wrong.rows[k], criterion.tolerance)
-        shows = ~right & layout[k].same(given[k], wrong.rows[k], criterion.allows(met=False))
-        spoils |= met[k] & ~right
-        same += shows
-        unseen += ~(right | shows)
-    return np.lexsort((unseen, -same, spoils)), spoils > 0
-
-
-def _borne_out(expected: list[np.ndarray], given: list[np.ndarray], wrong: Wrong) -> np.ndarray:
-    """Which mistakes' errors the answer has all of, where numbers are counts or truths.
-
-    Of so few different numbers those of one criterion may be a mistake's by chance.
-    """
-    found = np.ones(len(wrong.mistakes), dtype=bool)
-    for right, theirs, own in zip(expected, given, wrong.rows, strict=True):
-        found &= np.all((own == right) | (own == theirs), axis=1)
-    return found
+    changed, shown = compared.changed, compared.shown
+    spoils = np.any(changed & met, axis=1)
+    explained, unseen = np.sum(shown, axis=1), np.sum(changed & ~shown, axis=1)
+    return np.lexsort((unseen, -explained, spoils)), spoils
 
 
 def _shown(
@@ -216,13 +200,13 @@ def _shown(
     alone: np.ndarray,
     together: Callable[[int, int], bool],
     tolerance: float,
-) -> tuple[Mistake, ...]:
-    """alone: which of them may be the only one. together: which two of them may be both."""
+) -> tuple[int, ...]:
+    """The places of one or two. alone: which may be the only one. together: which two may be both."""
     if not mistakes:
         return ()
     off = ~layout.same(expected, wrong, tolerance)
     if (one := np.flatnonzero(off & alone & layout.same(wrong, given, tolerance))).size:
-        return (mistakes[one[0]],)
+        return (int(one[0]),)
     combines = np.array([mistake.combines for mistake in mistakes])
     places = np.flatnonzero(off & combines & np.all(np.isfinite(wrong), axis=1))
     errors = wrong[places] - expected
@@ -238,7 +222,7 @@ def _shown(
         )
         for at in np.flatnonzero(found):
             if together(places[i[at]], places[j[at]]):
-                return mistakes[places[i[at]]], mistakes[places[j[at]]]
+                return int(places[i[at]]), int(places[j[at]])
     return ()
 
 

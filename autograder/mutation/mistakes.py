@@ -52,8 +52,7 @@ def mistakes_of(mechanism: Outline, answer: str) -> list[Mistake]:
             m.name,
             _Wrong(mechanism, answer, k),
             said,
-            whole=m.is_of_whole,
-            of_all=answer == "C" and not m.is_of_a_product,
+            m.claim(answer),
             combines=m.operator not in ("doubled", "halved"),
         )
         for k, (m, said) in enumerate(zip(mutants, kept.entry(parts, made, read), strict=True))

@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass, replace
 
+from autograder.judging.claims import Claim
 from autograder.mutation.steps import STEPS
 
 
@@ -44,15 +45,16 @@ class Mutant:
         """Whether it was done to the answer, not to a term of it."""
         return not self.source and self.operator in STEP_NAMES
 
-    @property
-    def is_of_whole(self) -> bool:
-        """Whether it was done to the answer as a whole, so that no part shows it by itself."""
-        return not self.source and self.operator in OF_THE_WHOLE
+    def claim(self, answer: str) -> Claim:
+        """Of which numbers of the answer its sentence speaks.
 
-    @property
-    def is_of_a_product(self) -> bool:
-        """Whether it shows in C q̇ by itself: a term, or a product of two velocities in a row."""
-        return not self.is_step and not re.fullmatch(r"C\d+", self.entry)
+        C q̇ alone shows a term, or a product of two velocities in a row; of anything else in C it shows
+        nothing, and the properties must bear it out.
+        """
+        if not self.source and self.operator in OF_THE_WHOLE:
+            return Claim.WHOLE
+        of_a_product = not self.is_step and not re.fullmatch(r"C\d+", self.entry)
+        return Claim.JUDGED if answer == "C" and not of_a_product else Claim.CHANGED
 
     def within(self, source: str) -> "Mutant":
         """The same mistake, seen in an answer that follows from `source`."""

@@ -12,6 +12,7 @@ from functools import lru_cache, partial
 import numpy as np
 
 from autograder.judging.check import Check
+from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.quantities import each
 from autograder.mutation.generated import Generated
@@ -152,13 +153,14 @@ def _copied(own: Convention, check: Check) -> tuple[Mistake, ...]:
             Mistake(name, partial(_drift_of, own, P), sentence)
             for name, P, sentence in mistaken_pull(own, "potential_energy")
         )
-    whole = check.id != "p2-C_other"  # of which there are many
+    # Of right answers to p2-C_other there are many.
+    claim = Claim.CHANGED if check.id == "p2-C_other" else Claim.WHOLE
     return tuple(
         Mistake(
             f"right for {member.name}",
             _right(member, check),
             _said(own, member, "answer is"),
-            whole,
+            claim,
         )
         for member in others
     ) + tuple(

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations
 
+from autograder.judging.claims import OF_A_PART
 from autograder.problems import check_for
 from autograder.report.answers import anonymous
 from autograder.report.students import Student
@@ -53,7 +54,8 @@ def mistakes_made(students: Iterable[Student]) -> list[Made]:
     to_whom = defaultdict(list)
     for student in students:
         for check, verdict in student.verdicts.items():
-            for sentence in dict.fromkeys(verdict["diagnosis"]):
+            said = (sentence.removeprefix(OF_A_PART) for sentence in verdict["diagnosis"])
+            for sentence in dict.fromkeys(said):
                 to_whom[check, sentence].append(student.name)
     made = [
         Made(check, _name_of(check, sentence), sentence, tuple(names))

@@ -20,6 +20,7 @@ import numpy as np
 import sympy
 
 from autograder.judging.check import VISIBLE_CASES, Check
+from autograder.judging.claims import Claim
 from autograder.judging.verdict import State
 from autograder.mechanisms import MECHANISMS
 from autograder.mutation.checks import check_of
@@ -188,7 +189,7 @@ def generated() -> str:
                 spent.append(time.process_time() - start)
         check, known = check_of(mechanism, answer), mistakes_of(mechanism, answer)
         right = check.reference
-        first, second = [m.wrong for m in known if m.combines and not m.whole][5:7]
+        first, second = [m.wrong for m in known if m.combines and m.claim is not Claim.WHOLE][5:7]
         answers = (
             right,
             first,

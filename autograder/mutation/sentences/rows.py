@@ -146,15 +146,4 @@ ROWS = (
         "C is multiplied by q̇?",
         "regressor",
     ),
-    # What judges columns knows nothing of the rest of a row: it is said of the columns that show it.
-    *(
-        Row(operator, f"Here, {said}", "regressor", term=part, entry="row *")
-        for part in ("M q̈", "C q̇", "g(q)")
-        for operator, said in (
-            ("dropped", "your {where} lacks {term}."),
-            ("wrong sign", "{term} has the wrong sign in your {where}."),
-            ("doubled", "your {where} counts {term} twice."),
-            ("halved", "{term} is half of what it should be in your {where}."),
-        )
-    ),
 )

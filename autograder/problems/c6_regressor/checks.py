@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
+from autograder.judging.claims import Claim
 from autograder.judging.criterion import Answered, Said
 from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.section import Section
@@ -284,7 +285,7 @@ CHECKS = (
             ),
         ),
         # Counts are so few that those of one criterion may be a mistake's by chance.
-        mistakes=tuple(replace(mistake, whole=True) for mistake in mistakes.RANK),
+        mistakes=tuple(replace(mistake, claim=Claim.WHOLE) for mistake in mistakes.RANK),
         hints=(
             "Each sample gives a Y with two rows. Put the rows of all samples under each other: the "
             "matrix W has 2K rows and 6 columns. How many of its columns are independent?",

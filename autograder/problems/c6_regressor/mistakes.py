@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
 from autograder.problems.material import sentences
 from autograder.problems.material.planar_2r import (
@@ -259,13 +260,15 @@ REGRESSOR = (
         _plus(lambda s, arm: {(0, M1): arm.lc1 * arm.g * s.c1, (0, MC1): -arm.g * s.c1}),
         "You put the weight of link 1 into the column of m1, with ℓc1 in Y. ℓc1 is one of the "
         "unknowns: which entry of π holds it already?",
-        whole=True,
+        claim=Claim.WHOLE,
     ),
-    Mistake("each link reversed", _columns(J1, MC1, M1, J2, MC2, M2), ORDER, whole=True),
-    Mistake("inertia first", _columns(J1, M1, MC1, J2, M2, MC2), ORDER, whole=True),
-    Mistake("inertia before first moment", _columns(M1, J1, MC1, M2, J2, MC2), ORDER, whole=True),
-    Mistake("first moment first", _columns(MC1, M1, J1, MC2, M2, J2), ORDER, whole=True),
-    Mistake("link 2 first", _columns(M2, MC2, J2, M1, MC1, J1), ORDER, whole=True),
+    Mistake("each link reversed", _columns(J1, MC1, M1, J2, MC2, M2), ORDER, claim=Claim.WHOLE),
+    Mistake("inertia first", _columns(J1, M1, MC1, J2, M2, MC2), ORDER, claim=Claim.WHOLE),
+    Mistake(
+        "inertia before first moment", _columns(M1, J1, MC1, M2, J2, MC2), ORDER, claim=Claim.WHOLE
+    ),
+    Mistake("first moment first", _columns(MC1, M1, J1, MC2, M2, J2), ORDER, claim=Claim.WHOLE),
+    Mistake("link 2 first", _columns(M2, MC2, J2, M1, MC1, J1), ORDER, claim=Claim.WHOLE),
     *(
         Mistake(
             f"the column of {name} in that of m1",

@@ -9,6 +9,7 @@ from math import pi
 
 import numpy as np
 
+from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.quantities import each
 from autograder.problems.material import sampling
@@ -82,7 +83,10 @@ def mistaken(own: Convention) -> tuple[Mistake, ...]:
         _held("link 1 down only", own, [(along, along), (along, against)], ALONG),
         *(
             Mistake(
-                f"in degrees from {least}", partial(_in_degrees, own, least), DEGREES, whole=True
+                f"in degrees from {least}",
+                partial(_in_degrees, own, least),
+                DEGREES,
+                claim=Claim.WHOLE,
             )
             for least in (-179, -90, 0)
         ),
@@ -122,4 +126,6 @@ def _in_degrees(own: Convention, least: float, arm) -> np.ndarray:
 
 
 def _held(name: str, own: Convention, directions: list, sentence: str) -> Mistake:
-    return Mistake(name, lambda arm: own.angles_at(np.array(directions)), sentence, whole=True)
+    return Mistake(
+        name, lambda arm: own.angles_at(np.array(directions)), sentence, claim=Claim.WHOLE
+    )

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
 from autograder.problems.material import sentences
 from autograder.problems.material.definiteness import ROUNDING, is_symmetric, least_eigenvalue
@@ -341,20 +342,20 @@ IS_SPD = (
         "answer reversed",
         lambda A: not (is_symmetric(A) and least_eigenvalue(A) > ROUNDING),
         "You swapped True and False. What should your function say of the identity?",
-        whole=True,
+        claim=Claim.WHOLE,
     ),
     Mistake(
         "always True",
         lambda A: True,
         "Your function accepts every matrix that was tried. What should it say of −1 times the "
         "identity?",
-        whole=True,
+        claim=Claim.WHOLE,
     ),
     Mistake(
         "always False",
         lambda A: False,
         "Your function refuses every matrix that was tried. What should it say of the identity?",
-        whole=True,
+        claim=Claim.WHOLE,
     ),
 )
 

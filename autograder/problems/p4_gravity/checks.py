@@ -6,6 +6,7 @@ from math import pi
 import numpy as np
 
 from autograder.judging.check import Check, Criterion
+from autograder.judging.claims import Claim
 from autograder.judging.criterion import Answered, Said
 from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.section import Section
@@ -271,7 +272,8 @@ CHECKS = (
             ),
         ),
         mistakes=tuple(
-            replace(mistake, whole=mistake.name in OF_ALL) for mistake in mistakes.EQUILIBRIA
+            replace(mistake, claim=Claim.WHOLE) if mistake.name in OF_ALL else mistake
+            for mistake in mistakes.EQUILIBRIA
         ),
         hints=(
             "Begin with joint 2: when is its torque zero? Say it first in words, with the direction "

@@ -9,6 +9,7 @@ import pytest
 import armdyn.equilibria
 from armdyn import Planar2R
 from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
+from autograder.judging.claims import OF_A_PART
 from autograder.judging.verdict import State
 from autograder.notebook.grade import stream
 from autograder.problems import CHECKS
@@ -99,7 +100,8 @@ def test_what_is_missing_is_told_apart_though_another_configuration_is_there():
     """The distances alone must not take absolute angles for angles from the vertical."""
     pairs = f"[(a, b) for a in (-{HALF_PI}, {HALF_PI}) for b in (-{HALF_PI}, {HALF_PI})]"
     said = judged("p4-equilibria", f"{pairs} + [(0, 0)]").diagnosis
-    assert said[1:] == sentences("p4-equilibria", "absolute second angle")
+    (sentence,) = sentences("p4-equilibria", "absolute second angle")
+    assert said[1:] == (f"{OF_A_PART}{sentence}",)
 
 
 @pytest.mark.parametrize("left_out", range(4))
