@@ -1,10 +1,12 @@
 """On a phone nothing of ours scrolls sideways; and what a screen reader finds on a card."""
 
+import numpy as np
 import pytest
 from nbgrader.converters import GenerateFeedback
 from nbgrader.coursedir import CourseDirectory
 from playwright.sync_api import expect
 
+from autograder import worked_answers
 from autograder.judging.card import mimebundle
 from autograder.nbgrader_glue import feedback
 from autograder.nbgrader_glue.release import configuration
@@ -12,6 +14,9 @@ from autograder.notebook.outputs import display
 from autograder.notebook.scores import with_verdicts
 from autograder.pictures.offers import offer
 from autograder.problems import CHECKS, known_check
+from autograder.proofs import DERIVATIONS, mark
+from autograder.proofs import card as proof_card
+from autograder.protocol import handed_in
 from autograder.student import below, watch
 from autograder.student.cell import verdict_on
 from tests.autograder.course_problems import ROOT, problem
@@ -37,12 +42,23 @@ def html_of(check_id: str, source: str = "") -> str:
     return mimebundle(verdict, lines, below.points(verdict))["text/html"]
 
 
+def proofs() -> list[str]:
+    """The cards of a derivation that is not begun, and of one with long lines that do not hold."""
+    line = (" + ".join(20 * ["qd'M qdd"]), "product rule")
+    states = np.random.default_rng(0)
+    marked = [mark(DERIVATIONS["p2-E"], handed_in(lines), states) for lines in ([], [line, line])]
+    return [proof_card.mimebundle(one)["text/html"] for one in marked]
+
+
 @pytest.fixture(scope="module")
 def cards(tmp_path_factory) -> str:
-    """The address of a page with the card of a wrong answer to each check, all of it unfolded."""
+    """The address of a page with the cards, all unfolded; of each check that of a wrong answer."""
     shown = [html_of(check_id) for check_id in CHECKS]
     shown.append(html_of("p1-M", FAILING))
     cart = watch.shown(known_check("cart-pole-M"), {"M": function("cart-pole-M", CART)})
+    shown += proofs()
+    answer = f"def M(q, arm):\n    return {' + '.join(30 * ['arm.m2'])}"
+    shown.append(worked_answers.mimebundle("p1-M", answer, False)["text/html"])
     body = "".join(shown).replace("<details", "<details open") + cart["text/html"]
     file = tmp_path_factory.mktemp("cards") / "cards.html"
     # As in a phone's notebook; the dark theme changes only colours, which the page has from JupyterLab.

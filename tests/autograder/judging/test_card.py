@@ -427,7 +427,7 @@ def test_plain_text_shows_a_long_call_up_to_a_few_lines():
 
 
 def test_python_in_plain_text_is_broken_only_where_it_still_runs():
-    call = f"from autograder import watch; watch({('p1-' + 9 * 'M')!r})"
+    call = f"from autograder import watch; watch({('p1-' + 20 * 'M')!r})"
     bundle = mimebundle(
         Verdict("a", State.INCORRECT), [Line.with_code("See what it does: {}", call)]
     )

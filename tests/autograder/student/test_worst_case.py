@@ -162,6 +162,20 @@ def test_more_digits_are_shown_where_few_would_not_fail():
     assert q.shape == (1,)
 
 
+def test_a_call_in_few_digits_is_of_the_criterion_that_the_card_names():
+    """M11 is wrong only where l1 has more than four digits; M22 always."""
+    check = CHECKS["p1-M"]
+    namespace = namespace_of(check)
+    namespace["M"] = lambda q, arm: (
+        check.reference(q, arm) + np.diag([float(round(arm.l1, 4) != arm.l1), 1.0])
+    )
+    verdict = verdict_on(check.id, namespace)
+    assert [row.met for row in verdict.rows] == [False, True, False]
+    assert verdict.witness.where == "M[0, 0]"
+    wrong = eval(verdict.witness.call, namespace) - check.reference(*map(real, verdict.worst.args))
+    assert wrong[0, 0] == pytest.approx(1.0)
+
+
 def test_some_calls_need_all_digits_and_most_do_not():
     """is_spd(A) of a matrix that is symmetric up to rounding: with few digits it would be symmetric."""
     check = CHECKS["p1-is_spd"]
