@@ -48,6 +48,14 @@ _SYMPY = (
     (r"\bDerivative\(q, t\)", " qd "),
     (r"\bDerivative\((\w+), (t|qd|q)\)", r" d/d\2(\1) "),
 )
+# What Python makes of LaTeX in a text without r"…".
+_ESCAPED = (
+    (r"\t(?=frac|ext|imes|op)", r"\\t"),
+    (r"\f(?=rac)", r"\\f"),
+    (r"\x08(?=ig|oxed)", r"\\b"),
+    (r"\r(?=ight)", r"\\r"),
+    (r"\v(?=ec)", r"\\v"),
+)
 _SIGNS = {
     "½": "(1/2)", "²": "^2", "³": "^3", "⁻¹": "^-1", "ᵀ": "'", "−": "-", "–": "-", "·": "*",
     "×": "*", "≥": ">=", "∂": "d", "ℓ": " l", "₁": "1", "₂": "2", "′": "'", "’": "'", "⊤": "'",
@@ -62,6 +70,8 @@ _DOTTED = (
 
 def plain(text: str) -> str:
     """The formula in one notation. What is no formula stays as it is, for the parser to refuse."""
+    for pattern, written in _ESCAPED:
+        text = re.sub(pattern, written, text)
     for mark in (r"\bigl", r"\bigr", r"\Bigl", r"\Bigr"):
         text = text.replace(mark, "")
     text = unicodedata.normalize("NFD", text)

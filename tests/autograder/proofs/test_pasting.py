@@ -6,8 +6,10 @@ import pytest
 from autograder.proofs import DERIVATIONS
 from autograder.proofs.energy import FREE, N
 from autograder.proofs.evaluating import value_of
+from autograder.proofs.notation import plain
 from autograder.proofs.parsing import LineError, relation_and_sides
 from autograder.proofs.subject import World
+from autograder.protocol import handed_in
 
 BY_K = r"\frac{\partial M_{ij}}{\partial q_k}"
 BY_J = r"\frac{\partial M_{ik}}{\partial q_j}"
@@ -85,6 +87,30 @@ def test_a_formula_of_the_course_is_read(id, pasted, ours):
     _, _, right = relation_and_sides(pasted)
     read, expected = (world.value(subject.parser.read(text)).numbers for text in (right, ours))
     np.testing.assert_allclose(*np.broadcast_arrays(read, expected), atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "typed",
+    [
+        "\tfrac12 \\dot q^T M \\dot q",
+        "\\left(\frac{1}{2}\right) \bigl(\\dot q^T M \\dot q\bigr)",
+        "\frac{1}{2} \times \\dot q^\top M \\dot q",
+        "\boxed{\tfrac12 \\dot q^{\text{T}} M \\dot q}",
+    ],
+)
+def test_a_text_without_r_is_read_as_well(typed):
+    """Where Python has made one sign of a backslash and the letter behind it."""
+    ((line, _),) = handed_in([(typed, "algebra")]).lines
+    _, _, right = relation_and_sides(line)
+    world = World(FREE, np.random.default_rng(0), ())
+    read, expected = (
+        world.value(FREE.parser.read(text)).numbers for text in (right, "1/2 qd' M qd")
+    )
+    np.testing.assert_allclose(read, expected)
+
+
+def test_a_vector_without_r():
+    assert plain("\vec g_0").split() == ["g0"]
 
 
 @pytest.mark.parametrize(
