@@ -57,8 +57,8 @@ class HandedIn:
 
 
 def never_met(students: list[Student]) -> list[NeverMet]:
-    """In the order of the checks. Verdicts that store no criteria, as older ones do not, say nothing; but
-    of a check of which each answer stopped with an error, nobody met anything.
+    """In the order of the checks. Verdicts that store no criteria, as older ones do not, say nothing;
+    but of a check that stopped every answer with an error, nobody met anything.
     """
     tried: dict[tuple[str, str], int] = {}
     met: set[tuple[str, str]] = set()
