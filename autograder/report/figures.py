@@ -69,16 +69,16 @@ def never_met(students: list[Student]) -> list[NeverMet]:
                 tried[of] = tried.get(of, 0) + 1
                 if row["met"]:
                     met.add(of)
-    stopped = Counter(
-        check
+    states = Counter(
+        (check, verdict["state"])
         for student in students
         for check, verdict in student.verdicts.items()
-        if verdict["state"] == State.ERROR
+        if verdict["state"] != State.NOT_ATTEMPTED
     )
-    judged = {check for check, _ in tried}
-    for check in stopped.keys() - judged:
-        known = check_for(check)
-        tried |= {(check, c.text): stopped[check] for c in (known.criteria if known else ())}
+    judged = {check for check, state in states if state != State.ERROR}
+    for (check, _), count in states.items():
+        if check not in judged and (known := check_for(check)):
+            tried |= {(check, criterion.text): count for criterion in known.criteria}
     order = list(dict.fromkeys(check for student in students for check in student.verdicts))
     never = [NeverMet(*of, count) for of, count in tried.items() if of not in met]
     return sorted(never, key=lambda one: order.index(one.check))

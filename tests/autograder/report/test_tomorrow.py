@@ -101,6 +101,9 @@ def test_of_a_check_that_stopped_every_answer_nobody_met_a_criterion():
         figures.NeverMet("p3-M", "inertia about the pivot", 2),
         figures.NeverMet("p3-lagrangian", "potential <i>part", 1),
     ]
+    old = {key: value for key, value in verdict("p3-M").items() if key != "rows"}
+    told.append(Student("dee", 1.0, 0, {"p3-M": old}))
+    assert [one.check for one in figures.never_met(told)] == ["p3-lagrangian"]
 
 
 def test_verdicts_of_an_earlier_version_have_no_criteria_and_are_read():
