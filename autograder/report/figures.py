@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from statistics import median
 
+from autograder.judging.verdict import State
+from autograder.problems import check_for
 from autograder.report.students import Class, Student
 
 
@@ -55,7 +57,9 @@ class HandedIn:
 
 
 def never_met(students: list[Student]) -> list[NeverMet]:
-    """In the order of the checks. Verdicts that store no criteria, as older ones do not, say nothing."""
+    """In the order of the checks. Verdicts that store no criteria, as older ones do not, say nothing;
+    but of a check that stopped every answer with an error, nobody met anything.
+    """
     tried: dict[tuple[str, str], int] = {}
     met: set[tuple[str, str]] = set()
     for student in students:
@@ -65,7 +69,19 @@ def never_met(students: list[Student]) -> list[NeverMet]:
                 tried[of] = tried.get(of, 0) + 1
                 if row["met"]:
                     met.add(of)
-    return [NeverMet(*of, count) for of, count in tried.items() if of not in met]
+    states = Counter(
+        (check, verdict["state"])
+        for student in students
+        for check, verdict in student.verdicts.items()
+        if verdict["state"] != State.NOT_ATTEMPTED
+    )
+    judged = {check for check, state in states if state != State.ERROR}
+    for (check, _), count in states.items():
+        if check not in judged and (known := check_for(check)):
+            tried |= {(check, criterion.text): count for criterion in known.criteria}
+    order = list(dict.fromkeys(check for student in students for check in student.verdicts))
+    never = [NeverMet(*of, count) for of, count in tried.items() if of not in met]
+    return sorted(never, key=lambda one: order.index(one.check))
 
 
 def hints_seen(of: Class) -> list[HintsSeen]:

@@ -12,7 +12,8 @@ from autograder.judging.passages import failing
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
 from autograder.protocol import FaultKind, Reply, answer, calls
-from tests.autograder.verdicts import function_of, judged, namespace_of
+from tests.autograder.problems.tables import gathered
+from tests.autograder.verdicts import function_of, judged, namespace_of, verdict_of
 
 ASKED = {"p1-M": 12, "p1-is_spd": 17, "p4-equilibria": 2}
 
@@ -169,6 +170,50 @@ def test_nothing_that_came_back_is_the_fault_of_the_check(check):
             assert verdict.state is not State.CHECK_FAILED, (value, other, verdict.problem)
             if verdict.state is State.CORRECT:
                 assert all(map(is_finite, values))
+
+
+RIGHT = gathered("right", "RIGHT")
+
+
+def nowhere_finite(value):
+    match value:
+        case tuple([dict(arm), q]):
+            return arm | {"I2": np.nan}, q
+        case list() | tuple():
+            return np.full(np.shape(value), np.nan)
+        case bool():
+            return np.nan
+    return value * np.nan
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [lambda value: 1 / 0, lambda value: None, nowhere_finite],
+    ids=["error", "nothing", "NaN"],
+)
+@pytest.mark.parametrize("check_id", RIGHT)
+def test_of_every_check_the_one_call_that_fails_is_shown(check_id, spoil):
+    """And where it gave numbers, the criteria that have nothing to do with it keep their credit."""
+    check = CHECKS[check_id]
+    given, made = RIGHT[check_id][0], []
+    right = given if callable(given) else namespace_of(check_id, given)[check.name]
+
+    def spoilt_once(*args):
+        made.append(args)
+        value = right(*args)
+        return spoil(value) if len(made) == 1 else value
+
+    verdict = verdict_of(check, {check.name: spoilt_once}, count=VISIBLE_CASES)
+    failed = verdict.failed
+    assert (failed.count, failed.tried) == (1, len(made))
+    assert failed.of.name == check.name
+    assert failing(failed)[0].endswith(failed.call)
+    assert (failed.given_by == "") == (check.signature == f"{check.name}()")
+    assert verdict.credit == sum(row.share for row in verdict.rows if row.met) < 1
+    if spoil is not nowhere_finite:
+        assert verdict.state is State.ERROR
+    elif check_id in ("c6-rank_of_excitation", "c6-identify", "p5-rk4_step", "p5-energy_drift"):
+        assert verdict.credit > 0  # each of their criteria is about other calls
 
 
 ROOT_IN_AN_ENTRY = """A = sp.ones(len(q), len(q))

@@ -90,6 +90,22 @@ def test_criteria_that_nobody_met():
     assert "nobody met: p3-lagrangian: potential <i>part" in report.summary(15.0, told)
 
 
+def test_of_a_check_that_stopped_every_answer_nobody_met_a_criterion():
+    stopped = {"state": State.ERROR.value, "credit": 0.0, "diagnosis": [], "rows": []}
+    told = [
+        Student(name, 1.0, 0, {id: {"check": id} | stopped for id in ("p3-M", "p3-lagrangian")})
+        for name in ("ada", "bob")
+    ]
+    told.append(Student("cem", 1.0, 0, {"p3-lagrangian": verdict("p3-lagrangian")}))
+    assert figures.never_met(told) == [
+        figures.NeverMet("p3-M", "inertia about the pivot", 2),
+        figures.NeverMet("p3-lagrangian", "potential <i>part", 1),
+    ]
+    old = {key: value for key, value in verdict("p3-M").items() if key != "rows"}
+    told.append(Student("dee", 1.0, 0, {"p3-M": old}))
+    assert [one.check for one in figures.never_met(told)] == ["p3-lagrangian"]
+
+
 def test_verdicts_of_an_earlier_version_have_no_criteria_and_are_read():
     old = {key: value for key, value in verdict("p3-M", "One.").items() if key != "rows"}
     told = [Student("ada", 1.0, 0, {"p3-M": old})]
