@@ -180,15 +180,19 @@ def _passage(passage: Passage) -> str:
 
 
 def _rows(verdict: Verdict) -> str:
-    """The criteria, each with what is said of it. Those not met differ by word, by mark and by a bar."""
+    """The criteria, each with what is said of it. Those not met differ by word, by mark and by a bar.
+
+    A single criterion has the whole credit, so its share says nothing.
+    """
     items = []
     for row, said in verdict.said_of_rows():
         mark, bar = ("✓", "transparent") if row.met else ("✗", NOT_MET)
         sentences = "".join(_passage(Passage("diagnosis", sentence)) for sentence in said)
+        share = f" ({row.share:.0%})" if len(verdict.rows) > 1 else ""
         items.append(
             f'<li style="border-left: 3px solid {bar}; padding-left: 0.6em; margin: 0.3em 0">'
             f'<span aria-hidden="true">{mark} </span>'
-            f"<span>{'met' if row.met else 'not met'}: {escape(row.text)} ({row.share:.0%})</span>"
+            f"<span>{'met' if row.met else 'not met'}: {escape(row.text)}{share}</span>"
             f"{sentences}</li>"
         )
     # Without its bullets, a list is none to some screen readers unless its role says so.

@@ -211,6 +211,7 @@ def test_rows_are_marked_in_words_and_in_plain_text():
     assert "  [x] kinetic part (50%)\n  [ ] potential part (50%)\n" in plain
     alone = Verdict("a", State.CORRECT, 1.0, (Row("kinetic part", 1.0, True),))
     assert str(alone) == "a: correct\n  [x] kinetic part"
+    assert "met: kinetic part" in Card(html_card(alone)).words
 
 
 def test_without_inputs_only_the_size_of_the_error_is_told():
