@@ -32,6 +32,7 @@ class Mistake:
     sentence: says where to look, never the formula. whole: it is said only of an answer that it explains
     altogether, as "twice the right one" is. combines: whether it may be one of two mistakes. of_all:
     whether it is said only where it explains all that is judged, alone or together with another one.
+    seldom: whether any other that spoils nothing is likelier.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Mistake:
     whole: bool = False
     combines: bool = True
     of_all: bool = False
+    seldom: bool = False
 
 
 class Catalogue(Protocol):
@@ -106,12 +108,14 @@ def sentences(
     met: list[bool],
     wrong: Wrong,
     terms: Callable[[], list[tuple[Term, Numbers]]],
+    unsteady: Callable[[int], str],
     elsewhere: Callable[[int], str],
 ) -> list[tuple[str, ...]]:
     """What to say of each criterion, where no mistake explains the whole answer: () of those met.
 
-    terms, elsewhere: asked only where no mistake matches. elsewhere: what more can be found out of
-    criterion k, "" for nothing; it may cost calls.
+    terms, unsteady, elsewhere: asked only where no mistake matches. unsteady: what to say of criterion k
+    where the same calls give other numbers. elsewhere: what more can be found out of it. Both give ""
+    for nothing, and may cost calls.
     """
     said: list[str] = []
     of_each: list[tuple[str, ...]] = [()] * len(criteria)
@@ -120,10 +124,17 @@ def sentences(
     order, spoils = _likeliest_first(criteria, layout, expected_rows, given_rows, met, wrong)
     likely = [i for i in order if not wrong.mistakes[i].whole]
     borne_out = _borne_out(expected_rows, given_rows, wrong)
+    # One of these by itself would have explained the whole answer.
+    of_all = np.array([mistake.of_all for mistake in wrong.mistakes], dtype=bool)
     nothing = not any(np.any(part) for case in given for part in case)
 
     def together(k: int, first: int, second: int) -> bool:
-        """Whether two mistakes that explain criterion k together show in no other as something else."""
+        """Whether two mistakes that explain criterion k together show in no other as something else, and
+        add up to the whole answer where one of them is said of that alone.
+        """
+        both = (wrong.mistakes[first], wrong.mistakes[second])
+        if any(m.of_all for m in both) and not wrong.add_up(both, criteria, expected, given):
+            return False
         for other, of in enumerate(layout):
             if other == k or criteria[other].is_property or criteria[other].is_truth:
                 continue
@@ -150,13 +161,11 @@ def sentences(
             # Two mistakes may cancel each other in what is right; one alone cannot.
             return _shown(
                 layout[k], row(right), row(theirs), [wrong.mistakes[i] for i in kept],
-                wrong.rows[k][kept], criteria[k].is_truth | ~spoils[kept],
+                wrong.rows[k][kept], (criteria[k].is_truth | ~spoils[kept]) & ~of_all[kept],
                 lambda i, j: together(k, kept[i], kept[j]), criteria[k].allows(False),
             )  # fmt: skip
 
         shown = shown_by(kept)
-        if any(m.of_all for m in shown) and not wrong.add_up(shown, criteria, expected, given):
-            shown = shown_by([i for i in kept if not wrong.mistakes[i].of_all])
         # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.
         # And nothing but zeros shows a mistake only where this explains the whole answer.
         same = _is_one_number(theirs) or not any(map(np.any, theirs))
@@ -166,6 +175,10 @@ def sentences(
             shown = ()
         said += [mistake.sentence for mistake in shown]
         if not shown:
+            if found := unsteady(k):
+                said.append(found)
+                of_each[k] = (found,)
+                continue
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
             found = findings.of_numbers(criterion, right, theirs, parts)
             found = found or criterion.unmet(Answered(expected, given, met))
@@ -191,8 +204,8 @@ def _likeliest_first(
     """The places of the mistakes, those last that are less likely where several explain a criterion; and
     which mistakes spoil what is right in the answer.
 
-    Less likely is one that spoils what is right in the answer; that explains fewer criteria; that shows
-    in others what the answer does not.
+    Less likely is one that spoils what is right in the answer; that is seldom; that explains fewer
+    criteria; that shows in others what the answer does not.
     """
     spoils, same, unseen = np.zeros((3, len(wrong.mistakes)), dtype=int)
     for k, criterion in enumerate(criteria):
@@ -201,7 +214,8 @@ def _likeliest_first(
         spoils |= met[k] & ~right
         same += shows
         unseen += ~(right | shows)
-    return np.lexsort((unseen, -same, spoils)), spoils > 0
+    seldom = np.array([mistake.seldom for mistake in wrong.mistakes], dtype=bool)
+    return np.lexsort((unseen, -same, seldom, spoils)), spoils > 0
 
 
 def _borne_out(expected: list[np.ndarray], given: list[np.ndarray], wrong: Wrong) -> np.ndarray:

@@ -51,13 +51,14 @@ def of_numbers(
     return ""
 
 
-def of_repeats(criterion: Criterion, first: np.ndarray, second: np.ndarray) -> str:
-    """What to say where two calls with the same arguments gave other numbers; "" where they did not."""
-    if np.shape(first) == np.shape(second) and criterion.met(relative_errors([first], [second])):
+def of_repeats(criterion: Criterion, first: list, second: list) -> str:
+    """What to say where the same calls, made twice, gave other numbers; "" where they did not."""
+    shapes = [list(map(np.shape, numbers)) for numbers in (first, second)]
+    if shapes[0] == shapes[1] and criterion.met(relative_errors(first, second)):
         return ""
     return (
-        f"Called twice with the same arguments, your function does not return the same "
-        f"{criterion.text}. Does it draw random numbers, or use what an earlier call left behind?"
+        "Called twice with the same arguments, your function does not return the same numbers. Does it "
+        "draw random numbers, or use what an earlier call left behind?"
     )
 
 

@@ -54,6 +54,7 @@ def mistakes_of(mechanism: Outline, answer: str) -> list[Mistake]:
             said,
             whole=m.is_of_whole,
             of_all=answer == "C" and not m.is_of_a_product,
+            seldom=m.is_seldom,
             combines=m.operator not in ("doubled", "halved"),
         )
         for k, (m, said) in enumerate(zip(mutants, kept.entry(parts, made, read), strict=True))

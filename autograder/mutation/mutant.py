@@ -50,6 +50,11 @@ class Mutant:
         return not self.source and self.operator in OF_THE_WHOLE
 
     @property
+    def is_seldom(self) -> bool:
+        """Whether it was done in one entry alone where whoever does it mostly does it in all."""
+        return bool(self.entry) and self.operator in SELDOM_OF_AN_ENTRY
+
+    @property
     def is_of_a_product(self) -> bool:
         """Whether it shows in C q̇ by itself: a term, or a product of two velocities in a row."""
         return not self.is_step and not re.fullmatch(r"C\d+", self.entry)
@@ -68,5 +73,14 @@ OF_THE_WHOLE = (
     "inverse",
     "joints exchanged",
     "columns in another order",
+)
+# What is mostly done in all entries alike.
+SELDOM_OF_AN_ENTRY = (
+    "wrong angle",
+    "sine for cosine",
+    "cosine for sine",
+    "wave lost",
+    "double angle",
+    "wrong parameter",
 )
 STEP_NAMES = {name for steps in STEPS.values() for name in steps}

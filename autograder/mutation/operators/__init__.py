@@ -33,12 +33,14 @@ from autograder.mutation.operators.of_velocities import (
 from autograder.mutation.operators.of_waves import (
     degrees,
     double_angle,
+    half_angle,
     sine_for_cosine,
     small_angle,
     wave_lost,
     wave_power,
     wave_without_sign,
     wrong_angle,
+    wrong_wave,
 )
 from autograder.mutation.operators.rewriting import Operator, Rewriting
 
@@ -70,8 +72,10 @@ OPERATORS: tuple[Operator, ...] = (
     velocity_missing,
     square_added,
     double_angle,
+    half_angle,
     wave_power,
     wave_without_sign,
+    wrong_wave,
 )
 # What gives a K that is not quadratic in the velocities.
 OF_ENERGIES = ("velocity not squared", "velocity missing")

@@ -119,6 +119,54 @@ return states
 
 TABLE = {
     "p5-f": [
+        ("signs of the left side", rate("u + C @ qd + g + d * qd + k * np.sign(qd)"), 0.25),
+        ("sign of the whole", rate("C @ qd + g + d * qd + k * np.sign(qd) - u"), 0.25),
+        ("left side missing", rate("u"), 0.25),
+        (
+            ("wrong sign / C q̇", "wrong sign / g(q)"),
+            rate("u + C @ qd + g - d * qd - k * np.sign(qd)"),
+            0.25,
+        ),
+        (
+            ("wrong sign / g(q)", "wrong sign / the friction"),
+            rate("u - C @ qd + g + d * qd + k * np.sign(qd)"),
+            0.25,
+        ),
+        (
+            "coordinate for velocity / the viscous friction",
+            rate("u - C @ qd - g - d * q - k * np.sign(qd)"),
+            0.25,
+        ),
+        (
+            "coordinate for velocity / the friction",
+            rate("u - C @ qd - g - d * q - k * np.sign(q)"),
+            0.25,
+        ),
+        (
+            "wrong velocity / the Coulomb friction / qd1 + qd2",
+            rate("u - C @ qd - g - d * qd - k * np.sign(qd.sum())"),
+            0.25,
+        ),
+        (
+            "wrong velocity / the Coulomb friction / qd1",
+            rate("u - C @ qd - g - d * qd - k * np.sign(qd[0])"),
+            0.25,
+        ),
+        (
+            "direction of all velocities / the Coulomb friction",
+            rate("u - C @ qd - g - d * qd - k * qd / np.linalg.norm(qd)"),
+            0.25,
+        ),
+        (
+            "coefficient left out / the Coulomb friction",
+            rate("u - C @ qd - g - d * qd - np.sign(qd)"),
+            0.25,
+        ),
+        (
+            "friction in one direction / the viscous friction",
+            rate("u - C @ qd - g - d * abs(qd) - k * np.sign(qd)"),
+            0.25,
+        ),
         ("halves of ẋ swapped", rate(returned="np.concatenate([qdd, qd])"), 0),
         ("state interleaved", rate(state="q, qd = x[::2], x[1::2]"), 0),
         (
