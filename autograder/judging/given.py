@@ -13,10 +13,10 @@ import numpy as np
 from autograder.judging.call_text import given_by, shapes, shown_call
 from autograder.judging.faults import NUMBERS, describe_unfit
 from autograder.judging.models import Model, evaluated
-from autograder.judging.partial import is_finite, partial, where_not_finite
+from autograder.judging.partial import partial, where_not_finite
 from autograder.judging.quantities import Numbers, Quantities, UnfitError
 from autograder.judging.verdict import Failed
-from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol
+from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol, is_finite
 
 # No call was made where these stand.
 UNCALLED = (FaultKind.MISSING, FaultKind.CELL_FAILED, FaultKind.NOT_CALLABLE, FaultKind.NO_TOOLS)
@@ -104,6 +104,8 @@ class Reading:
             f"{self.signature} returned {where_not_finite(values[bad[0]])}, "
             "which is not a finite number."
         )
+        if cause := replies[bad[0]].cause:
+            problem += f" {cause.sentence}"
         failed = replace(self._failed(calls, bad), works="")
         if found is None:
             raise NoNumbersError(problem, failed)
