@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape
 
+from autograder.judging.percent import percent
 from autograder.judging.verdict import (
     State,
     Verdict,
@@ -187,7 +188,7 @@ def _rows(verdict: Verdict) -> str:
         items.append(
             f'<li style="border-left: 3px solid {bar}; padding-left: 0.6em; margin: 0.3em 0">'
             f'<span aria-hidden="true">{mark} </span>'
-            f"<span>{'met' if row.met else 'not met'}: {escape(row.text)} ({row.share:.0%})</span>"
+            f"<span>{'met' if row.met else 'not met'}: {escape(row.text)} ({percent(row.share)})</span>"
             f"{sentences}</li>"
         )
     # Without its bullets, a list is none to some screen readers unless its role says so.

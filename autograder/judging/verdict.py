@@ -4,6 +4,7 @@ import textwrap
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
+from autograder.judging.percent import percent
 from autograder.protocol import Call
 
 AS_ABOVE = "For the same reason as above."
@@ -112,7 +113,7 @@ class Verdict:
     @property
     def headline(self) -> str:
         if self.state is State.PARTLY_CORRECT:
-            return f"{self.check}: {self.state} ({self.credit:.0%})"
+            return f"{self.check}: {self.state} ({percent(self.credit)})"
         return f"{self.check}: {self.state}"
 
     @property
@@ -154,7 +155,7 @@ class Verdict:
         rows = []
         for row, said in self.said_of_rows():
             # A single criterion has the whole credit, so its share says nothing.
-            share = f" ({row.share:.0%})" if len(self.rows) > 1 else ""
+            share = f" ({percent(row.share)})" if len(self.rows) > 1 else ""
             rows.append(f"  [{'x' if row.met else ' '}] {row.text}{share}")
             rows += [filled(sentence, 6) for sentence in said]
         last = [*self.of_the_whole, *self._last()]
