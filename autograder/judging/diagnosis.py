@@ -182,7 +182,7 @@ def sentences(
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
             found = findings.of_numbers(criterion, right, theirs, parts)
             found = found or criterion.unmet(Answered(expected, given, met))
-            said.append(found or ("" if any(said) else elsewhere(k)))
+            said.append(found or elsewhere(k))
         of_each[k] = tuple(dict.fromkeys(filter(None, said[before:])))
     return of_each
 

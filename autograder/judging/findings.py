@@ -22,6 +22,8 @@ FACTORS = (
     (2.0, "is twice the right one. Is a ½ missing, or does something count twice?"),
     (180 / math.pi, "is 57.3 times the right one, that is 180/π. Where do you convert angles?"),
     (math.pi / 180, "is the right one divided by 57.3, that is 180/π. Where do you convert angles?"),
+    (2 * math.pi, "is 6.283 times the right one, that is 2π. Where do you convert turns?"),
+    (1 / (2 * math.pi), "is the right one divided by 6.283, that is 2π. Where do you convert turns?"),
     (9.81, "is 9.81 times the right one. Is g a factor where it should not be?"),
     (1 / 9.81, "is the right one divided by 9.81. Is g missing as a factor?"),
 )  # fmt: skip

@@ -43,6 +43,11 @@ class Right:
         single = self.qd - self.qd**2
         return self.K + np.einsum("...ii,...i->...", self.M, single) / 2
 
+    @property
+    def K_of_squares(self) -> np.ndarray:
+        """Half the sum of M times the squares of the velocities."""
+        return np.einsum("...ij,...j->...", self.M, self.qd**2) / 2
+
     def christoffel(self, first=0.5, second=0.5, third=0.5) -> np.ndarray:
         """h_ijk with these weights on ∂M_ij/∂q_k, ∂M_ik/∂q_j and −∂M_jk/∂q_i."""
         D = self.slopes
@@ -300,6 +305,7 @@ STEPS: dict[str, dict[str, Step]] = {
             np.einsum("...ii,...i->...", right.M, right.qd**2) / 2 - right.P
         ),
         "velocities of K not squared": lambda right: right.K_of_single_velocities - right.P,
+        "M times squares": lambda right: right.K_of_squares - right.P,
     },
     "energy_drift": {
         "sign of the whole": lambda run: -drift(run.E),
@@ -314,6 +320,7 @@ STEPS: dict[str, dict[str, Step]] = {
             np.einsum("...ii,...i->...", run.M, run.qd**2) / 2 + run.P
         ),
         "velocities of K not squared": lambda run: drift(run.K_of_single_velocities + run.P),
+        "M times squares": lambda run: drift(run.K_of_squares + run.P),
         "M of the start": lambda run: drift(replace(run, M=run.M[..., :1, :, :]).K + run.P),
         "C in the energy": lambda run: drift(run.E + replace(run, M=run.C).K),
         "C for M": lambda run: drift(replace(run, M=run.C).K + run.P),

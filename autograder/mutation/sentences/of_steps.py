@@ -131,6 +131,8 @@ OF_STEPS = {
     "gain as bodies rise or springs are stretched?",
     "diagonal of M alone": "Your kinetic energy uses only the diagonal of M. What does the "
     "energy gain when several joints move at once?",
+    "M times squares": "Your kinetic energy multiplies M by the squares of the velocities. Which "
+    "products of two different velocities does q̇ᵀ M q̇ hold?",
     "M of the start": "Your kinetic energy uses the M of the first state in every row. What "
     "does M depend on?",
     "C in the energy": "There is a term with C in your energy. Which two energies does the "

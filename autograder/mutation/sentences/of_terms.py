@@ -71,6 +71,8 @@ AT_A_PLACE = {
     "How does an energy of motion change if everything moves twice as fast?",
     "square added": "In your {where}, the units of {term} do not come out {right}. Look at the "
     "power of {put}.",
+    "parameter inverted": "In your {where}, the units of {term} do not come out {right}. Look at the "
+    "power of {put}.",
     "half angle": "In your {where}, {term} takes half of {instead_of} for its angle. After how many "
     "turns does it come back to the same value?",
     "wrong wave": OTHER_WAVE,
@@ -183,6 +185,8 @@ THROUGHOUT = {
     "velocity missing": "In your {where}, {instead_of} is missing from products of two velocities. How "
     "does the kinetic energy change if everything moves twice as fast?",
     "square added": "The units of your {where} do not come out {right}. Look at the power of {put}.",
+    "parameter inverted": "The units of your {where} do not come out {right}. Look at the power of "
+    "{put}.",
     "half angle": "Your {where} takes half of {instead_of} for an angle. After how many turns does it "
     "come back to the same value?",
     "wrong wave": OTHER_WAVES,

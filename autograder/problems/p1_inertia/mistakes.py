@@ -91,6 +91,16 @@ INERTIA_FROM_LINKS = (
         "energies?",
     ),
     Mistake(
+        "diagonal of the matrix alone",
+        lambda jacobians, inertias: np.diag(np.diag(_right(jacobians, inertias))),
+        "Your matrix is diagonal. Does no joint feel the acceleration of another?",
+    ),
+    Mistake(
+        "upper triangle of the matrix alone",
+        lambda jacobians, inertias: np.triu(_right(jacobians, inertias)),
+        "Your matrix is 0 below its diagonal. Which property does an inertia matrix have?",
+    ),
+    Mistake(
         "inverse for matrix",
         lambda jacobians, inertias: np.linalg.inv(_right(jacobians, inertias)),
         "You return the inverse of the matrix. Which of the two, M or M⁻¹, stands in K = ½ q̇ᵀ M q̇?",

@@ -93,6 +93,8 @@ TABLE = {
             "J, I = sum(jacobians), sum(inertias)\nreturn J.T @ I @ J",
             0.5,
         ),
+        ("diagonal of the matrix alone", f"np.diag(np.diag({LINKS}))", 0),
+        ("upper triangle of the matrix alone", f"np.triu({LINKS})", 0),
         ("inverse for matrix", f"np.linalg.inv({LINKS})", 0),
     ],
     "p1-M": [
