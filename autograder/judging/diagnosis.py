@@ -32,7 +32,7 @@ class Mistake:
     sentence: says where to look, never the formula. whole: it is said only of an answer that it explains
     altogether, as "twice the right one" is. combines: whether it may be one of two mistakes. of_all:
     whether it is said only where it explains all that is judged, alone or together with another one.
-    seldom: whether any other that spoils nothing is likelier.
+    seldom: whether any other that explains as much is likelier.
     """
 
     name: str
@@ -150,7 +150,8 @@ def sentences(
             continue
         before = len(said)
         right, theirs = _part(k, expected), _part(k, given)
-        kept = likely
+        # One that is said already is likelier than the same in this criterion alone.
+        kept = sorted(likely, key=lambda i: wrong.mistakes[i].sentence not in said)
         if criterion.is_property:
             kept = [i for i in likely if wrong.mistakes[i].sentence in said]
         if criterion.is_truth:
@@ -204,8 +205,8 @@ def _likeliest_first(
     """The places of the mistakes, those last that are less likely where several explain a criterion; and
     which mistakes spoil what is right in the answer.
 
-    Less likely is one that spoils what is right in the answer; that is seldom; that explains fewer
-    criteria; that shows in others what the answer does not.
+    Less likely is one that spoils what is right in the answer; that explains fewer criteria; that shows
+    in others what the answer does not; that is seldom.
     """
     spoils, same, unseen = np.zeros((3, len(wrong.mistakes)), dtype=int)
     for k, criterion in enumerate(criteria):
@@ -215,7 +216,7 @@ def _likeliest_first(
         same += shows
         unseen += ~(right | shows)
     seldom = np.array([mistake.seldom for mistake in wrong.mistakes], dtype=bool)
-    return np.lexsort((unseen, -same, seldom, spoils)), spoils > 0
+    return np.lexsort((seldom, unseen, -same, spoils)), spoils > 0
 
 
 def _borne_out(expected: list[np.ndarray], given: list[np.ndarray], wrong: Wrong) -> np.ndarray:

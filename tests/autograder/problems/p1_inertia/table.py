@@ -104,6 +104,18 @@ TABLE = {
             0.5,
         ),
         (
+            (
+                "square of the sum and twice the coupling",
+                "double angle / the coupling of the two links / M12 / q2",
+            ),
+            arm(
+                f"M11 = {REST} + m2 * (l1 + lc2) ** 2 + 2 * c",
+                "M12 += m2 * l1 * lc2 * np.cos(2 * q2) - c",
+                "M21 = M12",
+            ),
+            0.25,
+        ),
+        (
             "square of the sum and the coupling",
             arm(f"M11 = {REST} + m2 * (l1 + lc2) ** 2 + c"),
             0.5,

@@ -141,7 +141,6 @@ TABLE = {
             (
                 "moved / the weight of link 2 at the elbow / g2 / g1",
                 "dropped / the weight of link 2 beyond the elbow / g1",
-                "astray / the weight of link 2 at the elbow / g2 / g1",
             ),
             P("[m1*g*lc1*np.cos(q1), m2*g*(l1*np.cos(q1) + lc2*np.cos(q1 + q2))]"),
             0,
