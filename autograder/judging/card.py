@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from html import escape
 
 from autograder.judging.passages import Passage, filled
+from autograder.judging.percent import percent
 from autograder.judging.verdict import State, Verdict, plain
 
 # Mark and colour (Okabe and Ito's palette, safe for colour-blind readers).
@@ -188,7 +189,7 @@ def _rows(verdict: Verdict) -> str:
     for row, said in verdict.said_of_rows():
         mark, bar = ("✓", "transparent") if row.met else ("✗", NOT_MET)
         sentences = "".join(_passage(Passage("diagnosis", sentence)) for sentence in said)
-        share = f" ({row.share:.0%})" if len(verdict.rows) > 1 else ""
+        share = f" ({percent(row.share)})" if len(verdict.rows) > 1 else ""
         items.append(
             f'<li style="border-left: 3px solid {bar}; padding-left: 0.6em; margin: 0.3em 0">'
             f'<span aria-hidden="true">{mark} </span>'

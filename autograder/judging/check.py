@@ -236,22 +236,39 @@ class Check:
         def tried(case: int) -> dependence.Tried | None:
             return self._tried(ask, calls[case]) if ask else None
 
+        @cache
+        def repeated() -> Given | None:
+            return self._repeated(ask, calls) if ask else None
+
+        def unsteady(k: int) -> str:
+            if (again := repeated()) is None or again.spoilt[k]:
+                return ""
+            first, second = ([case[k] for case in numbers] for numbers in (given, again.numbers))
+            return findings.of_repeats(self.criteria[k], first, second)
+
         def elsewhere(k: int) -> str:
             criterion = self.criteria[k]
             last = len(calls) - 1
             if not criterion.unit or criterion.is_property or (found := tried(last)) is None:
                 return ""
-            unsteady = findings.of_repeats(criterion, given[last][k], found.theirs[0][k])
             errors = errors_of(self.criteria, expected, given)[k][:last]
             best = int(np.argmin(errors)) if len(errors) else last
-            return unsteady or dependence.sentence(criterion.text, k, found, lambda: tried(best))
+            return dependence.sentence(criterion.text, k, found, lambda: tried(best))
 
         @cache
         def parts() -> list[tuple[Term, Numbers]]:
             terms = self.terms if isinstance(self.terms, tuple) else self.terms()
             return [(term, self._quantities_of(term.model, calls)) for term in terms]
 
-        return sentences(self.criteria, expected, given, met, wrong, parts, elsewhere)
+        return sentences(self.criteria, expected, given, met, wrong, parts, unsteady, elsewhere)
+
+    def _repeated(self, ask: Ask, calls: list[Call]) -> Given | None:
+        """What the same calls give once more; None where that is nothing to judge."""
+        replies = ask(calls)
+        try:
+            return self._given(calls, replies) if len(replies) == len(calls) else None
+        except NoNumbersError:
+            return None
 
     def _tried(self, ask: Ask, base: Call) -> dependence.Tried | None:
         """The call with one number changed at a time, if numbers came for all."""

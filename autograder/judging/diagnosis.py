@@ -33,7 +33,7 @@ class Mistake:
 
     wrong: takes the arguments of the student's function and gives what the mistaken one returns.
     sentence: says where to look, never the formula. claim: of which numbers it speaks. combines: whether
-    it may be one of two mistakes.
+    it may be one of two mistakes. seldom: whether any other that explains as much is likelier.
     """
 
     name: str
@@ -41,6 +41,7 @@ class Mistake:
     sentence: str
     claim: Claim = Claim.CHANGED
     combines: bool = True
+    seldom: bool = False
 
 
 class Catalogue(Protocol):
@@ -82,12 +83,14 @@ def sentences(
     met: list[bool],
     wrong: Wrong,
     terms: Callable[[], list[tuple[Term, Numbers]]],
+    unsteady: Callable[[int], str],
     elsewhere: Callable[[int], str],
 ) -> list[tuple[str, ...]]:
     """What to say of each criterion, where no mistake explains the whole answer: () of those met.
 
-    terms, elsewhere: asked only where no mistake matches. elsewhere: what more can be found out of
-    criterion k, "" for nothing; it may cost calls.
+    terms, unsteady, elsewhere: asked only where no mistake matches. unsteady: what to say of criterion k
+    where the same calls give other numbers. elsewhere: what more can be found out of it. Both give ""
+    for nothing, and may cost calls.
     """
     layout = layouts(given, expected)
     compared = Compared(
@@ -104,13 +107,16 @@ def sentences(
         named = [(wrong.mistakes[i].sentence, true[i]) for i in shown[k]]
         said += [sentence if as_it_is else OF_A_PART + sentence for sentence, as_it_is in named]
         if not shown[k]:
+            if found := unsteady(k):
+                said.append(found)
+                of_each[k] = (found,)
+                continue
             some = [wrong.mistakes[i].sentence for i in compared.of_single_numbers(k)]
             right, theirs = _part(k, expected), _part(k, given)
             parts = [(term, _part(k, numbers)) for term, numbers in terms()]
             found = findings.of_numbers(criterion, right, theirs, parts)
             if not some:
-                found = found or criterion.unmet(Answered(expected, given, met))
-                found = found or ("" if any(said) else elsewhere(k))
+                found = found or criterion.unmet(Answered(expected, given, met)) or elsewhere(k)
             said += [*some, found]
         of_each[k] = tuple(dict.fromkeys(filter(None, said[before:])))
     return of_each
@@ -124,7 +130,7 @@ def _named(
     Those that the whole answer bears out come first. Where it bears none out, one may be named that a
     part shows, but for those that claim properties, which no part shows.
     """
-    order, spoils = _likeliest_first(compared, met)
+    order, spoils = _likeliest_first(compared, met, mistakes)
     likely = [i for i in order if mistakes[i].claim is not Claim.WHOLE]
     doubted: set[int] = set()
     while True:
@@ -148,10 +154,11 @@ def _of_each(
         if met[k]:
             found.append(())
             continue
-        kept = likely
+        before = {mistakes[i].sentence for shown in found for i in shown}
         if criterion.is_property:
-            before = {mistakes[i].sentence for shown in found for i in shown}
             kept = [i for i in likely if mistakes[i].sentence in before]
+        else:  # one that is said already is likelier than the same in this criterion alone
+            kept = sorted(likely, key=lambda i: mistakes[i].sentence not in before)
         if criterion.is_truth:
             kept = [i for i in kept if compared.of_truths[i]]
         # Two mistakes may cancel each other in what is right; one alone cannot.
@@ -178,17 +185,20 @@ def _is_one_number(values: list[np.ndarray]) -> bool:
     return bool(np.any(first)) and all(np.array_equal(first, other) for other in values[1:])
 
 
-def _likeliest_first(compared: Compared, met: list[bool]) -> tuple[np.ndarray, np.ndarray]:
+def _likeliest_first(
+    compared: Compared, met: list[bool], mistakes: list[Mistake]
+) -> tuple[np.ndarray, np.ndarray]:
     """The places of the mistakes, those last that are less likely where several explain a criterion; and
     which mistakes spoil what is right in the answer.
 
     Less likely is one that spoils what is right in the answer; that explains fewer criteria; that shows
-    in others what the answer does not.
+    in others what the answer does not; that is seldom.
     """
     changed, shown = compared.changed, compared.shown
     spoils = np.any(changed & met, axis=1)
     explained, unseen = np.sum(shown, axis=1), np.sum(changed & ~shown, axis=1)
-    return np.lexsort((unseen, -explained, spoils)), spoils
+    seldom = np.array([mistake.seldom for mistake in mistakes], dtype=bool)
+    return np.lexsort((seldom, unseen, -explained, spoils)), spoils
 
 
 def _shown(

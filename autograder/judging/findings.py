@@ -22,6 +22,8 @@ FACTORS = (
     (2.0, "is twice the right one. Is a ½ missing, or does something count twice?"),
     (180 / math.pi, "is 57.3 times the right one, that is 180/π. Where do you convert angles?"),
     (math.pi / 180, "is the right one divided by 57.3, that is 180/π. Where do you convert angles?"),
+    (2 * math.pi, "is 6.283 times the right one, that is 2π. Where do you convert turns?"),
+    (1 / (2 * math.pi), "is the right one divided by 6.283, that is 2π. Where do you convert turns?"),
     (9.81, "is 9.81 times the right one. Is g a factor where it should not be?"),
     (1 / 9.81, "is the right one divided by 9.81. Is g missing as a factor?"),
 )  # fmt: skip
@@ -51,13 +53,14 @@ def of_numbers(
     return ""
 
 
-def of_repeats(criterion: Criterion, first: np.ndarray, second: np.ndarray) -> str:
-    """What to say where two calls with the same arguments gave other numbers; "" where they did not."""
-    if np.shape(first) == np.shape(second) and criterion.met(relative_errors([first], [second])):
+def of_repeats(criterion: Criterion, first: list, second: list) -> str:
+    """What to say where the same calls, made twice, gave other numbers; "" where they did not."""
+    shapes = [list(map(np.shape, numbers)) for numbers in (first, second)]
+    if shapes[0] == shapes[1] and criterion.met(relative_errors(first, second)):
         return ""
     return (
-        f"Called twice with the same arguments, your function does not return the same "
-        f"{criterion.text}. Does it draw random numbers, or use what an earlier call left behind?"
+        "Called twice with the same arguments, your function does not return the same numbers. Does it "
+        "draw random numbers, or use what an earlier call left behind?"
     )
 
 

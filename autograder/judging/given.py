@@ -13,10 +13,10 @@ import numpy as np
 from autograder.judging.call_text import by_name, given_by, shapes, shown_call
 from autograder.judging.faults import NUMBERS, describe_unfit
 from autograder.judging.models import Model, evaluated
-from autograder.judging.partial import first_bad_point, is_finite, partial, where_not_finite
+from autograder.judging.partial import first_bad_point, partial, where_not_finite
 from autograder.judging.quantities import Numbers, Quantities, UnfitError
 from autograder.judging.verdict import Failed
-from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol
+from autograder.protocol import Call, Fault, FaultKind, Reply, Symbol, is_finite
 
 # No call was made where these stand.
 UNCALLED = (FaultKind.MISSING, FaultKind.CELL_FAILED, FaultKind.NOT_CALLABLE, FaultKind.NO_TOOLS)
@@ -106,6 +106,8 @@ class Reading:
             f"{self.signature} returned {where_not_finite(value, at_points)}, "
             "which is not a finite number."
         )
+        if cause := replies[bad[0]].cause:
+            problem += f" {cause.sentence}"
         if at_points:  # the call that is shown has numbers for its symbols: those that give this
             point = first.at[first_bad_point(np.asarray(value))]
             calls = [*calls[: bad[0]], replace(first, at=(point,)), *calls[bad[0] + 1 :]]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from autograder.judging.quantities import Numbers, Quantities, UnfitError
-from autograder.protocol import Call, one_line
+from autograder.protocol import Call, is_finite, one_line
 
 MOST_NAMED = 3  # places of an array
 MOST_KEY = 40  # characters of a name that a student gave to a part
@@ -26,13 +26,6 @@ class Partial:
 
     numbers: Numbers
     spoilt: tuple[bool, ...]
-
-
-def is_finite(value) -> bool:
-    """Whether all numbers of a value are, an array or parts of it."""
-    if isinstance(value, dict | list):
-        return all(map(is_finite, value.values() if isinstance(value, dict) else value))
-    return bool(np.all(np.isfinite(value)))
 
 
 def where_not_finite(value, at_points: bool = False) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 
 from autograder.judging.criterion import TOLERANCE, relative_errors
 from autograder.judging.models import Model
+from autograder.judging.percent import percent
 
 # An error that takes more terms than these says less than the worst case does.
 MOST = 3
@@ -73,7 +74,7 @@ def in_words(term: Term, times: float) -> str:
 
 def percent_off(times: float) -> str:
     """A factor near 1 as "10 % too large"."""
-    return f"{abs(100 * (times - 1)):.3g} % too {'large' if times > 1 else 'small'}"
+    return f"{percent(times - 1)} too {'large' if times > 1 else 'small'}"
 
 
 def _is(fit, expected, given, tolerance) -> bool:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from autograder.judging.passages import Passage, as_text, failing, filled, if_said, worst_case
+from autograder.judging.percent import percent
 from autograder.protocol import Call, shortened
 
 AS_ABOVE = "For the same reason as above."
@@ -129,7 +130,7 @@ class Verdict:
     @property
     def headline(self) -> str:
         if self.state is State.PARTLY_CORRECT:
-            return f"{self.check}: {self.state} ({self.credit:.0%})"
+            return f"{self.check}: {self.state} ({percent(self.credit)})"
         return f"{self.check}: {self.state}"
 
     @property
@@ -214,7 +215,7 @@ def plain(verdict: Verdict, lines: Sequence[str] = (), last: Sequence[str] = ())
     rows = []
     for row, said in verdict.said_of_rows():
         # A single criterion has the whole credit, so its share says nothing.
-        share = f" ({row.share:.0%})" if len(verdict.rows) > 1 else ""
+        share = f" ({percent(row.share)})" if len(verdict.rows) > 1 else ""
         rows.append(f"  [{'x' if row.met else ' '}] {row.text}{share}")
         rows += [filled(sentence, 6) for sentence in said]
     step = [filled(verdict.step.text)] if verdict.step.text else []

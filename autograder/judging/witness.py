@@ -7,10 +7,14 @@ import numpy as np
 
 from autograder.judging.call_text import by_name, shown_call
 from autograder.judging.criterion import LEAST_SCALE, Criterion, scales
+from autograder.judging.percent import percent
 from autograder.judging.places import Place
 from autograder.judging.quantities import Numbers
 from autograder.judging.verdict import Witness
 from autograder.protocol import Call
+
+# An error of more times the right value is told in its unit alone.
+MOST_TIMES = 3
 
 
 def worst_entry(right: np.ndarray, given: np.ndarray) -> tuple[int, ...]:
@@ -59,8 +63,8 @@ def witness(
             said = f"a result for which “{criterion.text}” has the answer {_yes_or_no(given[at])}"
         return made(said, "")
     off, size = abs(float(given[at] - right[at])), abs(float(right[at]))
-    shares = has_share(size, largest, criterion)
-    share = f" ({_percent(off / size)} of the right value)" if shares else ""
+    shares = has_share(off, size, largest, criterion)
+    share = f" ({percent(off / size)} of the right value)" if shares else ""
     flat = int(np.ravel_multi_index(at, np.shape(right))) if at else 0
     unit = f" {criterion.unit_of(flat, np.size(right))}".rstrip()
     if len(criterion.entries) == np.size(right):
@@ -80,13 +84,11 @@ def _yes_or_no(truth: float) -> str:
     return "yes" if truth else "no"
 
 
-def has_share(size: float, largest: float, criterion: Criterion) -> bool:
+def has_share(off: float, size: float, largest: float, criterion: Criterion) -> bool:
     """Whether an error is rightly told as a share of a right number of this size.
 
-    Not near zero, where any error is many times the value; and not where other numbers are right too.
+    Not near zero, where any error is many times the value; not where it is many times the value anyway;
+    and not where other numbers are right too.
     """
-    return size > 0 and size >= LEAST_SCALE * largest and not criterion.is_bound
-
-
-def _percent(share: float) -> str:
-    return f"{share:.0%}" if share >= 0.01 else f"{100 * share:.1g}%"
+    says = size >= LEAST_SCALE * largest and off < MOST_TIMES * size
+    return says and not criterion.is_bound

@@ -10,7 +10,7 @@ from autograder.mechanisms.mechanism import EnergyTerm, Mechanism
 from autograder.mutation.answers import Answer
 from autograder.mutation.distinct import CASES, each_once
 from autograder.mutation.formulas import symbols
-from autograder.mutation.mutant import Mutant
+from autograder.mutation.mutant import SELDOM_OF_AN_ENTRY, Mutant
 from autograder.mutation.numbers import Made, Numbers
 from autograder.mutation.operators import OF_ENERGIES, Rewriting, astray, rewritings
 from autograder.mutation.steps import STEPS
@@ -85,20 +85,23 @@ class Deriving:
         plain: list = [(Mutant(name), name) for name in STEPS.get(self.answer.name, ())]
         others: list = []
         alike: dict[Mutant, list[int]] = {}
-        entries = []
+        entries: list = []
+        seldom: list = []
         for r, (k, done, _, in_energy) in enumerate(self._wrong):
             at = (done.entry, done.put, done.instead_of, in_energy)
             mutant = Mutant(done.operator, self.terms[k].name, *at, detail=done.detail)
             (plain if done.operator in OF_AN_ENTRY else others).append((mutant, ([r], None)))
-            if done.operator in OF_AN_ENTRY:
+            alone = entries if done.operator in OF_AN_ENTRY else seldom
+            seldom_alone = done.operator in SELDOM_OF_AN_ENTRY and not in_energy
+            if done.operator in OF_AN_ENTRY or seldom_alone:
                 for entry, mask in self._entries():
-                    entries.append((replace(mutant, entry=entry, in_energy=False), ([r], mask)))
+                    alone.append((replace(mutant, entry=entry, in_energy=False), ([r], mask)))
             if done.operator not in OF_AN_ENTRY or done.put:
                 alike.setdefault(replace(mutant, term=""), []).append(r)
         for mutant, all_of_them in alike.items():
             if len({self._wrong[r][0] for r in all_of_them}) > 1:
                 others.append((mutant, (all_of_them, None)))
-        return plain + entries + others
+        return plain + entries + others + seldom
 
     def _places(self) -> list[tuple[str, tuple[int, ...]]]:
         """The entries by name, with their indices, row by row; none of what has one entry alone."""

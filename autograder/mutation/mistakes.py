@@ -53,6 +53,7 @@ def mistakes_of(mechanism: Outline, answer: str) -> list[Mistake]:
             _Wrong(mechanism, answer, k),
             said,
             m.claim(answer),
+            seldom=m.is_seldom,
             combines=m.operator not in ("doubled", "halved"),
         )
         for k, (m, said) in enumerate(zip(mutants, kept.entry(parts, made, read), strict=True))

@@ -56,6 +56,11 @@ class Mutant:
         of_a_product = not self.is_step and not re.fullmatch(r"C\d+", self.entry)
         return Claim.JUDGED if answer == "C" and not of_a_product else Claim.CHANGED
 
+    @property
+    def is_seldom(self) -> bool:
+        """Whether it was done in one entry alone where whoever does it mostly does it in all."""
+        return bool(self.entry) and self.operator in SELDOM_OF_AN_ENTRY
+
     def within(self, source: str) -> "Mutant":
         """The same mistake, seen in an answer that follows from `source`."""
         return replace(self, source=source)
@@ -70,5 +75,14 @@ OF_THE_WHOLE = (
     "inverse",
     "joints exchanged",
     "columns in another order",
+)
+# What is mostly done in all entries alike.
+SELDOM_OF_AN_ENTRY = (
+    "wrong angle",
+    "sine for cosine",
+    "cosine for sine",
+    "wave lost",
+    "double angle",
+    "wrong parameter",
 )
 STEP_NAMES = {name for steps in STEPS.values() for name in steps}

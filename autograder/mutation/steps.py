@@ -43,6 +43,11 @@ class Right:
         single = self.qd - self.qd**2
         return self.K + np.einsum("...ii,...i->...", self.M, single) / 2
 
+    @property
+    def K_of_squares(self) -> np.ndarray:
+        """Half the sum of M times the squares of the velocities."""
+        return np.einsum("...ij,...j->...", self.M, self.qd**2) / 2
+
     def christoffel(self, first=0.5, second=0.5, third=0.5) -> np.ndarray:
         """h_ijk with these weights on ∂M_ij/∂q_k, ∂M_ik/∂q_j and −∂M_jk/∂q_i."""
         D = self.slopes
@@ -71,6 +76,10 @@ class Driven(Right):
     def rest(self) -> np.ndarray:
         """u − C q̇ − g − f."""
         return sum(self.torques.values(), np.zeros_like(self.u))
+
+    def left_side(self, factor: float) -> np.ndarray:
+        """q̈ with C q̇ + g + f times this factor beside u."""
+        return solved(self.M, self.u + factor * (self.u - self.rest))
 
     @property
     def acceleration(self) -> np.ndarray:
@@ -124,6 +133,19 @@ def _in_one_column(later: bool) -> Step:
         return np.einsum("...ijk,...k->...ij", shared, right.qd)
 
     return step
+
+
+def _terms_of_sum(chosen: slice) -> Step:
+    """These terms alone of the sum over k."""
+    return lambda right: np.einsum(
+        "...ijk,...k->...ij", right.christoffel()[..., chosen], right.qd[..., chosen]
+    )
+
+
+def _never_begun_anew(right: Right) -> np.ndarray:
+    """Each entry with all entries before it, row by row."""
+    entries = np.reshape(right.C, (*right.C.shape[:-2], -1))
+    return np.reshape(np.cumsum(entries, axis=-1), right.C.shape)
 
 
 # With less, a wrong M is singular but for rounding.
@@ -218,6 +240,17 @@ STEPS: dict[str, dict[str, Step]] = {
         "first derivative missing": _weighted(first=0),
         "not symmetrised": _weighted(first=1, second=0),
         "second derivative twice": _weighted(first=0, second=1),
+        "first derivative alone halved": _weighted(second=1, third=1),
+        "second derivative alone halved": _weighted(first=1, third=1),
+        "last derivative alone halved": _weighted(first=1, second=1),
+        "last term alone": _terms_of_sum(slice(-1, None)),
+        "first term alone": _terms_of_sum(slice(1)),
+        "last term left out": _terms_of_sum(slice(-1)),
+        "first term left out": _terms_of_sum(slice(1, None)),
+        "sum never begun anew": _never_begun_anew,
+        "upper triangle mirrored": lambda right: (
+            np.triu(right.C) + _transposed(np.triu(right.C, 1))
+        ),
         "products in the later column": _in_one_column(later=True),
         "products in the earlier column": _in_one_column(later=False),
         "summed over the first index": lambda right: np.einsum(
@@ -272,6 +305,7 @@ STEPS: dict[str, dict[str, Step]] = {
             np.einsum("...ii,...i->...", right.M, right.qd**2) / 2 - right.P
         ),
         "velocities of K not squared": lambda right: right.K_of_single_velocities - right.P,
+        "M times squares": lambda right: right.K_of_squares - right.P,
     },
     "energy_drift": {
         "sign of the whole": lambda run: -drift(run.E),
@@ -286,6 +320,7 @@ STEPS: dict[str, dict[str, Step]] = {
             np.einsum("...ii,...i->...", run.M, run.qd**2) / 2 + run.P
         ),
         "velocities of K not squared": lambda run: drift(run.K_of_single_velocities + run.P),
+        "M times squares": lambda run: drift(run.K_of_squares + run.P),
         "M of the start": lambda run: drift(replace(run, M=run.M[..., :1, :, :]).K + run.P),
         "C in the energy": lambda run: drift(run.E + replace(run, M=run.C).K),
         "C for M": lambda run: drift(replace(run, M=run.C).K + run.P),
@@ -300,6 +335,9 @@ STEPS: dict[str, dict[str, Step]] = {
         "share for the drift": lambda run: drift(run.E) / run.E[..., :1],
     },
     "f": {
+        "sign of the whole": _accelerating(lambda driven: -driven.acceleration),
+        "signs of the left side": _accelerating(lambda driven: driven.left_side(1)),
+        "left side missing": _accelerating(lambda driven: driven.left_side(0)),
         "halves of ẋ swapped": lambda driven: rate(driven.acceleration, driven.qd),
         "q for its rate": lambda driven: rate(driven.q, driven.acceleration),
         "M not inverted": _accelerating(lambda driven: times(driven.M, driven.rest)),

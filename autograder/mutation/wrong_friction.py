@@ -19,14 +19,29 @@ def rewritings(term: FrictionTerm, mechanism: Mechanism) -> Iterator[Rewriting]:
         yield Rewriting(name, sp.Tuple(times * term.torque))
     i = mechanism.place(term)
     q, v = mechanism.q[i], mechanism.qd[i]
-    if sp.sign(v) not in term.torque.atoms(sp.sign):
-        yield Rewriting("quadratic friction", sp.Tuple(term.torque.xreplace({v: v * sp.Abs(v)})))
-        return
+    if sp.sign(v) in term.torque.atoms(sp.sign):
+        yield from _of_dry(term, q, v, sp.sqrt(sum(rate**2 for rate in mechanism.qd)))
+    else:
+        for name, put in (
+            ("quadratic friction", v * sp.Abs(v)),
+            ("friction in one direction", sp.Abs(v)),
+        ):
+            yield Rewriting(name, sp.Tuple(term.torque.xreplace({v: put})))
+    yield Rewriting("coefficient left out", sp.Tuple(term.torque.xreplace({term.symbol: sp.S.One})))
+    yield Rewriting("coordinate for velocity", sp.Tuple(term.torque.xreplace({v: q})))
+    for put in (*mechanism.qd, sum(mechanism.qd)):
+        wrong = sp.Tuple(term.torque.xreplace({v: put}))
+        yield Rewriting("wrong velocity", wrong, " + ".join(map(str, sp.Add.make_args(put))))
+
+
+def _of_dry(term: FrictionTerm, q, v, speed) -> Iterator[Rewriting]:
+    """The wrong forms of what has the sign of a velocity alone. speed: the length of q̇."""
     for name, put in (
         ("friction in one direction", sp.S.One),
         ("absolute value for sign", sp.Abs(v)),
         ("velocity for its sign", v),
         ("sign of the coordinate", sp.sign(q)),
+        ("direction of all velocities", v / speed),
     ):
         yield Rewriting(name, sp.Tuple(term.torque.xreplace({sp.sign(v): put})))
     for name, detail, put in (
@@ -42,17 +57,19 @@ def mistakes(mechanism: Mechanism) -> list[tuple[Mutant, dict[int, sp.Expr]]]:
     """Each with the torques of all terms, by place: made in one, in all of one kind, or in all."""
     right = {k: sp.sympify(term.torque) for k, term in enumerate(mechanism.friction)}
     found: list[tuple[Mutant, dict[int, sp.Expr]]] = []
-    alike: dict[tuple[str, str, str], dict[int, sp.Expr]] = {}
+    alike: dict[tuple[str, str, str, str], dict[int, sp.Expr]] = {}
     for k, term in enumerate(mechanism.friction):
         for done in rewritings(term, mechanism):
             (torque,) = done.expressions
-            found.append((Mutant(done.operator, term.name, detail=done.detail), {k: torque}))
+            mutant = Mutant(done.operator, term.name, put=done.put, detail=done.detail)
+            found.append((mutant, {k: torque}))
             words = WORDS.get(term.coefficient, "the friction")
             for kind in (words, "the friction"):
-                alike.setdefault((done.operator, kind, done.detail), {})[k] = torque
+                key = (done.operator, kind, done.put, done.detail)
+                alike.setdefault(key, {})[k] = torque
     all_alike = [
-        (Mutant(operator, words, detail=detail), changes)
-        for (operator, words, detail), changes in alike.items()
+        (Mutant(operator, words, put=put, detail=detail), changes)
+        for (operator, words, put, detail), changes in alike.items()
         if len(changes) > 1
     ]
     kinds = sorted({term.coefficient for term in mechanism.friction})

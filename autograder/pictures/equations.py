@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from autograder.judging.check import Check
-from autograder.judging.partial import is_finite, where_not_finite
+from autograder.judging.partial import where_not_finite
 from autograder.judging.quantities import UnfitError
 from autograder.mechanisms import Mechanism
 from autograder.mutation.friction import torques
@@ -19,6 +19,7 @@ from autograder.protocol import (
     Call,
     NotNumbersError,
     TimeLimitError,
+    is_finite,
     kind_of,
     message_of,
     read,

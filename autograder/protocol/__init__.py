@@ -21,10 +21,11 @@ from .calls import (
     read,
     time_limit,
 )
+from .causes import Cause
 from .looks import Look
 from .own_arm import OwnArm
 from .proofs import HandedIn, decode_handed_in, encode_handed_in, handed_in
-from .readings import MOST_NUMBERS, FaultKind, NotNumbersError
+from .readings import MOST_NUMBERS, FaultKind, NotNumbersError, is_finite
 from .riddles import Riddle
 from .riddles import sentence as sentence_of
 from .wire import decode_call, decode_reply, encode_call, encode_reply
@@ -35,6 +36,7 @@ __all__ = [
     "MOST_NUMBERS",
     "PATIENCE",
     "Call",
+    "Cause",
     "Expressions",
     "Fault",
     "FaultKind",
@@ -56,6 +58,7 @@ __all__ = [
     "encode_handed_in",
     "encode_reply",
     "handed_in",
+    "is_finite",
     "kind_of",
     "message_of",
     "numbers_at",

@@ -13,17 +13,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import riddles
+from . import causes, riddles
 from .arguments import changed, real
+from .own_code import line_of
 from .readings import (
     MOST_NUMBERS,
     FaultKind,
     NotNumbersError,
     evaluate,
+    is_finite,
     read_numbers,
     read_parts,
 )
-from .words import other_cell, shortened
+from .words import shortened
 
 CALL_SECONDS = 2.0  # of the processor's time
 # Code that sleeps for ever uses no processor time, and on a busy machine honest code gets little. So
@@ -32,6 +34,8 @@ PATIENCE = 5.0
 # A reply with two answers must fit where the largest answer does; this is more than any answer has.
 MOST_TWICE = MOST_NUMBERS // 10
 MOST_CHANGES = 50
+# Where a number came up that is not finite is found out by a second call, if the first was quicker, s.
+QUICK = 0.5
 # Faults that another call need not have.
 GO_ON_AFTER = (FaultKind.RAISED, FaultKind.NOTHING, FaultKind.NOT_NUMBERS)
 
@@ -74,7 +78,7 @@ class Reply:
     value: a float array; dicts and lists of arrays where the call asks for parts.
     changed: each argument that the call changed: its place, and the name in a namespace or "".
     again: what a second call gave, with the arguments as the first call had changed them. caret:
-    whether the function uses ^, which is no power.
+    whether the function uses ^, which is no power. cause: where a number came up that is not finite.
     """
 
     value: np.ndarray | dict | list | None = None
@@ -82,6 +86,7 @@ class Reply:
     changed: tuple[tuple[int, str], ...] = ()
     again: "Reply | None" = None
     caret: bool = False
+    cause: causes.Cause | None = None
 
 
 class TimeLimitError(BaseException):
@@ -110,10 +115,13 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     if not reply.fault and riddles.uses_caret(function):
         reply = replace(reply, caret=True)
     changes = () if reply.fault else _changes(call.args, given)
-    if not changes:
-        return reply
     # Both calls together get the time of one, so that the judge waits no longer for the reply.
     took = max(time.process_time() - started, (time.monotonic() - clock) / PATIENCE)
+    if not (reply.fault or is_finite(reply.value)) and took < QUICK:
+        reply = replace(reply, cause=_cause(call, function, QUICK - took))
+        took = max(time.process_time() - started, (time.monotonic() - clock) / PATIENCE)
+    if not changes:
+        return reply
     again = _called(call, function, given, max(CALL_SECONDS - took, 0.01))
     too_large = max(_size(reply.value), _size(again.value)) > MOST_TWICE
     # Then the second call had less time than a call may take.
@@ -145,6 +153,17 @@ def _called(call: Call, function: Callable, given: list, seconds: float) -> Repl
         message = shortened(f"{type(error).__name__}: {text}")
         riddle = riddles.of_error(error, shortened(text))
         return Reply(fault=Fault(FaultKind.RAISED, message, _failing_line(error), riddle))
+
+
+def _cause(call: Call, function: Callable, seconds: float) -> causes.Cause | None:
+    """Where in the function a number comes up that is not finite."""
+    found: list[causes.Cause] = []
+    try:
+        with time_limit(seconds), causes.heard() as found:
+            function(*map(real, call.args))
+    except (Exception, SystemExit, TimeLimitError):
+        pass  # what was heard until then
+    return causes.likeliest(found)
 
 
 def _changes(args: tuple, given: list) -> tuple[tuple[int, str], ...]:
@@ -199,27 +218,8 @@ def own_names(namespace: Mapping) -> list[str]:
 
 
 def _failing_line(error: BaseException) -> str:
-    """The last line of the student's own code on the way to the error, with its number, and with its
-    cell or its file where that is not the function's cell.
-    """
-    own = [frame for frame in traceback.extract_tb(error.__traceback__) if _is_own(frame.filename)]
-    if not own:
-        return ""
-    line = f"line {own[-1].lineno}: {own[-1].line}".rstrip(": ")
-    if not _is_cell(own[-1].filename):
-        where = os.path.basename(own[-1].filename)
-    else:
-        where = "" if own[-1].filename == own[0].filename else other_cell(own[-1].name)
-    return shortened(f"{where}, {line}" if where else line)
-
-
-def _is_own(filename: str) -> bool:
-    """Whether code is a student's: of a cell, or of a file beside the notebook."""
-    return _is_cell(filename) or os.path.dirname(filename) == os.getcwd()
-
-
-def _is_cell(filename: str) -> bool:
-    return "ipykernel_" in filename or filename.startswith("<ipython-input")
+    """The last line of the student's own code on the way to the error."""
+    return line_of(traceback.extract_tb(error.__traceback__))
 
 
 def kind_of(error: BaseException) -> str:

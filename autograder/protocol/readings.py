@@ -71,6 +71,13 @@ def read_numbers(value, truth: bool = False) -> np.ndarray:
     return array.astype(float)
 
 
+def is_finite(value) -> bool:
+    """Whether all numbers of a value are, an array or parts of it."""
+    if isinstance(value, dict | list):
+        return all(map(is_finite, value.values() if isinstance(value, dict) else value))
+    return bool(np.all(np.isfinite(value)))
+
+
 def read_parts(value, depth: int = DEEPEST):
     """A result of several parts, named or in order, as dicts and lists of arrays."""
     if isinstance(value, SimpleNamespace):

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from .arguments import decode, encode
 from .calls import MOST_CHANGES, Call, Fault, Reply
+from .causes import decode_cause, encode_cause
 from .readings import FaultKind, decode_value, encode_value
 from .riddles import decode_riddle, encode_riddle
 from .words import shortened
@@ -28,6 +29,8 @@ def encode_reply(reply: Reply) -> dict:
     message = {"value": encode_value(reply.value)}
     if reply.caret:
         message["caret"] = True
+    if reply.cause:
+        message["cause"] = encode_cause(reply.cause)
     if reply.changed:
         message["changed"] = [list(change) for change in reply.changed]
         message["again"] = reply.again and encode_reply(reply.again)
@@ -49,7 +52,11 @@ def _decode_reply(message) -> Reply:
     try:
         match message:
             case {"value": value}:
-                return Reply(value=decode_value(value), caret=message.get("caret") is True)
+                return Reply(
+                    value=decode_value(value),
+                    caret=message.get("caret") is True,
+                    cause=decode_cause(message.get("cause")),
+                )
             case {"fault": {"kind": kind, "message": str(text), "line": str(line), **more}}:
                 riddle = decode_riddle(more.get("riddle"))
                 return Reply(fault=Fault(FaultKind(kind), shortened(text), shortened(line), riddle))

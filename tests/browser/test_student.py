@@ -178,15 +178,15 @@ def test_a_mistake_is_named_drawn_and_mended(inertia):
     card = inertia.run('check("p1-M")')
     expect(card).to_have_attribute("data-state", "partly-correct")
     expect(card).to_match_aria_snapshot("""
-      - 'group "p1-M: partly correct (75%)"':
+      - 'group "p1-M: partly correct (75 %)"':
         - paragraph:
-          - strong: "p1-M: partly correct (75%)"
+          - strong: "p1-M: partly correct (75 %)"
         - list:
-          - listitem: "met: M11 (50%)"
+          - listitem: "met: M11 (50 %)"
           - listitem:
-            - text: "not met: M12 and M21 (25%)"
+            - text: "not met: M12 and M21 (25 %)"
             - paragraph: /Your M12 is right except that I2 is missing/
-          - listitem: "met: M22 (25%)"
+          - listitem: "met: M22 (25 %)"
         - paragraph:
           - text: "Worst case:"
           - code: M(q, arm)

@@ -17,6 +17,7 @@ from autograder.mutation.operators.of_parameters import (
     gravity_of_earth,
     kind_left_out,
     parameter_added,
+    parameter_inverted,
     parameter_left_out,
     parameters_exchanged,
     square_added,
@@ -33,12 +34,14 @@ from autograder.mutation.operators.of_velocities import (
 from autograder.mutation.operators.of_waves import (
     degrees,
     double_angle,
+    half_angle,
     sine_for_cosine,
     small_angle,
     wave_lost,
     wave_power,
     wave_without_sign,
     wrong_angle,
+    wrong_wave,
 )
 from autograder.mutation.operators.rewriting import Operator, Rewriting
 
@@ -69,9 +72,12 @@ OPERATORS: tuple[Operator, ...] = (
     velocity_not_squared,
     velocity_missing,
     square_added,
+    parameter_inverted,
     double_angle,
+    half_angle,
     wave_power,
     wave_without_sign,
+    wrong_wave,
 )
 # What gives a K that is not quadratic in the velocities.
 OF_ENERGIES = ("velocity not squared", "velocity missing")

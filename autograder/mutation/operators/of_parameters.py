@@ -78,6 +78,14 @@ def square_added(term, mechanism):
             yield Rewriting("square added", wrong, symbol.name)
 
 
+def parameter_inverted(term, mechanism):
+    """Divided by a mass or a length that should multiply."""
+    for parameter in mechanism.parameters:
+        if parameter.symbol in term.free_symbols:
+            wrong = term.xreplace({parameter.symbol: 1 / parameter.symbol})
+            yield Rewriting("parameter inverted", wrong, parameter.name)
+
+
 def sum_of_lengths(term, mechanism):
     """A length forgotten in a sum such as r0 + s, or the sum squared part by part."""
     lengths = {p.symbol for p in mechanism.parameters if p.unit == "m"}

@@ -1,5 +1,10 @@
 """What is said of a step on the way to the answer that went wrong, by the step."""
 
+HALF_OF_ONE = (
+    "Only one of the three derivatives in your Christoffel symbol is halved. Where do the brackets "
+    "behind its ½ begin and end?"
+)
+
 OF_STEPS = {
     "half of the whole": "Your {where} is half of the right one. Is there a ½ too many?",
     "twice the whole": "Your {where} is twice the right one. Is a ½ missing?",
@@ -80,6 +85,25 @@ OF_STEPS = {
     "second derivative twice": "Your C gives the right C q̇, but it is not the Christoffel "
     "form: one of the two derivatives with a plus counts twice, and the other is not there. How "
     "do the velocities j and k share them?",
+    "first derivative alone halved": HALF_OF_ONE,
+    "second derivative alone halved": HALF_OF_ONE,
+    "last derivative alone halved": HALF_OF_ONE,
+    "last term alone": "Your C holds only the last term of each sum over k. Is each term added to those "
+    "before it, or written over them?",
+    "first term alone": "Your C holds only the first term of each sum over k. Does your function "
+    "return, or your loop end, before the others are added?",
+    "last term left out": "In your C, the last term of each sum over k is missing. Which numbers does k "
+    "take?",
+    "first term left out": "In your C, the first term of each sum over k is missing. Which numbers does "
+    "k take?",
+    "sum never begun anew": "Each entry of your C also holds all the entries before it. Where does the "
+    "sum for an entry begin?",
+    "upper triangle mirrored": "Your C is symmetric: below its diagonal stands what stands above it. "
+    "Must C be symmetric, as M is?",
+    "signs of the left side": "In your q̈, everything but u has the wrong sign. In the equation of "
+    "motion, on which side of the equals sign does each term stand?",
+    "left side missing": "Your q̈ comes from u alone. Which other torques or forces does the equation of "
+    "motion hold?",
     "products in the later column": "Your C gives the right C q̇, but it is not the Christoffel "
     "form: each product of two velocities stands in one column. How do the entries of a row "
     "share it?",
@@ -107,6 +131,8 @@ OF_STEPS = {
     "gain as bodies rise or springs are stretched?",
     "diagonal of M alone": "Your kinetic energy uses only the diagonal of M. What does the "
     "energy gain when several joints move at once?",
+    "M times squares": "Your kinetic energy multiplies M by the squares of the velocities. Which "
+    "products of two different velocities does q̇ᵀ M q̇ hold?",
     "M of the start": "Your kinetic energy uses the M of the first state in every row. What "
     "does M depend on?",
     "C in the energy": "There is a term with C in your energy. Which two energies does the "

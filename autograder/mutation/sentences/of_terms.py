@@ -1,5 +1,14 @@
 """What is said of what was done to a term, by the operator: at one place, and in all terms alike."""
 
+OTHER_WAVE = (
+    "In your {where}, {term} has a sine or cosine of {put}. Which of the two belongs "
+    "there, and what does each angle measure?"
+)
+OTHER_WAVES = (
+    "Your {where} has sines or cosines of {put}. Which of the two belongs where, and what "
+    "does each angle measure?"
+)
+
 AT_A_PLACE = {
     "dropped": "Your {where} lacks {term}.",
     "wrong sign": "In your {where}, {term} has the wrong sign.",
@@ -62,6 +71,12 @@ AT_A_PLACE = {
     "How does an energy of motion change if everything moves twice as fast?",
     "square added": "In your {where}, the units of {term} do not come out {right}. Look at the "
     "power of {put}.",
+    "parameter inverted": "In your {where}, the units of {term} do not come out {right}. Look at the "
+    "power of {put}.",
+    "half angle": "In your {where}, {term} takes half of {instead_of} for its angle. After how many "
+    "turns does it come back to the same value?",
+    "wrong wave": OTHER_WAVE,
+    "wrong wave with a minus": OTHER_WAVE,
     "double angle": "In your {where}, {term} takes twice {instead_of} for its angle. How often does "
     "it come back to the same value in one turn?",
     "wave power": "In your {where}, {term} has a sine or cosine to the wrong power. What becomes of "
@@ -82,6 +97,12 @@ OF_FRICTION = {
     "not depend on how fast a joint moves: what does it depend on?",
     "sign of the coordinate": "In your {where}, {term} has the sign of the coordinate. Does "
     "friction depend on where a joint is, or on how it moves?",
+    "coordinate for velocity": "In your {where}, {term} goes with the coordinate. Does friction depend "
+    "on where a joint is, or on how it moves?",
+    "coefficient left out": "In your {where}, {term} lacks its coefficient. Do its units come out "
+    "right?",
+    "direction of all velocities": "In your {where}, {term} is divided by the length of the whole q̇. "
+    "Does dry friction in one joint depend on how fast another one moves?",
     "smooth sign": "In your {where}, {term} fades out at low speed, as a tanh does. In this "
     "model it jumps: how large is dry friction at 0.001 rad/s?",
     "friction at rest": "In your {where}, {term} is not zero in a joint at rest. In which "
@@ -164,6 +185,12 @@ THROUGHOUT = {
     "velocity missing": "In your {where}, {instead_of} is missing from products of two velocities. How "
     "does the kinetic energy change if everything moves twice as fast?",
     "square added": "The units of your {where} do not come out {right}. Look at the power of {put}.",
+    "parameter inverted": "The units of your {where} do not come out {right}. Look at the power of "
+    "{put}.",
+    "half angle": "Your {where} takes half of {instead_of} for an angle. After how many turns does it "
+    "come back to the same value?",
+    "wrong wave": OTHER_WAVES,
+    "wrong wave with a minus": OTHER_WAVES,
     "double angle": "Your {where} takes twice {instead_of} for an angle. How often does it come back to "
     "the same value in one turn?",
     "wave power": "Your {where} has sines or cosines to the wrong power. What becomes of it if an angle "

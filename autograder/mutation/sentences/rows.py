@@ -76,6 +76,12 @@ ROWS = (
     ),
     Row(
         "sign of the whole",
+        "Your q̈ as a whole has the wrong sign. Which terms stand beside M q̈ in the equation of motion, "
+        "and which on the other side?",
+        "f",
+    ),
+    Row(
+        "sign of the whole",
         "Your {where} has the wrong sign. Does it rise when a body is lifted or a spring stretched?",
         "potential_energy",
     ),

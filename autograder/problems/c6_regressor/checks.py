@@ -60,8 +60,18 @@ def _columns(call, value):
     return masses, value[:, mistakes.MC1], inertias, np.array(at_joint_1), np.array(at_joint_2)
 
 
+# The entries of π as the mechanism writes them out, and by their names in the notebook.
+NAMED = {"I1 + m1·ℓc1²": "J1", "I2 + m2·ℓc2²": "J2", "m1·ℓc1": "m1 ℓc1", "m2·ℓc2": "m2 ℓc2"}
+
+
 class SixColumns(Generated):
     """The mistakes of the regressor that follows from the arm, which has no column of m1: it is 0."""
+
+    def _said(self, mistake):
+        sentence = super()._said(mistake).sentence
+        for entry, name in NAMED.items():
+            sentence = sentence.replace(entry, name)
+        return replace(mistake, sentence=sentence)
 
     def __call__(self, calls):
         return [
@@ -310,16 +320,16 @@ CHECKS = (
         calls=_identify_calls,
         quantities=_estimates,
         criteria=(
-            Criterion("first moments β1 and β3, exact torques", "kg·m", 0.3),
-            Criterion("inertias β2 and β4, exact torques", "kg·m²", 0.3),
+            Criterion("first moments β1 and β3 from exact torques", "kg·m", 0.3),
+            Criterion("inertias β2 and β4 from exact torques", "kg·m²", 0.3),
             Criterion(
-                "first moments β1 and β3, noisy torques",
+                "first moments β1 and β3 from noisy torques",
                 "kg·m",
                 0.2,
                 otherwise=NOT_LEAST_SQUARES,
             ),
             Criterion(
-                "inertias β2 and β4, noisy torques",
+                "inertias β2 and β4 from noisy torques",
                 "kg·m²",
                 0.2,
                 otherwise=NOT_LEAST_SQUARES,

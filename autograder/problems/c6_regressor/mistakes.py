@@ -228,6 +228,16 @@ REGRESSOR = (
         "In your column of J2, joint 2 does not feel q̈1. Is J2 in M12?",
     ),
     Mistake(
+        "acceleration of joint 1 for link 2 at joint 1",
+        _plus(lambda s, arm: {(0, J2): s.qdd1 - s.spin_2}),
+        "In your column of J2, joint 1 does not feel q̈2. Is J2 in M12?",
+    ),
+    Mistake(
+        "acceleration of link 2 for link 1",
+        _plus(lambda s, arm: {(0, J1): s.spin_2 - s.qdd1}),
+        "In your column of J1, joint 1 feels q̈2. Does link 1 turn faster as joint 2 does?",
+    ),
+    Mistake(
         "J1 at joint 2",
         _plus(lambda s, arm: {(1, J1): s.qdd1}),
         "In your column of J1, joint 2 has a torque. Which joints does link 1 load: those before "

@@ -20,6 +20,7 @@ RESHAPED = (
 )
 FIRST_LINK_LEFT_OUT = "You leave out the first link. At which index does a list begin?"
 LAST_LINK_LEFT_OUT = "You leave out the last link. Where does your loop end?"
+FIRST_LINK_ONLY = "Your result holds only the first link. Is your return inside the loop?"
 LAST_LINK_ONLY = (
     "Your result holds only the last link. Does your loop add each link, or write over the one "
     "before?"

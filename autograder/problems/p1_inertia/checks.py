@@ -281,6 +281,7 @@ CHECKS = (
             Criterion("M12 and M21", "kg·m²", 0.25, entries=("M12", "M21")),
             Criterion("M22", "kg·m²", 0.25),
         ),
+        mistakes=mistakes.INERTIA,
         catalogue=INERTIA,
         terms=INERTIA.terms,
         hints=(

@@ -6,9 +6,8 @@ import numpy as np
 
 from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
-from autograder.problems.material import sentences
+from autograder.problems.material import planar_2r, sentences
 from autograder.problems.material.definiteness import ROUNDING, is_symmetric, least_eigenvalue
-from autograder.problems.material.planar_2r import changed
 
 # The arm that stands in the notebook, for those who write its numbers into a function.
 EXAMPLE = SimpleNamespace(
@@ -74,11 +73,7 @@ INERTIA_FROM_LINKS = (
     ),
     Mistake("half", lambda jacobians, inertias: _right(jacobians, inertias) / 2, HALF),
     Mistake("last link only", _of(slice(-1, None)), sentences.LAST_LINK_ONLY),
-    Mistake(
-        "first link only",
-        _of(slice(0, 1)),
-        "Your result holds only the first link. Is your return inside the loop?",
-    ),
+    Mistake("first link only", _of(slice(0, 1)), sentences.FIRST_LINK_ONLY),
     Mistake("last link left out", _of(slice(None, -1)), sentences.LAST_LINK_LEFT_OUT),
     Mistake("first link left out", _of(slice(1, None)), sentences.FIRST_LINK_LEFT_OUT),
     Mistake(
@@ -97,6 +92,16 @@ INERTIA_FROM_LINKS = (
         "energies?",
     ),
     Mistake(
+        "diagonal of the matrix alone",
+        lambda jacobians, inertias: np.diag(np.diag(_right(jacobians, inertias))),
+        "Your matrix is diagonal. Does no joint feel the acceleration of another?",
+    ),
+    Mistake(
+        "upper triangle of the matrix alone",
+        lambda jacobians, inertias: np.triu(_right(jacobians, inertias)),
+        "Your matrix is 0 below its diagonal. Which property does an inertia matrix have?",
+    ),
+    Mistake(
         "inverse for matrix",
         lambda jacobians, inertias: np.linalg.inv(_right(jacobians, inertias)),
         "You return the inverse of the matrix. Which of the two, M or M⁻¹, stands in K = ½ q̇ᵀ M q̇?",
@@ -107,6 +112,67 @@ INERTIA_FROM_LINKS = (
 ABSOLUTE = (
     "Your M belongs to an absolute second angle: its link 2 turns with q̇2 alone. Hold joint 2 "
     "still and move joint 1: does link 2 turn?"
+)
+
+
+def _at_distance(squared):
+    """M with a wrong M11: that of a link 2 whose centre of mass is as far away as `squared` says."""
+
+    def wrong(q, arm):
+        M = planar_2r.M(q, arm)
+        M[0, 0] = arm.I1 + arm.m1 * arm.lc1**2 + arm.I2 + arm.m2 * squared(q[1], arm.l1, arm.lc2)
+        return M
+
+    return wrong
+
+
+COUPLED_TWICE = (
+    "Your M11 has the inertia of the stretched arm, and the coupling on top of it. How far is the "
+    "centre of mass of link 2 from the shoulder when the elbow is bent?"
+)
+COSINE_ON_A_SUM = (
+    "In your M11, the cosine multiplies more than it should. How far is the centre of mass of link 2 "
+    "from the shoulder when the elbow makes a right angle?"
+)
+ALONG_ONE_LINK = (
+    "Your M11 counts only how far the centre of mass of link 2 is from the shoulder along one of the "
+    "links. How far is it when the elbow makes a right angle?"
+)
+# What stands in M11 for the square of the distance from the shoulder to the centre of mass of link 2.
+INERTIA = tuple(
+    Mistake(name, _at_distance(squared), sentence)
+    for name, squared, sentence in (
+        (
+            "square of the sum and twice the coupling",
+            lambda q2, a, b: (a + b) ** 2 + 2 * a * b * np.cos(q2),
+            COUPLED_TWICE,
+        ),
+        (
+            "square of the sum and the coupling",
+            lambda q2, a, b: (a + b) ** 2 + a * b * np.cos(q2),
+            COUPLED_TWICE,
+        ),
+        (
+            "cosine on the square of the sum",
+            lambda q2, a, b: (a + b) ** 2 * np.cos(q2),
+            COSINE_ON_A_SUM,
+        ),
+        (
+            "cosine on the whole distance",
+            lambda q2, a, b: (a**2 + b**2 + 2 * a * b) * np.cos(q2) ** 2,
+            COSINE_ON_A_SUM,
+        ),
+        (
+            "distance along link 1",
+            lambda q2, a, b: (a + b * np.cos(q2)) ** 2,
+            ALONG_ONE_LINK,
+        ),
+        (
+            "distance along link 2",
+            lambda q2, a, b: (a * np.cos(q2) + b) ** 2,
+            ALONG_ONE_LINK,
+        ),
+    )
 )
 
 INERTIA_SAID = {
@@ -362,8 +428,8 @@ IS_SPD = (
 
 def _answer(q2=np.pi, **parameters):
     """A wrong answer of singular_arm: point masses on an arm that is folded, but for what is given."""
-    arm = changed(EXAMPLE, lc1=0.0, I1=0.0, I2=0.0)
-    return lambda: (changed(arm, **parameters), (0.0, q2))
+    arm = planar_2r.changed(EXAMPLE, lc1=0.0, I1=0.0, I2=0.0)
+    return lambda: (planar_2r.changed(arm, **parameters), (0.0, q2))
 
 
 SINGULAR_ARM = (

@@ -210,6 +210,8 @@ STRENGTHS = {
     ),
 }
 
+TURNED = "Its sign is wrong as well: g0 points down, and P grows upwards."
+
 FROM_JACOBIANS = (
     Mistake(
         "sign of gravity",
@@ -234,6 +236,29 @@ FROM_JACOBIANS = (
     Mistake("first link left out", _but_for(0), sentences.FIRST_LINK_LEFT_OUT),
     Mistake("last link left out", _but_for(-1), sentences.LAST_LINK_LEFT_OUT),
     Mistake("last link alone", _but_for(-1, kept=1.0, others=0.0), sentences.LAST_LINK_ONLY),
+    Mistake("first link alone", _but_for(0, kept=1.0, others=0.0), sentences.FIRST_LINK_ONLY),
+    Mistake(
+        "first link alone, sign of gravity",
+        _but_for(0, kept=-1.0, others=0.0),
+        f"{sentences.FIRST_LINK_ONLY} {TURNED}",
+    ),
+    Mistake(
+        "last link alone, sign of gravity",
+        _but_for(-1, kept=-1.0, others=0.0),
+        f"{sentences.LAST_LINK_ONLY} {TURNED}",
+    ),
+    Mistake(
+        "first two links alone",
+        _masses(lambda m: m * (np.arange(len(m)) < 2)),
+        "Your result holds only the first two links. The check also asks about robots with more: which "
+        "argument tells how many there are?",
+    ),
+    Mistake(
+        "mean for sum",
+        _masses(lambda m: m / len(m)),
+        "You divide by the number of links. Is the potential energy of the robot the mean of the links' "
+        "energies, or their sum?",
+    ),
     Mistake("reshaped for transposed", _reshaped, sentences.RESHAPED),
 )
 

@@ -199,6 +199,13 @@ def explicit(rows, weights):
     return step
 
 
+def _without_brackets(f, x, u, dt):
+    k1 = f(x, u)
+    k2 = f(x + dt / 2 * k1, u)
+    k3 = f(x + dt / 2 * k2, u)
+    return x + dt / 6 * k1 + 2 * k2 + 2 * k3 + f(x + dt * k3, u)
+
+
 ROWS = ((), (1 / 2,), (0, 1 / 2), (0, 0, 1))
 WEIGHTS = (1 / 6, 1 / 3, 1 / 3, 1 / 6)
 
@@ -248,6 +255,22 @@ METHODS = (
         "You take k4 in the middle of the step. How far ahead does the last slope look?",
     ),
     Mistake(
+        "whole step in k2",
+        explicit(((), (1,), ROWS[2], ROWS[3]), WEIGHTS),
+        "You take k2 at the end of the step. How far ahead do the two middle slopes look?",
+    ),
+    Mistake(
+        "whole step in k3",
+        explicit((*ROWS[:2], (0, 1), ROWS[3]), WEIGHTS),
+        "You take k3 at the end of the step. How far ahead do the two middle slopes look?",
+    ),
+    Mistake(
+        "k4 missing, sum over five",
+        explicit(ROWS[:3], (1 / 5, 2 / 5, 2 / 5)),
+        "Your sum has three slopes, and the one at the end of the step is missing. Where else does RK4 "
+        "take slopes?",
+    ),
+    Mistake(
         "whole steps in k2 and k3",
         explicit(((), (1,), (0, 1), (0, 0, 1)), WEIGHTS),
         "You take k2 and k3 at the end of the step. How far ahead do the two middle slopes look?",
@@ -288,6 +311,18 @@ STEP = (
         lambda f, x, u, dt: x + dt * (rk4(f, x, u, 1.0) - x),
         "The states at which you take k2, k3 and k4 do not depend on dt. How far along a slope is "
         "the middle of the step?",
+    ),
+    Mistake(
+        "dt twice in the stages",
+        lambda f, x, u, dt: explicit([[dt * a for a in row] for row in ROWS], WEIGHTS)(f, x, u, dt),
+        "For the states at which you take k2, k3 and k4 you multiply by the time step twice. Are your "
+        "k's slopes, or changes of the state?",
+    ),
+    Mistake(
+        "brackets missing in the sum",
+        _without_brackets,
+        "Only the first slope of your sum is multiplied by the time step. Where do its brackets begin "
+        "and end?",
     ),
     Mistake(
         "dt twice",

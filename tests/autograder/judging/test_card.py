@@ -86,7 +86,7 @@ def full(state: State) -> Verdict:
         state,
         0.5,
         (Row("kinetic part", 0.5, True), Row("potential part", 0.5, False)),
-        Witness("g_vec([0.3], m=1)", "2.1 N·m", "0.3 N·m (14% of the right value)"),
+        Witness("g_vec([0.3], m=1)", "2.1 N·m", "0.3 N·m (14 % of the right value)"),
         "It raised ValueError.",
         ("The sign is wrong.", "And the unit."),
         "It changes q.",
@@ -168,7 +168,7 @@ def test_the_mark_is_not_read_aloud(state):
 
 
 def test_partial_credit_is_in_the_headline():
-    assert full(State.PARTLY_CORRECT).headline == "p3-g_vec: partly correct (50%)"
+    assert full(State.PARTLY_CORRECT).headline == "p3-g_vec: partly correct (50 %)"
     assert full(State.INCORRECT).headline == "p3-g_vec: incorrect"
 
 
@@ -193,7 +193,7 @@ def test_sentences_come_in_the_order_of_their_use(state):
         "The sign is wrong.",
         "And the unit.",
         "It changes q.",
-        "Worst case: g_vec([0.3], m=1) gave 2.1 N·m, off by 0.3 N·m (14% of the right value).",
+        "Worst case: g_vec([0.3], m=1) gave 2.1 N·m, off by 0.3 N·m (14 % of the right value).",
         "To work with the failed call, run this in a cell of your own:",
         'q = worst_case("p3-g_vec")\ng_vec(q)',
         "Change your function.",
@@ -205,10 +205,10 @@ def test_sentences_come_in_the_order_of_their_use(state):
 
 def test_rows_are_marked_in_words_and_in_plain_text():
     words = Card(html_card(full(State.PARTLY_CORRECT))).words
-    assert "met: kinetic part (50%)" in words
-    assert "not met: potential part (50%)" in words
+    assert "met: kinetic part (50 %)" in words
+    assert "not met: potential part (50 %)" in words
     plain = str(full(State.PARTLY_CORRECT))
-    assert "  [x] kinetic part (50%)\n  [ ] potential part (50%)\n" in plain
+    assert "  [x] kinetic part (50 %)\n  [ ] potential part (50 %)\n" in plain
     alone = Verdict("a", State.CORRECT, 1.0, (Row("kinetic part", 1.0, True),))
     assert str(alone) == "a: correct\n  [x] kinetic part"
     assert "met: kinetic part" in Card(html_card(alone)).words
@@ -347,16 +347,16 @@ ENTRIES = Verdict(
 
 def test_each_sentence_stands_under_its_criterion():
     items = Items(html_card(ENTRIES)).items
-    assert items[0] == ["not met: M11 (50%)", "The sign.", "The half."]
-    assert items[1] == ["met: M22 (25%)"]
-    assert items[2][:2] == ["not met: M12 (25%)", AS_ABOVE]
+    assert items[0] == ["not met: M11 (50 %)", "The sign.", "The half."]
+    assert items[1] == ["met: M22 (25 %)"]
+    assert items[2][:2] == ["not met: M12 (25 %)", AS_ABOVE]
     assert html_card(ENTRIES).index("Of all.") > html_card(ENTRIES).index(AS_ABOVE)
     assert str(ENTRIES).splitlines()[1:] == [
-        "  [ ] M11 (50%)",
+        "  [ ] M11 (50 %)",
         "      The sign.",
         "      The half.",
-        "  [x] M22 (25%)",
-        "  [ ] M12 (25%)",
+        "  [x] M22 (25 %)",
+        "  [ ] M12 (25 %)",
         f"      {AS_ABOVE}",
         "  Of all.",
     ]

@@ -41,7 +41,7 @@ def times(factor: float, values: list) -> list:
         (0.9, "every value is 10 % too small."),
         (3, "every value is 3 times the right one."),
         (-0.25, "every value is −0.25 times the right one."),
-        (9.8 / 9.81, "every value is 0.102 % too small. Is a constant rounded?"),
+        (9.8 / 9.81, "every value is 0.1 % too small. Is a constant rounded?"),
     ],
 )
 def test_a_factor_of_the_whole_is_named(factor, said):

@@ -160,9 +160,9 @@ def test_scores(course, student, expected):
         (
             "partly_right",
             [
-                "p3-lagrangian: partly correct (50%)",
-                "met: kinetic part of L (50%)",
-                "not met: potential part of L (50%)",
+                "p3-lagrangian: partly correct (50 %)",
+                "met: kinetic part of L (50 %)",
+                "not met: potential part of L (50 %)",
                 *sentences("p3-lagrangian", "energy for L"),
                 *sentences("p3-g_vec", "sign of the whole"),
             ],

@@ -64,6 +64,8 @@ def test_a_nan_costs_in_grading_what_hangs_on_it(monkeypatch):
     verdict = graded.verdicts["p5-f"]
     assert (verdict.state, verdict.credit) == (State.PARTLY_CORRECT, 0.25)
     assert "returned nan at [" in verdict.problem
+    assert "0/0" in verdict.problem
+    assert "arm.coulomb * qd / np.abs(qd))" in verdict.problem  # its line, in brackets
     assert (verdict.failed, verdict.worst) == (None, None)
 
 

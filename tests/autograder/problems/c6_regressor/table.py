@@ -122,6 +122,12 @@ TABLE = {
             0.8,
         ),
         ("dropped / the column of I2 + m2·lc2² / row 1", Y("J2[:] = a1", "J2[1] = a1"), 0.8),
+        (
+            "acceleration of joint 1 for link 2 at joint 1",
+            Y("J2[:] = a1 + a2", "J2[:] = a1, a1 + a2"),
+            0.8,
+        ),
+        ("acceleration of link 2 for link 1", Y("J1[0] = a1", "J1[0] = a1 + a2"), 0.8),
         ("J1 at joint 2", Y("J1[0] = a1", "J1[:] = a1"), 0.8),
         (
             "square lost / the mass of link 2 at the elbow / l1 / l1² / in M and C",

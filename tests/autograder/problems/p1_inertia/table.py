@@ -37,6 +37,8 @@ def singular(parameters: dict, q: str) -> str:
 
 
 ROUNDED = "rounding taken for a positive eigenvalue"
+# Of M11, all but the part of link 2's motion.
+REST = "I1 + m1 * lc1**2 + I2"
 TABLE = {
     "p1-inertia_from_links": [
         ("I not used", "sum(J.T @ J for J in jacobians)", 0),
@@ -91,9 +93,63 @@ TABLE = {
             "J, I = sum(jacobians), sum(inertias)\nreturn J.T @ I @ J",
             0.5,
         ),
+        ("diagonal of the matrix alone", f"np.diag(np.diag({LINKS}))", 0),
+        ("upper triangle of the matrix alone", f"np.triu({LINKS})", 0),
         ("inverse for matrix", f"np.linalg.inv({LINKS})", 0),
     ],
     "p1-M": [
+        (
+            "square of the sum and twice the coupling",
+            arm(f"M11 = {REST} + m2 * (l1 + lc2) ** 2 + 2 * c"),
+            0.5,
+        ),
+        (
+            (
+                "square of the sum and twice the coupling",
+                "double angle / the coupling of the two links / M12 / q2",
+            ),
+            arm(
+                f"M11 = {REST} + m2 * (l1 + lc2) ** 2 + 2 * c",
+                "M12 += m2 * l1 * lc2 * np.cos(2 * q2) - c",
+                "M21 = M12",
+            ),
+            0.25,
+        ),
+        (
+            "square of the sum and the coupling",
+            arm(f"M11 = {REST} + m2 * (l1 + lc2) ** 2 + c"),
+            0.5,
+        ),
+        (
+            "cosine on the square of the sum",
+            arm(f"M11 = {REST} + m2 * (l1 + lc2) ** 2 * np.cos(q2)"),
+            0.5,
+        ),
+        (
+            "cosine on the whole distance",
+            arm(f"M11 = {REST} + m2 * ((l1 + lc2) * np.cos(q2)) ** 2"),
+            0.5,
+        ),
+        (
+            "distance along link 1",
+            arm(f"M11 = {REST} + m2 * (l1 + lc2 * np.cos(q2)) ** 2"),
+            0.5,
+        ),
+        (
+            "distance along link 2",
+            arm(f"M11 = {REST} + m2 * (l1 * np.cos(q2) + lc2) ** 2"),
+            0.5,
+        ),
+        (
+            "wrong wave / the coupling of the two links / q1 + q2 / q2",
+            coupled("m2 * l1 * lc2 * np.sin(q1 + q2)"),
+            0.25,
+        ),
+        (
+            "wrong angle / the coupling of the two links / M11 / q1 + 2 q2 / q2",
+            arm("M11 += 2 * (m2 * l1 * lc2 * np.cos(q1 + 2 * q2) - c)"),
+            0.5,
+        ),
         ("dropped / the rotation of link 2 / M12", arm("M12 -= I2", "M21 -= I2"), 0.75),
         (
             "wrong angle / the coupling of the two links / q1 / q2",

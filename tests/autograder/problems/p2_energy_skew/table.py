@@ -31,6 +31,21 @@ def d(i, j, k):
     return sp.diff(M[i, j], q[k])
 """
 
+LOOPS = """
+C, s = sp.zeros(n), 0
+for i in range(n):
+    for j in range(n):
+        for k in range({}):
+            {}
+return C
+"""
+
+
+def summed(line: str, ks: str = "n") -> str:
+    """The body of christoffel with three loops. line: in the innermost; ks: the range of k."""
+    return LOOPS.format(ks, line)
+
+
 HEADS = dict.fromkeys(("p2-M_dot", "p2-C", "p2-C_other"), ARM) | {"p2-christoffel": SYMBOLS}
 
 C = "np.array([[h * b, h * (a + b)], [-h * a, 0]])"
@@ -63,6 +78,13 @@ BODIES = {
         ),
     ],
     "p2-C": [
+        (
+            "wrong wave / the coupling of the two links / q1 + q2 / q2",
+            "h = -mll * np.sin(q[0] + q[1] + np.pi / 2)\n"
+            "return [[h * b, h * (a + b)], [-h * a, 0]]",
+            0,
+        ),
+        ("last term alone", "return [[h * b, h * b], [0, 0]]", 0.5),
         (
             "dropped / the coupling of the two links / C11",
             "return [[0, h * (a + b)], [-h * a, 0]]",
@@ -133,6 +155,33 @@ BODIES = {
         ("columns exchanged", "return np.array([[h * b, h * (a + b)], [-h * a, 0]])[:, ::-1]", 0),
     ],
     "p2-christoffel": [
+        ("last term alone", summed("C[i, j] = right(i, j, k)"), 0),
+        ("first term alone", "return sp.Matrix(n, n, lambda i, j: right(i, j, 0))", 0),
+        ("last term left out", summed("C[i, j] += right(i, j, k)", "n - 1"), 0),
+        ("first term left out", summed("C[i, j] += right(i, j, k)", "1, n"), 0),
+        ("sum never begun anew", summed("s += right(i, j, k); C[i, j] = s"), 0),
+        ("upper triangle alone", summed("C[i, j] += right(i, j, k) * int(i <= j)"), 0),
+        (
+            "upper triangle mirrored",
+            "return matrix(lambda i, j, k: right(min(i, j), max(i, j), k))",
+            0,
+        ),
+        (
+            "first derivative alone halved",
+            "return matrix(lambda i, j, k: (d(i, j, k) / 2 + d(i, k, j) - d(j, k, i)) * qd[k])",
+            0,
+        ),
+        (
+            "second derivative alone halved",
+            "return matrix(lambda i, j, k: (d(i, j, k) + d(i, k, j) / 2 - d(j, k, i)) * qd[k])",
+            0,
+        ),
+        (
+            "last derivative alone halved",
+            "return matrix(lambda i, j, k: (d(i, j, k) + d(i, k, j) - d(j, k, i) / 2) * qd[k])",
+            0,
+        ),
+        ("coordinate for velocity", "return matrix(right).subs(dict(zip(qd, q)))", 0),
         ("torque for C", "return matrix(right) * sp.Matrix(qd)", 0),
         ("C times ones", "return matrix(right) * sp.ones(n, 1)", 0),
         (

@@ -27,6 +27,11 @@ TABLE = {
         ("momentum for C", "pend.I * qd", 0),
     ],
     "p3-g_vec": [
+        (
+            "parameter inverted / the weight of the body / lc",
+            "pend.m * pend.g * np.sin(q) / pend.lc",
+            0,
+        ),
         ("sign of the whole", f"-{MGL} * np.sin(q)", 0),
         ("cosine for sine / the weight of the body", f"{MGL} * np.cos(q)", 0),
         ("radians converted / the weight of the body", f"{MGL} * np.sin(np.radians(q))", 0),

@@ -32,7 +32,8 @@ EXAMPLE_LINES = (
     "lc2, m2, g = 0.17, 2.6, 9.81",
 )
 
-SUM = "sum({} for m, Jv in zip(masses, jacobians_v))"
+LINKS = "zip(masses, jacobians_v)"
+SUM = f"sum({{}} for m, Jv in {LINKS})"
 
 LOOP = """
 g = np.zeros(jacobians_v.shape[2])
@@ -78,6 +79,21 @@ TABLE = {
         ),
     ],
     "p4-g_vec": [
+        (
+            "wrong angle / the weight of link 2 beyond the elbow / q1 + 2 q2 / q1 + q2",
+            torque(second="q1 + 2 * q2"),
+            0,
+        ),
+        (
+            "wrong wave / the weight of link 2 beyond the elbow / q2 / q1 + q2",
+            torque(second="q2 - np.pi / 2"),
+            0,
+        ),
+        (
+            "half angle / the weight of link 2 beyond the elbow / q1 + q2",
+            torque(second="(q1 + q2) / 2"),
+            0,
+        ),
         ("sign of the whole", torque(sign="-"), 0),
         (
             "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2",
@@ -125,7 +141,6 @@ TABLE = {
             (
                 "moved / the weight of link 2 at the elbow / g2 / g1",
                 "dropped / the weight of link 2 beyond the elbow / g1",
-                "astray / the weight of link 2 at the elbow / g2 / g1",
             ),
             P("[m1*g*lc1*np.cos(q1), m2*g*(l1*np.cos(q1) + lc2*np.cos(q1 + q2))]"),
             0,
@@ -158,6 +173,19 @@ TABLE = {
         ("first link left out", LOOP.format("1, len(masses)", "+="), 0),
         ("last link left out", LOOP.format("len(masses) - 1", "+="), 0),
         ("last link alone", LOOP.format("len(masses)", "="), 0),
+        ("first link alone", f"for m, Jv in {LINKS}:\n    return -m * Jv.T @ g0", 0),
+        (
+            "first link alone, sign of gravity",
+            f"for m, Jv in {LINKS}:\n    return m * g0 @ Jv",
+            0,
+        ),
+        (
+            "last link alone, sign of gravity",
+            f"for m, Jv in {LINKS}:\n    g = m * Jv.T @ g0\nreturn g",
+            0,
+        ),
+        ("first two links alone", LOOP.format("2", "+="), 0),
+        ("mean for sum", f"np.mean([-m * Jv.T @ g0 for m, Jv in {LINKS}], axis=0)", 0),
         ("reshaped for transposed", SUM.format("-m * Jv.reshape(-1, 3) @ g0"), 0),
     ],
     "p4-equilibria": [

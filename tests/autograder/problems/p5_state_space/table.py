@@ -119,6 +119,54 @@ return states
 
 TABLE = {
     "p5-f": [
+        ("signs of the left side", rate("u + C @ qd + g + d * qd + k * np.sign(qd)"), 0.25),
+        ("sign of the whole", rate("C @ qd + g + d * qd + k * np.sign(qd) - u"), 0.25),
+        ("left side missing", rate("u"), 0.25),
+        (
+            ("wrong sign / C q̇", "wrong sign / g(q)"),
+            rate("u + C @ qd + g - d * qd - k * np.sign(qd)"),
+            0.25,
+        ),
+        (
+            ("wrong sign / g(q)", "wrong sign / the friction"),
+            rate("u - C @ qd + g + d * qd + k * np.sign(qd)"),
+            0.25,
+        ),
+        (
+            "coordinate for velocity / the viscous friction",
+            rate("u - C @ qd - g - d * q - k * np.sign(qd)"),
+            0.25,
+        ),
+        (
+            "coordinate for velocity / the friction",
+            rate("u - C @ qd - g - d * q - k * np.sign(q)"),
+            0.25,
+        ),
+        (
+            "wrong velocity / the Coulomb friction / qd1 + qd2",
+            rate("u - C @ qd - g - d * qd - k * np.sign(qd.sum())"),
+            0.25,
+        ),
+        (
+            "wrong velocity / the Coulomb friction / qd1",
+            rate("u - C @ qd - g - d * qd - k * np.sign(qd[0])"),
+            0.25,
+        ),
+        (
+            "direction of all velocities / the Coulomb friction",
+            rate("u - C @ qd - g - d * qd - k * qd / np.linalg.norm(qd)"),
+            0.25,
+        ),
+        (
+            "coefficient left out / the Coulomb friction",
+            rate("u - C @ qd - g - d * qd - np.sign(qd)"),
+            0.25,
+        ),
+        (
+            "friction in one direction / the viscous friction",
+            rate("u - C @ qd - g - d * abs(qd) - k * np.sign(qd)"),
+            0.25,
+        ),
         ("halves of ẋ swapped", rate(returned="np.concatenate([qdd, qd])"), 0),
         ("state interleaved", rate(state="q, qd = x[::2], x[1::2]"), 0),
         (
@@ -157,6 +205,20 @@ TABLE = {
         ("k4 from k2", step(k4="f(x + dt * k2, u)"), 0.25),
         ("k4 from k1", step(k4="f(x + dt * k1, u)"), 0.25),
         ("half a step in k4", step(k4="f(x + dt / 2 * k3, u)"), 0.25),
+        ("whole step in k2", step(k2="f(x + dt * k1, u)"), 0.25),
+        ("whole step in k3", step(k3="f(x + dt * k2, u)"), 0.25),
+        ("k4 missing, sum over five", step(returned="x + dt / 5 * (k1 + 2 * k2 + 2 * k3)"), 0.25),
+        (
+            "dt twice in the stages",
+            "k1 = dt * f(x, u)\nk2 = dt * f(x + dt / 2 * k1, u)\nk3 = dt * f(x + dt / 2 * k2, u)\n"
+            "k4 = dt * f(x + dt * k3, u)\nreturn x + (k1 + 2 * k2 + 2 * k3 + k4) / 6",
+            0.25,
+        ),
+        (
+            "brackets missing in the sum",
+            step(returned="x + dt / 6 * k1 + 2 * k2 + 2 * k3 + k4"),
+            0,
+        ),
         ("whole steps in k2 and k3", step(k2="f(x + dt * k1, u)", k3="f(x + dt * k2, u)"), 0.25),
         ("equal weights", step(returned="x + dt * (k1 + k2 + k3 + k4) / 4"), 0.25),
         ("equal weights, sum over six", step(returned="x + dt * (k1 + k2 + k3 + k4) / 6"), 0),
@@ -243,6 +305,13 @@ TABLE = {
         ("k4 from k2", loop(method=step(k4="f(x + dt * k2, u)")), 0.4),
         ("k4 from k1", loop(method=step(k4="f(x + dt * k1, u)")), 0.4),
         ("half a step in k4", loop(method=step(k4="f(x + dt / 2 * k3, u)")), 0.4),
+        ("whole step in k2", loop(method=step(k2="f(x + dt * k1, u)")), 0.4),
+        ("whole step in k3", loop(method=step(k3="f(x + dt * k2, u)")), 0.4),
+        (
+            "k4 missing, sum over five",
+            loop(method=step(returned="x + dt / 5 * (k1 + 2 * k2 + 2 * k3)")),
+            0.4,
+        ),
         (
             "whole steps in k2 and k3",
             loop(method=step(k2="f(x + dt * k1, u)", k3="f(x + dt * k2, u)")),
@@ -256,6 +325,7 @@ TABLE = {
         ),
     ],
     "p5-energy_drift": [
+        ("M times squares", drift(K="0.5 * np.sum(M(q) @ qd**2)"), 0.35),
         ("½ of K missing", drift(K="qd @ M(q) @ qd"), 0.35),
         ("C in the energy", drift(K="0.5 * qd @ (M(q) + C(q, qd)) @ qd"), 0.35),
         ("K missing", drift(K="0"), 0.35),

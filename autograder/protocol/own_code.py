@@ -1,0 +1,34 @@
+"""Where in a student's own code something happened."""
+
+import os
+from collections.abc import Iterable
+from traceback import FrameSummary
+
+from .words import other_cell, shortened
+
+# A cell as IPython names it, in a kernel and in the sandbox.
+CELLS = ("ipykernel_", "<ipython-input")
+
+
+def line_of(frames: Iterable[FrameSummary]) -> str:
+    """The last line of the student's own code among these frames, with its number, and with its cell or
+    its file where that is not the function's cell; "" where none is the student's.
+    """
+    own = [frame for frame in frames if _is_own(frame.filename)]
+    if not own:
+        return ""
+    line = f"line {own[-1].lineno}: {own[-1].line}".rstrip(": ")
+    if not _is_cell(own[-1].filename):
+        where = os.path.basename(own[-1].filename)
+    else:
+        where = "" if own[-1].filename == own[0].filename else other_cell(own[-1].name)
+    return shortened(f"{where}, {line}" if where else line)
+
+
+def _is_own(filename: str) -> bool:
+    """Whether code is a student's: of a cell, or of a file beside the notebook."""
+    return _is_cell(filename) or os.path.dirname(filename) == os.getcwd()
+
+
+def _is_cell(filename: str) -> bool:
+    return any(name in filename for name in CELLS)
