@@ -286,7 +286,7 @@ CHECKS = (
         criteria=(
             Criterion("vector C q̇", "N·m", 0.4),
             Criterion(
-                "Christoffel form, entry by entry",
+                "Christoffel form, entry by entry,",
                 "kg·m²/s",
                 0.6,
                 otherwise=(
