@@ -18,7 +18,7 @@ FULL_MARKS = "with full marks"
 MOST_BYTES = 4 << 20
 MOST_SHOWN = 60  # characters of what is no time
 # nbgrader's feedback pages break code within words otherwise, and JupyterLab breaks its lines.
-LOOK = "margin: 0.3em 0; white-space: pre-wrap; overflow-wrap: anywhere"
+LOOK = "margin: 0.3em 0; white-space: pre-wrap; overflow-wrap: anywhere; word-break: normal"
 OF_THE_BOOK = (
     "This is the answer for the arm of the book. Yours is described in another way, so that its "
     "formulas differ: what leads to them is the same."

@@ -21,7 +21,7 @@ img, svg { max-width: 100%; height: auto; }
   .container, #notebook-container, .panel-body { padding: 4px; }
   div.inner_cell, div.output_subarea, div.text_cell_render { min-width: 0; max-width: 100%; }
   div.output_subarea { overflow-x: visible; }
-  pre, code { white-space: pre-wrap; overflow-wrap: anywhere; }
+  pre, code { white-space: pre-wrap; overflow-wrap: anywhere; word-break: normal; }
   h1, h2, h3, h4, p, li { overflow-wrap: anywhere; }
   div.nbgrader_cell .panel-heading { height: auto; overflow: hidden; }
 }
