@@ -24,6 +24,13 @@ FALSE = {
     ),
     "skew by skewness": ("p2-skew", [(f"{SKEW} = 0", "skew-symmetry")], {1: CIRCLE}),
     "skew by the energy": ("p2-skew", [(f"{SKEW} = 0", "energy balance")], {1: "every entry"}),
+    "skew for every z by the energy": (
+        "p2-skew", [("= z' (Mdot - 2 C) z", "energy balance"), ("= 0", "energy balance")],
+        {1: "with the same q̇ that stands in C", 2: "with the same q̇ that stands in C"},
+    ),
+    "any vector for the velocities": (
+        "p2-E", [("Edot = z' u", "equation of motion")], {1: "does not follow"},
+    ),
     "a sum that is zero whatever stands in it": (
         "p2-skew",
         [(f"{SKEW} = (W - W') + (W - W')'", "Christoffel symbols"), ("= 0", "algebra")],
