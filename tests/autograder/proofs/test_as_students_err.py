@@ -82,6 +82,11 @@ FALSE = {
         [("qd' M qd = 2 K", "kinetic energy"), ("> 0", "M is positive definite")],
         {2: CIRCLE},
     ),
+    "positive, for its energy": (
+        "p1-positive",
+        [("qd' M qd = 2 K", "kinetic energy"), ("> 0", "no motion without energy")],
+        {2: "is not enough: it also needs a definition and a property of the link inertias"},
+    ),
     "divided by the velocity": (
         "p3-L", [("u = d/dt(K + P)/qd", "Euler-Lagrange")], {1: "divides by what is zero at rest"},
     ),
