@@ -20,6 +20,7 @@ C_IS_SKEW = "C is skew"
 MEANINGS = {
     "qd": "q̇, the velocities",
     "qdd": "q̈, the accelerations",
+    "z": "any vector, whatever q̇ is",
     "u": "the motors' torques",
     "M": "the inertia matrix",
     "Mdot": "Ṁ, its rate",
@@ -79,7 +80,7 @@ def draw(rng: np.random.Generator, given: frozenset[str]) -> dict[str, np.ndarra
     def random(rows: int = 1, columns: int = 1) -> np.ndarray:
         return rng.normal(size=(WORLDS, rows, columns))
 
-    names = ("qd", "qdd", "u", "f", "g", "dPdq")
+    names = ("qd", "qdd", "z", "u", "f", "g", "dPdq")
     numbers = {name: random(N) for name in names} | {name: random() for name in "KPE"}
     qd = numbers["qd"]
     numbers["Pdot"] = random()

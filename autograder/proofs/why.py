@@ -71,11 +71,12 @@ class Why:
             if other not in allowed and self._worlds.hold(step, (*given, other)):
                 return "This step uses what is to be proved."
         for pair in itertools.combinations(allowed, 2):
-            if self._worlds.hold(step, pair) or (
-                given and self._worlds.hold(step, (*given, *pair))
-            ):
-                kinds = " and ".join(dict.fromkeys(reason.kind for reason in pair))
+            kinds = " and ".join(dict.fromkeys(reason.kind for reason in pair))
+            if self._worlds.hold(step, pair):
                 return f"The line is right, but not by {by}: it needs {kinds}."
+            if given and self._worlds.hold(step, (*given, *pair)):
+                are = "are" if len(given) > 1 else "is"
+                return f"The line is right, but {by} {are} not enough: it also needs {kinds}."
         return ""
 
     def _numbers(self, step: Step) -> str:

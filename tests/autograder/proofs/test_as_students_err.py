@@ -24,6 +24,13 @@ FALSE = {
     ),
     "skew by skewness": ("p2-skew", [(f"{SKEW} = 0", "skew-symmetry")], {1: CIRCLE}),
     "skew by the energy": ("p2-skew", [(f"{SKEW} = 0", "energy balance")], {1: "every entry"}),
+    "skew for every z by the energy": (
+        "p2-skew", [("= z' (Mdot - 2 C) z", "energy balance"), ("= 0", "energy balance")],
+        {1: "with the same q̇ that stands in C", 2: "with the same q̇ that stands in C"},
+    ),
+    "any vector for the velocities": (
+        "p2-E", [("Edot = z' u", "equation of motion")], {1: "does not follow"},
+    ),
     "a sum that is zero whatever stands in it": (
         "p2-skew",
         [(f"{SKEW} = (W - W') + (W - W')'", "Christoffel symbols"), ("= 0", "algebra")],
@@ -74,6 +81,11 @@ FALSE = {
         "p1-positive",
         [("qd' M qd = 2 K", "kinetic energy"), ("> 0", "M is positive definite")],
         {2: CIRCLE},
+    ),
+    "positive, for its energy": (
+        "p1-positive",
+        [("qd' M qd = 2 K", "kinetic energy"), ("> 0", "no motion without energy")],
+        {2: "is not enough: it also needs a definition and a property of the link inertias"},
     ),
     "divided by the velocity": (
         "p3-L", [("u = d/dt(K + P)/qd", "Euler-Lagrange")], {1: "divides by what is zero at rest"},

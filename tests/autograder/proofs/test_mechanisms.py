@@ -48,10 +48,10 @@ def drawn(name: str):
             n = mechanism.n
             states.append(
                 {
-                    "qd": qd, "qdd": rng.normal(size=n), "u": np.zeros(n), "g": np.zeros(n),
-                    "f": rng.normal(size=n), "dPdq": np.array(gradient, dtype=float), "P": P, "K": 0.0,
-                    "E": 0.0, "Pdot": 0.0, "M": np.array(M, dtype=float), "Mdot": Mdot, "W": W,
-                    "C": np.zeros((n, n)),
+                    "qd": qd, "qdd": rng.normal(size=n), "z": rng.normal(size=n), "u": np.zeros(n),
+                    "g": np.zeros(n), "f": rng.normal(size=n), "dPdq": np.array(gradient, dtype=float),
+                    "P": P, "K": 0.0, "E": 0.0, "Pdot": 0.0, "M": np.array(M, dtype=float),
+                    "Mdot": Mdot, "W": W, "C": np.zeros((n, n)),
                 }
             )  # fmt: skip
         return {key: stacked([state[key] for state in states]) for key in states[0]}
