@@ -83,7 +83,12 @@ def _is_an_error(record: logging.LogRecord) -> bool:
 def _write_settings(folder: Path, student: bool) -> None:
     """Write JupyterLab's own settings: which of its parts are there, and what they ask for."""
     # Without this, it would first ask a student whether to fetch Jupyter's news.
-    overrides = {"@jupyterlab/apputils-extension:notification": {"fetchNews": "false"}}
+    overrides = {
+        "@jupyterlab/apputils-extension:notification": {"fetchNews": "false"},
+        # Otherwise the height of cells that were not in view yet is guessed, and a card's link to a
+        # section of a long lesson ends beside it.
+        "@jupyterlab/notebook-extension:tracker": {"windowingMode": "defer"},
+    }
     page = {"disabledExtensions": list(INSTRUCTORS_EXTENSIONS) if student else []}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "overrides.json").write_text(json.dumps(overrides), encoding="utf-8")
