@@ -75,6 +75,8 @@ OF_THE_WHOLE = (
     "inverse",
     "joints exchanged",
     "columns in another order",
+    "halves of ẋ swapped",
+    "state for its rate",
 )
 # What is mostly done in all entries alike.
 SELDOM_OF_AN_ENTRY = (

@@ -336,6 +336,10 @@ STEPS: dict[str, dict[str, Step]] = {
     },
     "f": {
         "sign of the whole": _accelerating(lambda driven: -driven.acceleration),
+        "half of the whole": _accelerating(lambda driven: driven.acceleration / 2),
+        "twice the whole": _accelerating(lambda driven: 2 * driven.acceleration),
+        "state for its rate": lambda driven: rate(driven.q, driven.qd),
+        "velocity for acceleration": _accelerating(lambda driven: driven.qd),
         "signs of the left side": _accelerating(lambda driven: driven.left_side(1)),
         "left side missing": _accelerating(lambda driven: driven.left_side(0)),
         "halves of ẋ swapped": lambda driven: rate(driven.acceleration, driven.qd),

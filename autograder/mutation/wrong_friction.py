@@ -53,6 +53,14 @@ def _of_dry(term: FrictionTerm, q, v, speed) -> Iterator[Rewriting]:
         yield Rewriting(name, sp.Tuple(torque), detail=detail)
 
 
+def _by_kind(mechanism: Mechanism) -> dict[str, list[int]]:
+    """The places of the terms of each kind of friction."""
+    found: dict[str, list[int]] = {}
+    for k, term in enumerate(mechanism.friction):
+        found.setdefault(WORDS.get(term.coefficient, "the friction"), []).append(k)
+    return found
+
+
 def mistakes(mechanism: Mechanism) -> list[tuple[Mutant, dict[int, sp.Expr]]]:
     """Each with the torques of all terms, by place: made in one, in all of one kind, or in all."""
     right = {k: sp.sympify(term.torque) for k, term in enumerate(mechanism.friction)}
@@ -72,6 +80,10 @@ def mistakes(mechanism: Mechanism) -> list[tuple[Mutant, dict[int, sp.Expr]]]:
         for (operator, words, put, detail), changes in alike.items()
         if len(changes) > 1
     ]
+    for kind, terms in _by_kind(mechanism).items():
+        total = sum(right[k] for k in terms)
+        if len(terms) > 1:
+            all_alike.append((Mutant("added up", kind), dict.fromkeys(terms, total)))
     kinds = sorted({term.coefficient for term in mechanism.friction})
     swapped = {
         term.symbol: other.symbol

@@ -159,6 +159,9 @@ OF_STEPS = {
     "the entries of π. Which entry belongs to each column?",
     "parameters inside": "Your columns hold the parameters that they belong to. Y may hold only "
     "what is known: what multiplies Y?",
+    "state for its rate": "You return x itself. What is its rate of change, half by half?",
+    "velocity for acceleration": "The second half of your ẋ is q̇ again. What is the rate of "
+    "change of q̇?",
     "halves of ẋ swapped": "You swapped the two halves of ẋ. Which half of x is q, and which "
     "half of ẋ is its rate of change?",
     "q for its rate": "The first half of your ẋ is q itself. What is the rate of change of q, "

@@ -101,6 +101,8 @@ OF_FRICTION = {
     "on where a joint is, or on how it moves?",
     "coefficient left out": "In your {where}, {term} lacks its coefficient. Do its units come out "
     "right?",
+    "added up": "In your {where}, each joint feels {term} of all joints, added up. How do @ and * "
+    "differ for two vectors?",
     "direction of all velocities": "In your {where}, {term} is divided by the length of the whole q̇. "
     "Does dry friction in one joint depend on how fast another one moves?",
     "smooth sign": "In your {where}, {term} fades out at low speed, as a tanh does. In this "

@@ -122,6 +122,14 @@ TABLE = {
         ("signs of the left side", rate("u + C @ qd + g + d * qd + k * np.sign(qd)"), 0.25),
         ("sign of the whole", rate("C @ qd + g + d * qd + k * np.sign(qd) - u"), 0.25),
         ("left side missing", rate("u"), 0.25),
+        ("state for its rate", "x", 0),
+        ("velocity for acceleration", "np.concatenate([x[2:], x[2:]])", 0.25),
+        ("half of the whole", rate(qdd="np.linalg.solve(M, torque) / 2"), 0.25),
+        (
+            ("added up / the viscous friction", "added up / the Coulomb friction"),
+            rate("u - C @ qd - g - d @ qd - k @ np.sign(qd)"),
+            0.25,
+        ),
         (
             ("wrong sign / C q̇", "wrong sign / g(q)"),
             rate("u + C @ qd + g - d * qd - k * np.sign(qd)"),
