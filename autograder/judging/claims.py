@@ -89,74 +89,91 @@ class Compared:
                 return False
         return True
 
-    def of_single_numbers(self, k: int) -> list[int]:
-        """Mistakes that explain some numbers of criterion k, where others are wrong for other reasons.
-
-        All that such a mistake changes, anywhere, is its own in the answer. The one that explains most
-        comes first, then what that one leaves; at most MOST_NAMED.
-        """
-        of_changes = np.array([claim is Claim.CHANGED for claim in self.claims], dtype=bool)
-        judged = [j for j, c in enumerate(self.criteria) if not (c.is_property or c.is_truth)]
-        if k not in judged or self.is_zero:
-            return []
-        parts = {j: self._by_number(j) for j in judged}
-        found = of_changes
-        for changed, same in parts.values():
-            found = found & np.all(~changed | same, axis=1)
-        size = np.sum([np.sum(changed, axis=1) for changed, _ in parts.values()], axis=0)
-        left = parts[k][0].copy()
-        named: list[int] = []
-        while len(named) < MOST_NAMED and np.any(at := found & np.any(left, axis=1)):
-            one = int(np.argmax(np.where(at, size, 0)))
-            named.append(one)
-            left &= ~parts[k][0][one]
-        return named
-
-    def _by_number(self, k: int) -> tuple[np.ndarray, np.ndarray]:
-        """Of each number of criterion k, in all cases: which mistakes change it, and of which it is,
-        both (mistakes, numbers).
-        """
-        of = self.layout[k]
-        cases = [case for case, shape in enumerate(of.shapes) if np.prod(shape)]
-        sizes = {of.sizes[case] - 1 for case in cases}
-        if len(sizes) != 1 or max(sizes) > MOST_NUMBERS:
-            return self.changed[:, [k]], self.shown[:, [k]]
-        at = of.starts[cases][:, np.newaxis] + 1 + np.arange(*sizes)
-        right, given, wrong = self.right[k][at], self.given[k][at], self.wrong[k][:, at]
-        tolerance = self.criteria[k].tolerance
-
-        def same(numbers: np.ndarray) -> np.ndarray:
-            size = np.abs(numbers)
-            scale = np.maximum(size, LEAST_SCALE * np.max(size, axis=0))
-            scale = np.maximum(scale, of.floor)
-            error = np.abs(wrong - numbers)
-            return np.all(error <= tolerance * np.where(scale > 0, scale, 1.0), axis=1)
-
-        return ~same(right), same(given)
-
     def borne_out(self, named: Sequence[int]) -> np.ndarray:
         """Which mistakes' sentences the numbers bear out: (mistakes,).
 
-        Where a sentence speaks of a criterion, its numbers are the mistake's, or its own and those of
-        one more that is named.
+        Where a sentence speaks of numbers, they are the mistake's, or its own and those of one more that
+        is named.
         """
-        of_changes = np.array([claim is Claim.CHANGED for claim in self.claims], dtype=bool)
-        found = np.ones(len(of_changes), dtype=bool)
+        found = np.ones(len(self.claims), dtype=bool)
         for k, criterion in enumerate(self.criteria):
-            silent = of_changes & (criterion.is_property | ~self.changed[:, k])
-            found &= silent | self._explained(k, named)
+            silent = self._of_changes & (criterion.is_property | ~self.changed[:, k])
+            asked = np.flatnonzero(found & ~silent)
+            found[asked] = self._explained(k, asked, named)
         return found
 
-    def _explained(self, k: int, named: Sequence[int]) -> np.ndarray:
-        """Whether the numbers of criterion k are a mistake's, alone or beside one more: (mistakes,)."""
-        right, given, wrong = self.right[k], self.given[k], self.wrong[k]
+    def of_single_numbers(self, k: int) -> list[int]:
+        """Mistakes that explain some numbers of criterion k, where others are wrong for other reasons.
+
+        The one that changes most numbers comes first, then what that one leaves; at most MOST_NAMED.
+        """
+        if k not in self._changed_numbers or self.is_zero:
+            return []
+        changed, left = self._changed_numbers[k], self._changed_numbers[k].copy()
+        named: list[int] = []
+        while len(named) < MOST_NAMED and np.any(at := self._by_itself & np.any(left, axis=1)):
+            named.append(int(np.argmax(np.where(at, self._reach, 0))))
+            left &= ~changed[named[-1]]
+        return named
+
+    @cached_property
+    def _by_itself(self) -> np.ndarray:
+        """Which mistakes an answer has all of, whatever else is wrong in other numbers: (mistakes,)."""
+        return self._of_changes & self.borne_out([])
+
+    @cached_property
+    def _changed_numbers(self) -> dict[int, np.ndarray]:
+        """(mistakes, numbers) of each criterion of numbers."""
+        return {
+            k: ~self._same_numbers(k, self.wrong[k], self.right[k])
+            for k, criterion in enumerate(self.criteria)
+            if not (criterion.is_property or criterion.is_truth)
+        }
+
+    @cached_property
+    def _reach(self) -> np.ndarray:
+        """How many numbers each mistake changes: (mistakes,)."""
+        return np.sum([np.sum(of, axis=1) for of in self._changed_numbers.values()], axis=0)
+
+    @cached_property
+    def _of_changes(self) -> np.ndarray:
+        return np.array([claim is Claim.CHANGED for claim in self.claims], dtype=bool)
+
+    def _explained(self, k: int, asked: np.ndarray, named: Sequence[int]) -> np.ndarray:
+        """Whether the numbers of criterion k are a mistake's, alone or beside one more; of one that says
+        nothing of what it does not change, number by number: (asked,).
+        """
+        right, given, wrong = self.right[k], self.given[k], self.wrong[k][asked]
         if self.criteria[k].is_truth:
             return np.all((wrong == right) | (wrong == given), axis=1)
         same = self.layout[k].same
         # Two mistakes at once need not add up as exactly as one is told from its like.
         tolerance = self.criteria[k].tolerance
-        found = self.shown[:, k] | same(wrong, given, tolerance)
+        found = self.shown[asked, k] | same(wrong, given, tolerance)
         for other in named:
-            left = np.flatnonzero(~found & (np.arange(len(found)) != other))
-            found[left] = same(wrong[left] + (wrong[other] - right), given, tolerance)
+            left = np.flatnonzero(~found & (asked != other))
+            found[left] = same(wrong[left] + self.wrong[k][other] - right, given, tolerance)
+        left = np.flatnonzero(~found & self._of_changes[asked])
+        wrong = wrong[left]
+        parts = self._same_numbers(k, wrong, given) | self._same_numbers(k, wrong, right)
+        for other in named:
+            both = self._same_numbers(k, wrong + self.wrong[k][other] - right, given)
+            parts |= both & (asked[left] != other)[:, np.newaxis]
+        found[left] = np.all(parts, axis=1)
         return found
+
+    def _same_numbers(self, k: int, rows: np.ndarray, numbers: np.ndarray) -> np.ndarray:
+        """Whether each number of criterion k is the same in all cases: (rows, numbers).
+
+        One for all of them, where cases differ in how many they have, or have many.
+        """
+        of, tolerance = self.layout[k], self.criteria[k].tolerance
+        cases = [case for case, size in enumerate(of.sizes) if size > 1]
+        sizes = {of.sizes[case] - 1 for case in cases}
+        if len(sizes) != 1 or max(sizes) > MOST_NUMBERS:
+            return of.same(numbers, rows, tolerance)[:, np.newaxis]
+        at = of.starts[cases][:, np.newaxis] + 1 + np.arange(*sizes)
+        size = np.abs(numbers[at])
+        scale = np.maximum(np.maximum(size, LEAST_SCALE * np.max(size, axis=0)), of.floor)
+        error = np.abs(rows[:, at] - numbers[at])
+        return np.all(error <= tolerance * np.where(scale > 0, scale, 1.0), axis=1)

@@ -138,7 +138,7 @@ def _named(
         kept += [i for i in likely if i in doubted and mistakes[i].claim is Claim.CHANGED]
         shown = _of_each(compared, expected, given, met, mistakes, kept, spoils)
         named = sorted({i for found in shown for i in found})
-        true = compared.borne_out(named)
+        true = compared.borne_out(named) if named else np.zeros(len(mistakes), dtype=bool)
         if doubted.issuperset(i for i in named if not true[i]):
             return shown, true
         doubted.update(np.flatnonzero(~true).tolist())
