@@ -76,10 +76,15 @@ class Compared:
         )
 
     def together(self, k: int, kept: Sequence[int], first: int, second: int) -> bool:
-        """Whether two of those kept that explain criterion k show in no other as something else."""
+        """Whether two of those kept that explain criterion k together show in no other as something else.
+
+        Properties count where one of the two speaks of all that is judged: two entries of C may add
+        up to the C q̇ of another C.
+        """
+        of_all = any(self.claims[kept[i]] is Claim.JUDGED for i in (first, second))
         for other, of in enumerate(self.layout):
             criterion = self.criteria[other]
-            if other == k or criterion.is_property or criterion.is_truth:
+            if other == k or criterion.is_truth or (criterion.is_property and not of_all):
                 continue
             right, wrong = self.right[other], self.wrong[other]
             sums = wrong[kept[first]] + wrong[kept[second]] - right

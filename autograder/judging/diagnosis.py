@@ -149,6 +149,8 @@ def _of_each(
     likely: list[int], spoils: np.ndarray,
 ) -> list[tuple[int, ...]]:  # fmt: skip
     """The places of the mistakes that each criterion shows: one, two or none."""
+    # One of these by itself would have explained the whole answer.
+    of_all = np.array([mistake.claim is Claim.JUDGED for mistake in mistakes], dtype=bool)
     found: list[tuple[int, ...]] = []
     for k, criterion in enumerate(compared.criteria):
         if met[k]:
@@ -164,7 +166,7 @@ def _of_each(
         # Two mistakes may cancel each other in what is right; one alone cannot.
         shown = _shown(
             compared.layout[k], compared.right[k], compared.given[k], [mistakes[i] for i in kept],
-            compared.wrong[k][kept], criterion.is_truth | ~spoils[kept],
+            compared.wrong[k][kept], (criterion.is_truth | ~spoils[kept]) & ~of_all[kept],
             partial(compared.together, k, kept), criterion.allows(False),
         )  # fmt: skip
         # Numbers that never change say nothing of terms: two mistakes fit them by taking all away.

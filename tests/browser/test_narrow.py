@@ -84,13 +84,13 @@ def test_a_screen_reader_tells_met_from_unmet_and_finds_what_is_folded(tab, card
     tab.goto(cards)
     card = tab.locator(".armdyn-verdict", has_text="p1-is_spd: partly correct")
     expect(card).to_match_aria_snapshot("""
-      - 'group "p1-is_spd: partly correct (80%)"':
+      - 'group "p1-is_spd: partly correct (80 %)"':
         - list:
-          - listitem: "met: positive definite told from indefinite (30%)"
-          - listitem: "met: semidefinite refused (20%)"
-          - listitem: "met: non-symmetric refused (30%)"
+          - listitem: "met: positive definite told from indefinite (30 %)"
+          - listitem: "met: semidefinite refused (20 %)"
+          - listitem: "met: non-symmetric refused (30 %)"
           - listitem:
-            - text: "not met: symmetric up to rounding accepted (20%)"
+            - text: "not met: symmetric up to rounding accepted (20 %)"
             - paragraph: /You refuse matrices that differ/
         - paragraph:
           - text: "Worst case:"

@@ -89,8 +89,10 @@ def test_a_summary_stands_first_and_the_rest_in_a_file(tmp_path, capsys):
     for mistakes in known.values():
         for mistake in mistakes:
             assert f"  {mistake.sentence}\n" in written
-    assert main(["try", str(path), "--asks", "M", "--to", str(tmp_path)]) == 2
-    assert "cannot be written" in capsys.readouterr().err
+    with pytest.raises(SystemExit) as refused:
+        main(["try", str(path), "--asks", "M", "--to", str(tmp_path)])
+    assert refused.value.code == 2
+    assert "is no name of a file" in capsys.readouterr().err
 
 
 def test_a_summary_tells_what_is_not_named():

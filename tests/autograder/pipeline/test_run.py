@@ -71,8 +71,6 @@ def test_outside_a_ready_course_one_line_says_what_to_do(course, monkeypatch, ca
     (course / "course" / "seed").write_text("\n")
     assert main(["grade", P3, "--jobs", "1"]) == 2
     assert "seed is empty: put the course's seed back" in capsys.readouterr().err
-    assert main(["grade", P3, "--jobs", "0"]) == 2
-    assert "jobs is 0" in capsys.readouterr().err
 
 
 def test_a_process_that_dies_takes_nobody_along():

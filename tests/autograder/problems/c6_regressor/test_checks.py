@@ -128,7 +128,14 @@ def test_a_doubled_error_is_not_two_mistakes():
     both = list(CHECKS["c6-regressor"].mistakes[:2])
     empty = Wrong(both, [np.zeros((2, layouts(theirs, right)[0].length))])
     said = diagnosis.sentences(
-        (Criterion("column"),), right, theirs, [False], empty, lambda: [], lambda k: ""
+        (Criterion("column"),),
+        right,
+        theirs,
+        [False],
+        empty,
+        lambda: [],
+        lambda k: "",
+        lambda k: "",
     )
     assert said == [()]
 

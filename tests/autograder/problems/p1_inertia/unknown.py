@@ -24,8 +24,11 @@ TRACED = {
         (arm("M21 += np.sin(q1)"), "Your M12 and M21 differ from each other. Should they?"),
         (
             FIXED,
-            "In your M11, the values do not depend on arm at all. Did you write the numbers of one "
-            "example into the function?",
+            *(
+                f"In your {entry}, the values do not depend on arm at all. Did you write the numbers of "
+                "one example into the function?"
+                for entry in ("M11", "M12 and M21", "M22")
+            ),
         ),
     ],
 }
