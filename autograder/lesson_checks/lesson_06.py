@@ -33,7 +33,8 @@ MOTOR = Number(
         WrongNumber(
             "motor as a point",
             BOTH - OWN,
-            "You took the motor for a point mass. What is there of a motor that turns on the spot?",
+            "You took the motor for a point mass. But it turns along with the link: which of its "
+            "numbers is left?",
         ),
         WrongNumber(
             "link about its centre",
@@ -153,7 +154,7 @@ TOOL = Choice(
     options=(
         Option(
             "All four change. So there are four numbers to estimate, from two samples at least.",
-            "All four change, but not in any way they like: how many unknowns has the tool?",
+            "All four change, but not freely: how many unknowns has the tool?",
         ),
         Option(
             "All four change. But one number is unknown, and one torque of one sample shows it.",

@@ -33,7 +33,8 @@ STEPS = Number(
         WrongNumber(
             "one of two",
             8,
-            "One operation is too many: more than you have shared stands in two of the expressions.",
+            "One operation is too many: more than you have shared stands in two of the "
+            "expressions.",
         ),
         WrongNumber(
             "results alone",
@@ -72,8 +73,8 @@ SHORTER = Choice(
         ),
         Option(
             "It gets shorter for sure: if each entry is as short as it can be, so is the program.",
-            "You added up entries that share nothing. In the pair with the sines of this section, "
-            "which of the two programs is longer?",
+            "This would be so if the entries shared nothing. In the pair with the sines of this "
+            "section, which of the two programs is longer?",
         ),
         Option(
             "It stays as it is, since `cse` finds by itself all that `simplify` finds.",
@@ -111,8 +112,8 @@ CARRIES = Number(
         WrongNumber(
             "nothing",
             0.0,
-            "Joint 1 does not accelerate, and yet: on what does link 2 push back that pushes link "
-            "3?",
+            "Links 1 and 2 stand still, but link 3 pushes back when it is accelerated. What keeps "
+            "link 1 where it is?",
         ),
         WrongNumber("joint 3", OF_3, "This is the torque of joint 3. Go on, inwards."),
         WrongNumber("joint 2", OF_2, "This is the torque of joint 2. Go on, inwards."),
