@@ -25,6 +25,8 @@ from pathlib import Path
 
 import nbformat
 
+from autograder import lesson_checks
+
 SECONDS = 120  # of a processor: on a busy machine the clock would end what only waits
 SWAPPED = {"sin": "cos", "cos": "sin"}
 BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
@@ -166,10 +168,13 @@ def survivors(path: Path, kinds: tuple[str, ...]) -> Iterator[tuple[str, int, st
     Raises what the unchanged notebook raises.
     """
     cells = [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"]
+    answered = lesson_checks.checks_of(path.name[:2])  # by the student: a card, and no claim
     os.chdir(path.parent)
     namespace = {"__name__": "__main__"}
     for place, cell in enumerate(cells):
         for line, kind, words, changed in changes(cell.source, kinds):
+            if cell.id in answered:
+                break
             if not _noticed(namespace, changed, [later.source for later in cells[place + 1 :]]):
                 yield cell.id, line, kind, words
         with contextlib.redirect_stdout(None):

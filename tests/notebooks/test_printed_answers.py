@@ -2,7 +2,8 @@
 
 A lesson derives M, C and g of the 2R arm and of the pendulum; the student who writes them in a problem
 shall not find them printed. An output's expressions, and the terms of their sums, are compared in
-numbers with the entries that the problems ask for, whatever their letters are called.
+numbers with the entries that the problems ask for, whatever their letters are called. Nor are the base
+parameters of the 2R arm printed, for which c6 asks.
 """
 
 import re
@@ -30,6 +31,8 @@ RNG = np.random.default_rng(17)
 PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "m", "lc", "I", "g")
 STATES = ("q", "q1", "q2", "qd", "qd1", "qd2", "qdd", "qdd1", "qdd2")
 NUMBERS = dict(zip(PARAMETERS + STATES, RNG.uniform(0.5, 2.0, 21), strict=True))
+# m1 cx1 + m2 l1 and J1 + m2 l1², as `armdyn.base_parameters` and people write them.
+BASE = re.compile(r"\b(m1 l?cx?1|J1) \+ ([\d.]+ )?m2\b")
 LETTERS = {"ell_": "l", "ell": "l", "qddot": "qdd", "qdot": "qd"}
 
 
@@ -85,7 +88,7 @@ def number(expression: sp.Expr) -> float | None:
 
 def answers_in(text: str) -> set[str]:
     """The checks of which an output holds an entry."""
-    found = set()
+    found = {"c6-discussion"} if BASE.search(text) else set()
     for expression in expressions(text):
         for part in (expression, *sp.Add.make_args(sp.expand(expression))):
             value = number(part)
@@ -105,6 +108,8 @@ def answers_in(text: str) -> set[str]:
         ("I*qddot + ell_c*g*m*sin(q)", {"p3-g_vec"}),
         ("I2 + lc2**2*m2", set()),
         ("h_122 = -lc2*m2*sin(q2)", set()),
+        ("4 base parameters: m1 cx1 + 1.2 m2; J1 + 1.44 m2; m2 cx2; J2", {"c6-discussion"}),
+        ("6 base parameters: m1 cx1; m1 cy1; Jzz1 + Jzz2; m2; m2 cx2; m2 cy2", set()),
         ("PD alone rests [11.8  7.1] degrees below the target", set()),
     ],
 )
