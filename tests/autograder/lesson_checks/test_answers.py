@@ -135,3 +135,20 @@ def test_the_number_of_lesson_04_is_the_models(opened):
     arm = opened["04"][1]["arm"]
     up, down = (arm.potential_energy([q1, 0.0]) for q1 in (np.pi / 2, -np.pi / 2))
     assert np.isclose(CHECKS["04-upright"].right, up - down)
+
+
+def test_the_numbers_of_lesson_02_are_those_of_euler_lagrange():
+    """The input of a constant velocity, by differences of the momentum and of the energy."""
+
+    def needed(M, q, qd, step=1e-5):
+        q, qd = np.array(q), np.array(qd)
+        momentum = [M(q + s * step * qd) @ qd for s in (-1, 1)]
+        energies = [[qd @ M(q + s * e) @ qd / 2 for s in (-1, 1)] for e in step * np.eye(len(q))]
+        return (np.subtract(*momentum[::-1]) - [b - a for a, b in energies]) / (2 * step)
+
+    sliding = needed(lambda q: np.diag([0.7 + 2.0 * q[1] ** 2, 2.0]), [0.3, 0.6], [3.0, 0.4])
+    assert np.isclose(CHECKS["02-slide"].right, sliding[1])
+    other = next(w for w in CHECKS["02-slide"].wrong if w.name == "the other joint")
+    assert np.isclose(other.number, sliding[0])
+    cranked = needed(lambda q: np.array([[0.8 + 0.3 * np.sin(q[0])]]), [0.0], [8.0])
+    assert np.isclose(CHECKS["02-crank"].right, cranked[0])
