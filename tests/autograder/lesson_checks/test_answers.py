@@ -152,3 +152,17 @@ def test_the_numbers_of_lesson_02_are_those_of_euler_lagrange():
     assert np.isclose(other.number, sliding[0])
     cranked = needed(lambda q: np.array([[0.8 + 0.3 * np.sin(q[0])]]), [0.0], [8.0])
     assert np.isclose(CHECKS["02-crank"].right, cranked[0])
+
+
+def test_the_numbers_of_lesson_03_are_the_models(opened):
+    _, of = opened["03"]
+    arm, checks = of["arm"], CHECKS
+    spatial = of["rigid_inertia"](2.0, np.array([0.3, 0.0, 0.0]), np.diag([0.7, 0.9, 0.1]))
+    velocity = np.array([0.0, 0.0, 2.0, 0.0, 1.0, 0.0])
+    assert np.isclose(checks["03-energy"].right, velocity @ spatial @ velocity / 2)
+    turned = np.linalg.qr(np.arange(4.0).reshape(2, 2) + 1).Q
+    M = turned @ np.diag([checks["03-ellipse"].right, 0.32]) @ turned.T
+    ellipse = of["plotting"].draw_inertia_ellipse(of["plotting"].figure()[1], M)
+    sizes = np.linalg.norm(ellipse, axis=-1)
+    assert np.allclose([sizes.max(), sizes.min()], [2.5, 0.4], rtol=1e-3)
+    assert np.linalg.eigvalsh(arm.M([0.3, 0.0]))[0] > 0.1  # "03-hand": the stretched arm
