@@ -107,8 +107,8 @@ MINUS = Choice(
         ),
     ),
     further=(
-        "Without the third term the sum is the rate of M times the velocities, which is what d/dt of "
-        "M q̇ gives before the slope of K goes off."
+        "Without the third term C q̇ would be the rate of M times q̇: d/dt of M q̇, before the slope of K "
+        "is taken off."
     ),
     hints=(
         "Two lines of section 1 make line 4. Which terms come from which of them?",
@@ -290,8 +290,7 @@ CRANK = Number(
         "term: write down lines 2 and 3."
     ),
     further=(
-        "The motor's power is the rate of the kinetic energy: per second it gives the joint what a "
-        "growing M needs to keep its speed."
+        "Its power, torque times velocity, is the rate at which the kinetic energy grows with M."
     ),
     hints=(
         "Section 1 holds for one joint too. What are lines 2 and 3 there, if q̈ = 0?",

@@ -163,10 +163,6 @@ HAND = Choice(
     text="of which of the two arms M is singular",
     options=(
         Option(
-            "Of neither: a hand that stands still or cannot go one way does not keep the links "
-            "from moving, and links have mass.",
-        ),
-        Option(
             "Of (i): there the Jacobian of the hand has rank 1, and $M$ is made of Jacobians.",
             "M is made of the Jacobians of the links, with masses. Is there a motion of the "
             "stretched arm in which no link moves?",
@@ -175,6 +171,10 @@ HAND = Choice(
             "Of (ii): its joints can move while the hand rests, so some $\\dot q \\ne 0$ costs "
             "nothing.",
             "The hand rests, but what of the elbow? Which bodies are counted in K?",
+        ),
+        Option(
+            "Of neither: a hand that stands still or cannot go one way does not keep the links "
+            "from moving, and links have mass.",
         ),
         Option(
             "Of both: for each there is a $\\dot q \\ne 0$ that the Jacobian of the hand takes to "

@@ -37,8 +37,8 @@ TABLE = {
         other=("R", "np.zeros((3, 3))", "np.linalg.inv(I_link)"),
     ),
     "03-hand": Answers(
-        right=('"a"',),
-        wrong={letter: f'"{letter}"' for letter in "bcd"},
+        right=('"c"',),
+        wrong={letter: f'"{letter}"' for letter in "abd"},
     ),
     "03-ellipse": Answers(
         right=("12.5", "2 / 0.4**2", "2 * 1 / (0.4 * 0.4)"),
