@@ -4,7 +4,7 @@ import numpy as np
 
 from autograder.judging.check import Check, Criterion
 from autograder.judging.diagnosis import Mistake
-from autograder.judging.quantities import each, vector
+from autograder.judging.quantities import UnfitError, each, vector
 from autograder.lesson_checks.choice import Choice, Option
 from autograder.lesson_checks.number import Number, WrongNumber
 from autograder.protocol import Call
@@ -129,7 +129,13 @@ def _symbols(rng, count):
 
 @each
 def _torques(call, value):
-    return (vector(value, len(call.args[1])),)
+    n = len(call.args[1])
+    if np.shape(value) == (n, n):
+        raise UnfitError(
+            f"an array of shape {(n, n)}, as C has; it must return shape ({n},), one torque for each "
+            "joint"
+        )
+    return (vector(value, n),)
 
 
 def _centrifugal(h, qd):

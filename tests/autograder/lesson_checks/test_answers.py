@@ -154,6 +154,13 @@ def test_the_numbers_of_lesson_02_are_those_of_euler_lagrange():
     assert np.isclose(CHECKS["02-crank"].right, cranked[0])
 
 
+@pytest.mark.parametrize("typed", ["h @ qd", "(h @ qd) * qd"])
+def test_a_matrix_is_no_torque(typed, verdict):
+    found = verdict("02-torque", typed)
+    assert found.state is State.ERROR
+    assert "as C has; it must return shape" in found.problem
+
+
 def test_the_numbers_of_lesson_03_are_the_models(opened):
     _, of = opened["03"]
     arm, checks = of["arm"], CHECKS
