@@ -109,34 +109,6 @@ def test_the_arm_is_the_lessons(opened):
             assert own == vars(ARM), number
 
 
-def test_the_numbers_of_lesson_05_are_the_models(opened):
-    """The right ones once more, by `armdyn` in place of a formula."""
-    _, of = opened["05"]
-    arm, checks = of["arm"], CHECKS
-    pose = np.radians([50.0, -50.0])
-    loaded = of["Planar2R"](
-        **of["numbers"] | {"m2": 4.0, "lc2": (2.0 * 0.4 + 2.0 * 0.8) / 4.0}
-    )  # link 2 and 2 kg in the hand
-    assert np.isclose(checks["05-lever"].right, (loaded.g_vec(pose) - arm.g_vec(pose))[0])
-    sagging = arm.g_vec(np.array([0.0, -np.radians(2)]))[1]
-    assert np.isclose(checks["05-sag"].right, sagging / np.radians(2))
-
-    def hessian(q, step=1e-5):
-        turns = step * np.eye(2)
-        return np.array([(arm.g_vec(q + d) - arm.g_vec(q - d)) / (2 * step) for d in turns])
-
-    H = hessian(np.array([-np.pi / 2, np.pi]))
-    for factor, stable in ((0.999, False), (1.001, True)):
-        spring = np.diag([0.0, factor * checks["05-spring"].right])
-        assert bool(np.all(np.linalg.eigvalsh(H + spring) > 0)) == stable
-
-
-def test_the_number_of_lesson_04_is_the_models(opened):
-    arm = opened["04"][1]["arm"]
-    up, down = (arm.potential_energy([q1, 0.0]) for q1 in (np.pi / 2, -np.pi / 2))
-    assert np.isclose(CHECKS["04-upright"].right, up - down)
-
-
 def test_the_numbers_of_lesson_02_are_those_of_euler_lagrange():
     """The input of a constant velocity, by differences of the momentum and of the energy."""
 
@@ -173,3 +145,31 @@ def test_the_numbers_of_lesson_03_are_the_models(opened):
     sizes = np.linalg.norm(ellipse, axis=-1)
     assert np.allclose([sizes.max(), sizes.min()], [2.5, 0.4], rtol=1e-3)
     assert np.linalg.eigvalsh(arm.M([0.3, 0.0]))[0] > 0.1  # "03-hand": the stretched arm
+
+
+def test_the_numbers_of_lesson_05_are_the_models(opened):
+    """The right ones once more, by `armdyn` in place of a formula."""
+    _, of = opened["05"]
+    arm, checks = of["arm"], CHECKS
+    pose = np.radians([50.0, -50.0])
+    loaded = of["Planar2R"](
+        **of["numbers"] | {"m2": 4.0, "lc2": (2.0 * 0.4 + 2.0 * 0.8) / 4.0}
+    )  # link 2 and 2 kg in the hand
+    assert np.isclose(checks["05-lever"].right, (loaded.g_vec(pose) - arm.g_vec(pose))[0])
+    sagging = arm.g_vec(np.array([0.0, -np.radians(2)]))[1]
+    assert np.isclose(checks["05-sag"].right, sagging / np.radians(2))
+
+    def hessian(q, step=1e-5):
+        turns = step * np.eye(2)
+        return np.array([(arm.g_vec(q + d) - arm.g_vec(q - d)) / (2 * step) for d in turns])
+
+    H = hessian(np.array([-np.pi / 2, np.pi]))
+    for factor, stable in ((0.999, False), (1.001, True)):
+        spring = np.diag([0.0, factor * checks["05-spring"].right])
+        assert bool(np.all(np.linalg.eigvalsh(H + spring) > 0)) == stable
+
+
+def test_the_number_of_lesson_04_is_the_models(opened):
+    arm = opened["04"][1]["arm"]
+    up, down = (arm.potential_energy([q1, 0.0]) for q1 in (np.pi / 2, -np.pi / 2))
+    assert np.isclose(CHECKS["04-upright"].right, up - down)
