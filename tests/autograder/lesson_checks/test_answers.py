@@ -109,6 +109,44 @@ def test_the_arm_is_the_lessons(opened):
             assert own == vars(ARM), number
 
 
+def test_the_numbers_of_lesson_02_are_those_of_euler_lagrange():
+    """The input of a constant velocity, by differences of the momentum and of the energy."""
+
+    def needed(M, q, qd, step=1e-5):
+        q, qd = np.array(q), np.array(qd)
+        momentum = [M(q + s * step * qd) @ qd for s in (-1, 1)]
+        energies = [[qd @ M(q + s * e) @ qd / 2 for s in (-1, 1)] for e in step * np.eye(len(q))]
+        return (np.subtract(*momentum[::-1]) - [b - a for a, b in energies]) / (2 * step)
+
+    sliding = needed(lambda q: np.diag([0.7 + 2.0 * q[1] ** 2, 2.0]), [0.3, 0.6], [3.0, 0.4])
+    assert np.isclose(CHECKS["02-slide"].right, sliding[1])
+    other = next(w for w in CHECKS["02-slide"].wrong if w.name == "the other joint")
+    assert np.isclose(other.number, sliding[0])
+    cranked = needed(lambda q: np.array([[0.8 + 0.3 * np.sin(q[0])]]), [0.0], [8.0])
+    assert np.isclose(CHECKS["02-crank"].right, cranked[0])
+
+
+@pytest.mark.parametrize("typed", ["h @ qd", "(h @ qd) * qd"])
+def test_a_matrix_is_no_torque(typed, verdict):
+    found = verdict("02-torque", typed)
+    assert found.state is State.ERROR
+    assert "as C has; it must return shape" in found.problem
+
+
+def test_the_numbers_of_lesson_03_are_the_models(opened):
+    _, of = opened["03"]
+    arm, checks = of["arm"], CHECKS
+    spatial = of["rigid_inertia"](2.0, np.array([0.3, 0.0, 0.0]), np.diag([0.7, 0.9, 0.1]))
+    velocity = np.array([0.0, 0.0, 2.0, 0.0, 1.0, 0.0])
+    assert np.isclose(checks["03-energy"].right, velocity @ spatial @ velocity / 2)
+    turned = np.linalg.qr(np.arange(4.0).reshape(2, 2) + 1).Q
+    M = turned @ np.diag([checks["03-ellipse"].right, 0.32]) @ turned.T
+    ellipse = of["plotting"].draw_inertia_ellipse(of["plotting"].figure()[1], M)
+    sizes = np.linalg.norm(ellipse, axis=-1)
+    assert np.allclose([sizes.max(), sizes.min()], [2.5, 0.4], rtol=1e-3)
+    assert np.linalg.eigvalsh(arm.M([0.3, 0.0]))[0] > 0.1  # "03-hand": the stretched arm
+
+
 def test_the_numbers_of_lesson_05_are_the_models(opened):
     """The right ones once more, by `armdyn` in place of a formula."""
     _, of = opened["05"]
