@@ -30,7 +30,8 @@ def _one_each_joint(call, value):
 
 
 EXCHANGED = (
-    "A matrix of yours multiplies the wrong vector. Which of the two belongs to the velocities, and "
+    "A matrix of yours multiplies the wrong vector. Which of the two belongs to the velocities, "
+    "and "
     "which to the accelerations?"
 )
 TORQUE = Check(
@@ -70,26 +71,31 @@ TORQUE = Check(
         Mistake(
             "friction subtracted",
             lambda M, C, g_vec, f_vec, qd, qdd: M @ qdd + C @ qd + g_vec - f_vec,
-            "Your friction helps the motors. On which side of the course's equation does it stand, and "
+            "Your friction helps the motors. On which side of the course's equation does it "
+            "stand, and "
             "with which sign?",
         ),
         Mistake(
             "gravity subtracted",
             lambda M, C, g_vec, f_vec, qd, qdd: M @ qdd + C @ qd - g_vec + f_vec,
-            "Your gravity helps the motors. On which side of the course's equation does it stand, and "
+            "Your gravity helps the motors. On which side of the course's equation does it stand, "
+            "and "
             "with which sign?",
         ),
         Mistake(
             "transposed",
             lambda M, C, g_vec, f_vec, qd, qdd: qdd @ M + qd @ C + g_vec + f_vec,
-            "You multiplied the matrices from the left. Of a matrix that is not symmetric, that gives "
+            "You multiplied the matrices from the left. Of a matrix that is not symmetric, that "
+            "gives "
             "another vector: which stands first in the equation?",
         ),
     ),
     hints=(
-        "Find each term of the equation at the top of this lesson in the column `in code`. Which two of "
+        "Find each term of the equation at the top of this lesson in the column `in code`. Which "
+        "two of "
         "them are a matrix times a vector?",
-        "A matrix times a vector is `A @ v` in Python. `A * v` multiplies entry by entry, and gives a "
+        "A matrix times a vector is `A @ v` in Python. `A * v` multiplies entry by entry, and "
+        "gives a "
         "matrix.",
     ),
     further="One line serves every arm: with one joint or with seven, only the shapes are others.",
@@ -109,7 +115,8 @@ SIZE = Number(
         WrongNumber(
             "sum of the indices",
             18.0,
-            "You added what each index can be. With each value of the first, how many are there of the "
+            "You added what each index can be. With each value of the first, how many are there "
+            "of the "
             "second and the third?",
         ),
         WrongNumber(
@@ -120,12 +127,14 @@ SIZE = Number(
         WrongNumber(
             "the different ones",
             126.0,
-            "You counted how many of them can be different. The array holds them all: what is its shape?",
+            "You counted how many of them can be different. The array holds them all: what is its "
+            "shape?",
         ),
         WrongNumber(
             "joints and indices exchanged",
             729.0,
-            "You took the number of indices to the power of joints. Which of the two numbers is how many "
+            "You took the number of indices to the power of joints. Which of the two numbers is "
+            "how many "
             "values an index has?",
         ),
         WrongNumber(
@@ -148,11 +157,13 @@ GRIPPER = Choice(
     options=(
         Option(
             "Simulation, because the torque was measured, and the motion follows from it.",
-            "The motion follows from the torque, but it was recorded, too. What is it that nobody knows?",
+            "The motion follows from the torque, but it was recorded, too. What is it that nobody "
+            "knows?",
         ),
         Option(
             "Identification, because $M$ is positive definite, so that the equation can be solved.",
-            "The question is right. But for what does a positive definite M let you solve the equation: "
+            "The question is right. But for what does a positive definite M let you solve the "
+            "equation: "
             "for what is asked here?",
         ),
         Option(
@@ -160,13 +171,15 @@ GRIPPER = Choice(
             "The motors do carry it. But is a torque what is looked for here, or was it recorded?",
         ),
         Option(
-            "Identification, because the torques are linear in the parameters: a set of linear equations.",
+            "Identification, because the torques are linear in the parameters: a set of linear "
+            "equations.",
         ),
     ),
     further="Each sample of the motion is one more row of linear equations for the same few unknowns.",
     hints=(
         "What was recorded, and what is unknown? The last row of the map has a question for each.",
-        "Each property on the map makes one kind of question easy. Which one says how a torque depends "
+        "Each property on the map makes one kind of question easy. Which one says how a torque "
+        "depends "
         "on a mass?",
     ),
 )
@@ -180,24 +193,28 @@ FACTOR = Number(
         WrongNumber(
             "a square missing",
             8.0,
-            "You left out a square, or added two factors that follow one after the other. Look at the "
+            "You left out a square, or added two factors that follow one after the other. Look at "
+            "the "
             "integral: how do r and q̇ stand in it?",
         ),
         WrongNumber(
             "no squares, or one change",
             4.0,
-            "This is too little: either one of the two changes is not in it, or neither is squared. Look "
+            "This is too little: either one of the two changes is not in it, or neither is "
+            "squared. Look "
             "at the integral: how do r and q̇ stand in it?",
         ),
         WrongNumber(
             "mass grows with the length",
             32.0,
-            "You let the mass grow with the length. It is the same rod's mass, only spread out farther.",
+            "You let the mass grow with the length. It is the same rod's mass, only spread out "
+            "farther.",
         ),
         WrongNumber(
             "a power too high",
             64.0,
-            "This is too much: at least one of the two changes acts with a higher power in your factor than "
+            "This is too much: at least one of the two changes acts with a higher power in your "
+            "factor than "
             "in the formulas above.",
         ),
         WrongNumber(
@@ -209,7 +226,8 @@ FACTOR = Number(
     otherwise="Put 2 q̇ for q̇ and 2 ℓ for ℓ into K, with the same m, and divide by the K from before.",
     further="At the same q̇, twice the length makes each piece twice as fast: both changes act alike.",
     hints=(
-        "Take one change after the other. By what factor does the first one change the speed of a piece?",
+        "Take one change after the other. By what factor does the first one change the speed of a "
+        "piece?",
         "Two changes, one after the other, multiply their factors.",
     ),
 )
@@ -219,26 +237,31 @@ TYPED = Choice(
     text="what the check says of a mass that is typed in",
     options=(
         Option(
-            "Correct: the number is that of the arm in the story, and the check asks about that arm.",
-            "Where are the masses from that a check asks about? Section 4 says whose choice its inputs are.",
+            "Correct: the number is that of the arm in the story, and the check asks about that "
+            "arm.",
+            "Where are the masses from that a check asks about? Section 4 says whose choice its "
+            "inputs are.",
         ),
         Option(
             "Incorrect: it calls the function with arms of its own choice, and so does the grader.",
         ),
         Option(
             "Correct, but the grader then takes the points away, since it has other arms.",
-            "The grader has other arms, but checks of the same kind. With which arms does the check in "
+            "The grader has other arms, but checks of the same kind. With which arms does the "
+            "check in "
             "the notebook call your function?",
         ),
         Option(
             "Error in your code: the function may not use a number that it was not given.",
-            "The function runs, and returns numbers of the right shape. Which row of the table fits that?",
+            "The function runs, and returns numbers of the right shape. Which row of the table "
+            "fits that?",
         ),
     ),
     further="The card's worst case shows the arm that was asked about, so that you can see its mass.",
     hints=(
         "Read again what a check calls a function with.",
-        "Does the function stop with an error? And are its numbers right for an arm of another mass?",
+        "Does the function stop with an error? And are its numbers right for an arm of another "
+        "mass?",
     ),
 )
 
