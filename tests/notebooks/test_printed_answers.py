@@ -21,7 +21,6 @@ from autograder.problems import CHECKS
 LESSONS = sorted((Path(__file__).parents[2] / "lessons").glob("*.ipynb"))
 # Cells that still print such an answer, to be mended with their lesson's checks.
 TO_MEND = {
-    "01-pendulum-sympy": {"p3-g_vec"},
     "02-hand-sympy": {"p2-C", "p2-M_dot"},
     "03-2r-sympy": {"p1-M"},
     "09-wolfram-run": {"p1-M", "p2-C", "p2-M_dot"},
