@@ -8,7 +8,7 @@ import pytest
 from tests.notebooks.reading_time import LESSONS, counts, minutes, to_state
 
 # Lessons that still state a guess; each leaves the list when its checks are added.
-TO_MEASURE = {"02", "03", "04", "05", "06", "07", "08", "09", "10"}
+TO_MEASURE = {"02", "03", "04", "05", "06", "08", "09", "10"}
 MEASURED = [path for path in LESSONS if path.name[:2] not in TO_MEASURE]
 
 
