@@ -31,8 +31,7 @@ def _one_each_joint(call, value):
 
 EXCHANGED = (
     "A matrix of yours multiplies the wrong vector. Which of the two belongs to the velocities, "
-    "and "
-    "which to the accelerations?"
+    "and which to the accelerations?"
 )
 TORQUE = Check(
     id="00-torque",
@@ -71,32 +70,27 @@ TORQUE = Check(
         Mistake(
             "friction subtracted",
             lambda M, C, g_vec, f_vec, qd, qdd: M @ qdd + C @ qd + g_vec - f_vec,
-            "Your friction helps the motors. On which side of the course's equation does it "
-            "stand, and "
-            "with which sign?",
+            "Your friction helps the motors. On which side of the course's equation does it stand, "
+            "and with which sign?",
         ),
         Mistake(
             "gravity subtracted",
             lambda M, C, g_vec, f_vec, qd, qdd: M @ qdd + C @ qd - g_vec + f_vec,
             "Your gravity helps the motors. On which side of the course's equation does it stand, "
-            "and "
-            "with which sign?",
+            "and with which sign?",
         ),
         Mistake(
             "transposed",
             lambda M, C, g_vec, f_vec, qd, qdd: qdd @ M + qd @ C + g_vec + f_vec,
-            "You multiplied the matrices from the left. Of a matrix that is not symmetric, that "
-            "gives "
-            "another vector: which stands first in the equation?",
+            "Your vectors stand to the left of the matrices. Of a matrix that is not symmetric, that "
+            "gives another vector: which stands first in the equation?",
         ),
     ),
     hints=(
         "Find each term of the equation at the top of this lesson in the column `in code`. Which "
-        "two of "
-        "them are a matrix times a vector?",
+        "two of them are a matrix times a vector?",
         "A matrix times a vector is `A @ v` in Python. `A * v` multiplies entry by entry, and "
-        "gives a "
-        "matrix.",
+        "gives a matrix.",
     ),
     further="One line serves every arm: with one joint or with seven, only the shapes are others.",
 )
@@ -115,9 +109,8 @@ SIZE = Number(
         WrongNumber(
             "sum of the indices",
             18.0,
-            "You added what each index can be. With each value of the first, how many are there "
-            "of the "
-            "second and the third?",
+            "You added what each index can be. With each value of the first, how many are there of "
+            "the second and the third?",
         ),
         WrongNumber(
             "a vector",
@@ -134,8 +127,7 @@ SIZE = Number(
             "joints and indices exchanged",
             729.0,
             "You took the number of indices to the power of joints. Which of the two numbers is "
-            "how many "
-            "values an index has?",
+            "how many values an index has?",
         ),
         WrongNumber(
             "from two joints",
@@ -163,8 +155,7 @@ GRIPPER = Choice(
         Option(
             "Identification, because $M$ is positive definite, so that the equation can be solved.",
             "The question is right. But for what does a positive definite M let you solve the "
-            "equation: "
-            "for what is asked here?",
+            "equation: for what is asked here?",
         ),
         Option(
             "Control, because the motors' torque has to carry the gripper.",
@@ -179,8 +170,7 @@ GRIPPER = Choice(
     hints=(
         "What was recorded, and what is unknown? The last row of the map has a question for each.",
         "Each property on the map makes one kind of question easy. Which one says how a torque "
-        "depends "
-        "on a mass?",
+        "depends on a mass?",
     ),
 )
 
@@ -194,15 +184,13 @@ FACTOR = Number(
             "a square missing",
             8.0,
             "You left out a square, or added two factors that follow one after the other. Look at "
-            "the "
-            "integral: how do r and q̇ stand in it?",
+            "the integral: how do r and q̇ stand in it?",
         ),
         WrongNumber(
             "no squares, or one change",
             4.0,
             "This is too little: either one of the two changes is not in it, or neither is "
-            "squared. Look "
-            "at the integral: how do r and q̇ stand in it?",
+            "squared. Look at the integral: how do r and q̇ stand in it?",
         ),
         WrongNumber(
             "mass grows with the length",
@@ -214,8 +202,7 @@ FACTOR = Number(
             "a power too high",
             64.0,
             "This is too much: at least one of the two changes acts with a higher power in your "
-            "factor than "
-            "in the formulas above.",
+            "factor than in the formulas above.",
         ),
         WrongNumber(
             "less",
@@ -248,8 +235,7 @@ TYPED = Choice(
         Option(
             "Correct, but the grader then takes the points away, since it has other arms.",
             "The grader has other arms, but checks of the same kind. With which arms does the "
-            "check in "
-            "the notebook call your function?",
+            "check in the notebook call your function?",
         ),
         Option(
             "Error in your code: the function may not use a number that it was not given.",

@@ -26,8 +26,7 @@ BEAD = Number(
             "sign",
             MASS * TURN**2 * OUT,
             "The size is right. Which sign has the second term of the Euler–Lagrange equation? "
-            "Without a "
-            "force, which way would the bead go?",
+            "Without a force, which way would the bead go?",
         ),
         WrongNumber(
             "halved",
@@ -64,14 +63,12 @@ BEAD = Number(
         ),
     ),
     otherwise=(
-        "Write down L with P = 0, then the two terms of the Euler–Lagrange equation: the first "
-        "has only "
-        "q̈ in it, the second only q. Then put the numbers in."
+        "Write down L with P = 0, then the two terms of the Euler–Lagrange equation: the first has "
+        "only q̈ in it, the second only q. Then put the numbers in."
     ),
     further=(
-        "Without this force the bead is thrown outwards. The slope of K with q is where "
-        "centrifugal "
-        "torques come from, in every arm."
+        "Without this force the bead is thrown outwards. Wherever K changes with q there is such a "
+        "term: in an arm it is a centrifugal torque."
     ),
     hints=(
         "First the derivative of L by q̇, then its time derivative. What is left of it where q̈ = 0?",
@@ -90,8 +87,8 @@ TWICE = Number(
         WrongNumber(
             "sign",
             -4 * SHOWN,
-            "The size is right. Does a product of two velocities change its sign when both of "
-            "them do?",
+            "The size is right. Does a product of two velocities change its sign when both of them "
+            "do?",
         ),
         WrongNumber(
             "doubled",
@@ -117,21 +114,18 @@ TWICE = Number(
             "cubed",
             8 * SHOWN,
             "This grows with the third power of the speed. Look up in the table how it depends on "
-            "the "
-            "velocities.",
+            "the velocities.",
         ),
     ),
     otherwise="Multiply the bar of the picture by one factor. Which one, and with which sign?",
     further=(
         "A motion and the same motion backwards need the same C q̇. Friction is the term that "
-        "knows "
-        "which way the arm goes."
+        "knows which way the arm goes."
     ),
     hints=(
         "No formula for C is needed. What does the table say that this term is in the velocities?",
         "Each of its parts is a number times a product of two velocities. What becomes of such a "
-        "product "
-        "here?",
+        "product here?",
     ),
 )
 
@@ -146,18 +140,16 @@ SWING = Choice(
         ),
         Option(
             "Motor 1 alone, a positive torque: it keeps the arm turning.",
-            "Motor 1 would then give power all the time. Where would that go, without friction "
-            "and at a "
-            "kinetic energy that stays the same?",
+            "Motor 1 would then give power all the time. Where would that go, without friction and "
+            "at a kinetic energy that stays the same?",
         ),
         Option(
             "Motor 2 alone, a positive torque: it holds link 2 back from swinging outwards.",
         ),
         Option(
             "Motor 2 alone, a negative torque: it pushes against the turning of joint 1.",
-            "It is motor 2. But which way does link 2 go if the motor lets go of it, and which "
-            "way has "
-            "the motor to turn it then?",
+            "It is motor 2. But which way does link 2 go if the motor lets go of it, and which way "
+            "has the motor to turn it then?",
         ),
         Option(
             "Both, because an inertia matrix that is not diagonal couples the joints.",
@@ -193,33 +185,28 @@ RING = Number(
             "upside down, not rooted",
             0.5,
             "You divided the two inertias. How does an inertia enter a frequency, and does a "
-            "smaller one "
-            "make it fall?",
+            "smaller one make it fall?",
         ),
         WrongNumber(
             "no difference",
             1.0,
-            "Your two frequencies are the same. How far is the nail from the ring's centre of "
-            "mass?",
+            "Your two frequencies are the same. How far is the nail from the ring's centre of mass?",
         ),
         WrongNumber(
             "accelerations of the rod",
             4.0,
             "This is the rod's factor of its accelerations. The ring has its mass elsewhere, and "
-            "the "
-            "frequencies are asked for.",
+            "the frequencies are asked for.",
         ),
     ),
     otherwise=(
-        "Find both inertias first: about the ring's centre, and about the nail. Then put both "
-        "into the "
-        "frequency."
+        "Find both inertias first: about the ring's centre, and about the nail. Then put both into "
+        "the frequency."
     ),
     further="So a stopwatch tells the two inertias apart, and the size of the factor tells the body.",
     hints=(
         "All the mass of the ring is at the same distance from its centre. How large is its "
-        "inertia "
-        "about the centre, and how far away is the nail?",
+        "inertia about the centre, and how far away is the nail?",
         "The frequency goes with one over the square root of the inertia.",
     ),
 )
@@ -230,8 +217,8 @@ PROGRAM = Choice(
     options=(
         Option(
             "The sign of $P$: all gravity torques come out reversed.",
-            "Turn the signs of the right torques around. What would the program say of the "
-            "hanging arm?",
+            "Turn the signs of the right torques around. What would the program say of the hanging "
+            "arm?",
         ),
         Option(
             "The zero of the angle: the program counts $q_1$ from hanging down.",
@@ -243,8 +230,7 @@ PROGRAM = Choice(
         ),
         Option(
             "Nothing: the program only has another constant in its $P$.",
-            "A constant in P has no slope, so no torque shows it. Are these the torques of our "
-            "arm?",
+            "A constant in P has no slope, so no torque shows it. Are these the torques of our arm?",
         ),
     ),
     further="Two poses are enough to see it: one where the arm rests by itself, and the level one.",

@@ -25,8 +25,7 @@ HAND = Number(
             "rate of joint 2 alone",
             hypot(ARM.l1 * 1, ARM.l2 * 2),
             "You let link 2 turn with the rate of joint 2 alone. How fast does its angle with the "
-            "x axis "
-            "change?",
+            "x axis change?",
         ),
         WrongNumber(
             "centre of mass",
@@ -68,9 +67,8 @@ HAND = Number(
     hints=(
         "The hand is a point of link 2, like its centre of mass, but at another distance from the "
         "elbow.",
-        "In this pose the elbow moves upwards, and the hand moves round the elbow to the left. "
-        "How fast "
-        "is each, and how do two velocities at a right angle add up?",
+        "In this pose the elbow moves upwards, and the hand moves round the elbow to the left. How "
+        "fast is each, and how do two velocities at a right angle add up?",
     ),
 )
 
@@ -85,9 +83,8 @@ LOADED = Number(
         WrongNumber(
             "stretched",
             LOAD * (ARM.l1 + ARM.l2) ** 2,
-            "This is what it adds while the arm is stretched out. How far from joint 1 is the "
-            "hand when the "
-            "elbow is bent?",
+            "This is what it adds while the arm is stretched out. How far from joint 1 is the hand "
+            "when the elbow is bent?",
         ),
         WrongNumber(
             "about joint 2",
@@ -121,9 +118,8 @@ LOADED = Number(
         ),
     ),
     otherwise=(
-        "Lock joint 2: arm and load turn about joint 1 as one body. What is the inertia of a "
-        "small body "
-        "at that distance?"
+        "Lock joint 2: arm and load turn about joint 1 as one body. What is the inertia of a small "
+        "body at that distance?"
     ),
     further="Each entry can be tested like this: add one mass, and see the one number that must change.",
     hints=(
@@ -140,35 +136,29 @@ PUSH = Choice(
         Option(
             "Clockwise both times: a motor always pushes back on the link that carries it.",
             "It does push back. But link 1 also has to carry link 2's mass along, and where that "
-            "mass "
-            "goes depends on the pose. Which curve of section 6 knows?",
+            "mass goes depends on the pose. Which curve of section 6 knows?",
         ),
         Option(
             "Clockwise with the straight arm, counter-clockwise with the folded one: an entry of "
-            "$M$ "
-            "changes its sign.",
+            "$M$ changes its sign.",
         ),
         Option(
             "Counter-clockwise both times: link 2 drags link 1 along.",
             "Think of the straight arm as a boat, and of link 2 as somebody in it who begins to "
-            "walk. "
-            "Which way does the boat go?",
+            "walk. Which way does the boat go?",
         ),
         Option(
             "Not at all: motor 1 is off, so joint 1 has no reason to move.",
             "Without a motor the torque of joint 1 is zero. Is its acceleration zero then, when "
-            "joint 2 "
-            "accelerates?",
+            "joint 2 accelerates?",
         ),
     ),
     further="A motor moves every joint that its acceleration is coupled with, also those that are free.",
     hints=(
         "Write down the first of the two equations, at rest, without gravity, with nothing on its "
-        "right "
-        "side.",
+        "right side.",
         "Joint 2 accelerates counter-clockwise both times. Which entry of M decides what joint 1 "
-        "does, "
-        "and how does it look in the picture of section 6?",
+        "does, and how does it look in the picture of section 6?",
     ),
 )
 
@@ -182,29 +172,25 @@ DEGREES = Number(
         WrongNumber(
             "once",
             M11 * radians(1),
-            "You multiplied once. How often does the change of coordinates stand in the new "
-            "matrix?",
+            "You multiplied once. How often does the change of coordinates stand in the new matrix?",
         ),
         WrongNumber(
             "unchanged",
             M11,
             "You left it as it was. A joint that turns by one unit now turns much less: is the "
-            "energy the "
-            "same number?",
+            "energy the same number?",
         ),
         WrongNumber(
             "the other way",
             M11 / radians(1) ** 2,
             "You turned the factor around. Is one degree per second more energy than one radian "
-            "per "
-            "second, or less?",
+            "per second, or less?",
         ),
         WrongNumber(
             "once, the other way",
             M11 / radians(1),
-            "You multiplied once, and with the factor turned around. Is one degree per second "
-            "more than "
-            "one radian per second?",
+            "You multiplied once, and with the factor turned around. Is one degree per second more "
+            "than one radian per second?",
         ),
         WrongNumber(
             "halved",
@@ -219,15 +205,13 @@ DEGREES = Number(
     ),
     otherwise=(
         "Write the old angles by the new ones: which number is T, for each joint? Then the energy "
-        "must "
-        "be the same in both."
+        "must be the same in both."
     ),
     further="The same happens to the torques, once: a torque belongs to a rad, or to a degree.",
     hints=(
         "How many rad is one degree? That number is T here, the same for both joints.",
         "The arm turns at one degree per second. Compute its energy with the old matrix: the new "
-        "one must "
-        "give the same.",
+        "one must give the same.",
     ),
 )
 
@@ -255,8 +239,7 @@ REVERSED = Choice(
     hints=(
         "For each of the four tests: what would the wrong program give?",
         "The wrong program is a right one for another planet. Which of the four tests tells the "
-        "planets "
-        "apart?",
+        "planets apart?",
     ),
 )
 
