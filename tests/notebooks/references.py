@@ -64,11 +64,11 @@ def references() -> list[Reference]:
 
 @cache
 def parts(lesson: Path) -> tuple[str, str]:
-    """A lesson's text without its code, and its list of references."""
+    """A lesson's text before its list of references, without its code; and this list."""
     notebook = nbformat.read(lesson, as_version=nbformat.NO_CONVERT)
     text = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
     before, _, listed = text.partition("### References\n")
-    return before, listed
+    return before, listed.partition("\n## ")[0]  # an appendix may follow
 
 
 def listed_in(lesson: Path) -> list[str]:

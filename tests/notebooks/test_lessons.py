@@ -156,7 +156,8 @@ def test_links_between_lessons_lead_somewhere(path, lesson):
     for cell in lesson.cells:
         if cell.cell_type == "markdown":
             for target in re.findall(r"\]\(((?!https?:|#|\.\./problems/)[^)\s]+)\)", cell.source):
-                assert (path.parent / target).exists(), f"{cell.id}: {target}"
+                file = target.partition("#")[0]
+                assert (path.parent / file).exists(), f"{cell.id}: {target}"
 
 
 def test_problems_named_in_a_lesson_have_a_source(path, lesson):

@@ -22,7 +22,6 @@ from autograder.problems import CHECKS
 LESSONS = sorted((Path(__file__).parents[2] / "lessons").glob("*.ipynb"))
 # Cells that still print such an answer, to be mended with their lesson's checks.
 TO_MEND = {
-    "01-pendulum-sympy": {"p3-g_vec"},
     "09-wolfram-run": {"p1-M", "p2-C", "p2-M_dot"},
 }
 RNG = np.random.default_rng(17)

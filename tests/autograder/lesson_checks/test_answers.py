@@ -6,6 +6,7 @@ import pytest
 from autograder.judging.check import Check
 from autograder.judging.verdict import State, Verdict
 from autograder.lesson_checks import checks_of
+from autograder.lesson_checks.arm import ARM
 from autograder.lesson_checks.choice import Choice
 from autograder.lesson_checks.number import Number
 from autograder.student.lesson import verdict_on
@@ -101,8 +102,6 @@ def test_dots_are_no_attempt(id, verdict):
 
 
 def test_the_arm_is_the_lessons(opened):
-    from autograder.lesson_checks.arm import ARM
-
     for number, (_, namespace) in opened.items():
         if "arm" in namespace:
             own = {name: getattr(namespace["arm"], name) for name in vars(ARM)}
@@ -173,3 +172,41 @@ def test_the_number_of_lesson_04_is_the_models(opened):
     arm = opened["04"][1]["arm"]
     up, down = (arm.potential_energy([q1, 0.0]) for q1 in (np.pi / 2, -np.pi / 2))
     assert np.isclose(CHECKS["04-upright"].right, up - down)
+
+
+def test_the_numbers_of_lesson_01_are_the_models(opened):
+    of = opened["01"][1]
+    arm = of["Planar2R"](**vars(ARM))
+    q, qd = np.radians([30.0, 45.0]), np.array([-4.0, -6.0])
+    assert np.isclose(CHECKS["01-twice"].right, (arm.C(q, qd) @ qd)[0])
+
+    hangs = np.array([-np.pi / 2, 0.0])
+    held = arm.g_vec(np.zeros(2))
+    assert np.allclose(arm.g_vec(hangs), 0)
+    # The program takes an angle from the x axis for one from hanging down.
+    assert np.allclose(arm.g_vec(hangs + hangs), -held)
+    assert np.allclose(held, [42.2, 7.8], atol=0.05)
+
+    mass, radius = 2.0, 0.3
+    ring = of["Pendulum"].from_com(m=mass, lc=radius, I_com=mass * radius**2)
+    small = 1e-4
+    right = -ring.dynamics([small], [0.0], [0.0])[0] / small
+    wrong = mass * ring.g * radius / (mass * radius**2)
+    assert np.isclose(CHECKS["01-ring"].right, np.sqrt(wrong / right))
+
+
+def test_the_numbers_of_lesson_07_are_the_models(opened):
+    of = opened["07"][1]
+    arm, q, qd = of["arm"], np.array([0.0, np.pi / 2]), np.array([1.0, 2.0])
+    step = 1e-6
+    moved = of["plotting"].tip(arm, q + step * qd) - of["plotting"].tip(arm, q - step * qd)
+    assert np.isclose(CHECKS["07-hand"].right, np.linalg.norm(moved) / (2 * step))
+
+    # Link 2 and 1 kg in the hand as one body.
+    centre = (2.0 * 0.4 + 1.0 * 0.8) / 3.0
+    inertia = 0.11 + 2.0 * (centre - 0.4) ** 2 + 1.0 * (0.8 - centre) ** 2
+    loaded = of["Planar2R"](**vars(ARM) | {"m2": 3.0, "lc2": centre, "I2": inertia})
+    assert np.isclose(CHECKS["07-load"].right, (loaded.M(q) - arm.M(q))[0, 0])
+
+    in_degrees = arm.kinetic_energy(q, np.radians([1.0, 0.0]))
+    assert np.isclose(CHECKS["07-degrees"].right, 2 * in_degrees)

@@ -1,0 +1,42 @@
+"""Each lesson states how long it takes, and that is what its words, lines and tasks add up to."""
+
+import re
+
+import nbformat
+import pytest
+
+from tests.notebooks.reading_time import LESSONS, counts, minutes, to_state
+
+# Lessons that still state a guess; each leaves the list when its checks are added.
+TO_MEASURE = {"09", "10"}
+MEASURED = [path for path in LESSONS if path.name[:2] not in TO_MEASURE]
+
+
+@pytest.mark.parametrize("path", MEASURED, ids=lambda path: path.stem)
+def test_the_stated_minutes_are_those_that_it_takes(path):
+    first = nbformat.read(path, as_version=4).cells[0].source
+    stated = int(re.search(r"About (\d+) minutes", first)[1])
+    assert abs(stated - to_state(path)) <= 5, f"state {to_state(path)} minutes: {counts(path)}"
+
+
+def test_what_counts(tmp_path):
+    cell = nbformat.v4
+    picture = cell.new_output("display_data", {"image/png": "", "text/plain": "an arm"})
+    cells = [
+        cell.new_markdown_cell(
+            "One $q$ [three](four.ipynb).\n\n$$a\\\\b$$\n\n"
+            "$$\\begin{aligned}a &= \\begin{bmatrix}0\\\\1\\end{bmatrix}\\\\ b &= c\\end{aligned}$$"
+        ),
+        cell.new_code_cell("# a comment\na = 1\n\nb = 2", outputs=[picture]),
+        cell.new_code_cell("assert a", metadata={"tags": ["self-test"]}),
+        cell.new_code_cell('my_sag = ...\ncheck("05-sag")', id="05-sag"),
+        cell.new_markdown_cell("Five.\n\n### References\n- A. Author (1999), *A book*."),
+        cell.new_markdown_cell("## Appendix: more\n\nMuch more."),
+        cell.new_code_cell("c = 3"),
+    ]
+    path = tmp_path / "05-a.ipynb"
+    nbformat.write(cell.new_notebook(cells=cells), path)
+    expected = {"words": 4, "displays": 3, "lines": 2, "pictures": 1, "checks": 1}
+    assert counts(path) == expected
+    assert minutes(path) == pytest.approx(4 / 120 + 3 / 2 + 2 / 12 + 1 / 2 + 3)
+    assert to_state(path) == 10
