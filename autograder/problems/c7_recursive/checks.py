@@ -26,7 +26,6 @@ from autograder.protocol import Call
 
 NOTHING = np.empty(0)  # a quantity of a criterion that a call says nothing of
 LESSON = "08-from-symbols-to-fast-code"
-RECURSION = "4 · No expressions at all: the recursive Newton–Euler algorithm"
 
 
 def _rnea_calls(rng, count):
@@ -160,7 +159,11 @@ CHECKS = (
             "that of the link's force, and what the next link hands down, turned into the axes of link "
             "k. The motor gives the part along the axis, and friction on top.",
         ),
-        section=Section(LESSON, "08-rnea-hand", RECURSION),
+        section=Section(
+            LESSON,
+            "08-rnea-hand",
+            "4 · No expressions at all: the recursive Newton–Euler algorithm",
+        ),
         further=(
             "Two sweeps need neither a matrix M nor a matrix C, and work for any number of links. A "
             "controller runs them once for each sample."
@@ -187,7 +190,7 @@ CHECKS = (
             "At q̈ = 0 and with gravity taken away, C q̇ and f are left. C q̇ has products of two "
             "velocities, f one velocity. So ask a second time with −q̇, and compare.",
         ),
-        section=Section(LESSON, "08-predict", RECURSION),
+        section=Section(LESSON, "08-numbers-intro", "The same in numbers"),
         further=(
             "For n joints, n + 3 calls are enough for all four terms. With velocities of your own "
             "choice, more calls give even the Christoffel matrix C."

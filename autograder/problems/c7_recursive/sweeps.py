@@ -140,7 +140,12 @@ def _place(chain, k: int, at: str) -> np.ndarray:
     return chain.com[k - 1] if at == "com" else chain.offset[k - 1]
 
 
-rnea = Sweeps()  # the right answer
+RIGHT = Sweeps()
+
+
+def rnea(q, qd, qdd, chain) -> np.ndarray:
+    """The torques, (n,), N·m: the right answer."""
+    return RIGHT(q, qd, qdd, chain)
 
 
 def changed(chain, **entries) -> SimpleNamespace:
