@@ -122,9 +122,9 @@ NO_SIGN = Said("Some of your numbers are neither 1 nor −1 nor 0.", _is_no_sign
 
 
 def _count_calls(rng, count):
-    """Of up to 30 links, the shortest arms among them."""
-    long = rng.choice(np.arange(5, 31), max(count, 2) - 2, replace=False)
-    return [Call("count", (int(n),)) for n in (2, 3, *long)]
+    """Of up to ten links, the shortest arms among them."""
+    longer = rng.permutation(np.arange(4, 11))[: max(count - 2, 0)]
+    return [Call("count", (int(n),)) for n in (2, 3, *longer)]
 
 
 @each

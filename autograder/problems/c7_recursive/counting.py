@@ -38,7 +38,8 @@ def direct(c, s, w, a, arm):
 def sweeps(c, s, w, a, arm):
     """u of every joint from that of the next one."""
     links = outwards(c, s, w, a, arm)
-    u, fx, fy, torque = [], 0.0, 0.0, 0.0
+    u = []
+    fx, fy, torque = 0.0, 0.0, 0.0
     for k in reversed(range(len(c))):
         _, _, Fx, Fy, moment = links[k]
         own = arm.lc[k] * (c[k] * Fy - s[k] * Fx)

@@ -1,11 +1,12 @@
 """Mistakes in the two sweeps: each is a sweep in which something counts wrongly, or not at all."""
 
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
 
 from autograder.judging.diagnosis import Mistake
-from autograder.problems.c7_recursive.sweeps import Sweeps, changed, rnea
+from autograder.problems.c7_recursive.sweeps import Sweeps, changed
 
 # The chain of the notebook's set-up cell.
 EXAMPLE = SimpleNamespace(
@@ -51,9 +52,21 @@ CENTRE_FOR_JOINT = (
 )
 
 
-def _fixed_gravity(q, qd, qdd, chain):
-    """Also where there is no gravity."""
-    return rnea(q, qd, qdd, changed(chain, gravity=np.array([0.0, 0.0, -9.81])))
+@dataclass(frozen=True)
+class _AlwaysDown(Sweeps):
+    """Gravity of Earth along −z, also where there is none."""
+
+    def __call__(self, q, qd, qdd, chain):
+        down = np.full_like(chain.gravity, [0.0, 0.0, -9.81])
+        return super().__call__(q, qd, qdd, changed(chain, gravity=down))
+
+
+@dataclass(frozen=True)
+class _Reversed(Sweeps):
+    """The torques from the tip to the base."""
+
+    def __call__(self, q, qd, qdd, chain):
+        return super().__call__(q, qd, qdd, chain)[..., ::-1]
 
 
 def _mistakes(*rows) -> tuple[Mistake, ...]:
@@ -81,7 +94,7 @@ RNEA = _mistakes(
     ),
     (
         "9.81 downwards",
-        _fixed_gravity,
+        _AlwaysDown(),
         "Your gravity is always 9.81 m/s² along −z. The check also takes the chain to other places, and "
         "hangs it from walls: which entry of chain says where gravity points?",
     ),
@@ -223,7 +236,7 @@ RNEA = _mistakes(
     ),
     (
         "order of the joints",
-        lambda q, qd, qdd, chain: rnea(q, qd, qdd, chain)[::-1],
+        _Reversed(),
         "Your torques are right, but come in reverse order. Your inward sweep finds the last joint's "
         "torque first: where in the result does it belong?",
     ),
