@@ -38,14 +38,14 @@ def direct(c, s, w, a, arm):
 def sweeps(c, s, w, a, arm):
     """u of every joint from that of the next one."""
     links = outwards(c, s, w, a, arm)
-    u = []
+    u = [0.0] * len(c)
     fx, fy, torque = 0.0, 0.0, 0.0
     for k in reversed(range(len(c))):
         _, _, Fx, Fy, moment = links[k]
         own = arm.lc[k] * (c[k] * Fy - s[k] * Fx)
         torque = torque + moment + own + arm.l[k] * (c[k] * fy - s[k] * fx)
         fx, fy = fx + Fx, fy + Fy
-        u.insert(0, torque)
+        u[k] = torque
     return u
 
 

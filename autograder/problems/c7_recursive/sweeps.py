@@ -121,7 +121,8 @@ class Sweeps:
             *states, chains = zip(*(calls[place].args for place in places), strict=True)
             names = vars(chains[0])
             together = {name: np.stack([getattr(c, name) for c in chains]) for name in names}
-            values = self(*map(np.stack, states), SimpleNamespace(**together))
+            q, qd, qdd = map(np.stack, states)
+            values = self(q, qd, qdd, SimpleNamespace(**together))
             for place, value in zip(places, values, strict=True):
                 found[place] = value
         return found
