@@ -122,9 +122,11 @@ NO_SIGN = Said("Some of your numbers are neither 1 nor −1 nor 0.", _is_no_sign
 
 
 def _count_calls(rng, count):
-    """Of up to ten links, the shortest arms among them."""
-    longer = rng.permutation(np.arange(4, 11))[: max(count - 2, 0)]
-    return [Call("count", (int(n),)) for n in (2, 3, *longer)]
+    """Of short arms where the cases are visible, and of longer ones, which none of these tells, else."""
+    lengths = rng.permutation(np.arange(2, 8))
+    if count > VISIBLE_CASES:
+        lengths = rng.choice(np.arange(11, 41), VISIBLE_CASES, replace=False)
+    return [Call("count", (int(n),)) for n in lengths]
 
 
 @each
