@@ -73,11 +73,15 @@ def rounded(call: Call, digits: int = SHORT) -> Call:
 
 
 def _is_by_name(call: Call) -> bool:
-    return any(
-        isinstance(value, Symbol | Expressions)
-        or (isinstance(value, np.ndarray) and value.size > LONGEST_ARRAY)
-        for value in call.args
-    )
+    return any(map(_is_long, call.args))
+
+
+def _is_long(value) -> bool:
+    if isinstance(value, SimpleNamespace):
+        return any(map(_is_long, vars(value).values()))
+    if isinstance(value, np.ndarray):
+        return value.size > LONGEST_ARRAY
+    return isinstance(value, Symbol | Expressions)
 
 
 def _symbols(names: list[str], args: tuple) -> dict[str, str]:
@@ -112,7 +116,9 @@ def _nested(value, digits: int) -> str:
 
 
 def _number(value: float, digits: int) -> str:
-    """As a float in Python: 2.0, not 2."""
+    """As a float in Python, 2.0 and not 2, but where it is a count."""
+    if isinstance(value, int):
+        return str(value)
     if not np.isfinite(value):
         return f"float('{value}')"
     return repr(float(f"{value:.{digits}g}"))
@@ -137,6 +143,6 @@ def _rounded(value, digits: int):
         case np.ndarray() if value.size <= LONGEST_ARRAY:
             flat = [float(_number(entry, digits)) for entry in value.flat]
             return np.array(flat).reshape(value.shape)
-        case float() | int():
+        case float():
             return float(f"{value:.{digits}g}")
     return value

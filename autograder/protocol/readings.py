@@ -78,6 +78,12 @@ def is_finite(value) -> bool:
     return bool(np.all(np.isfinite(value)))
 
 
+def _is_part(value) -> bool:
+    """Whether it is more than a number; a SymPy matrix has a shape, too."""
+    plain = isinstance(value, Mapping | SimpleNamespace | tuple | list)
+    return plain or bool(getattr(value, "shape", ()))
+
+
 def read_parts(value, depth: int = DEEPEST):
     """A result of several parts, named or in order, as dicts and lists of arrays."""
     if isinstance(value, SimpleNamespace):
@@ -85,8 +91,7 @@ def read_parts(value, depth: int = DEEPEST):
     if isinstance(value, Mapping | tuple | list) and depth and len(value) <= MOST_ENTRIES:
         if isinstance(value, Mapping):
             return {str(name): read_parts(entry, depth - 1) for name, entry in value.items()}
-        if any(isinstance(part, Mapping | SimpleNamespace | tuple | list | np.ndarray)
-               for part in value):  # fmt: skip
+        if any(map(_is_part, value)):
             return [read_parts(part, depth - 1) for part in value]
     return read_numbers(value)
 

@@ -17,7 +17,7 @@ NOT_FINITE = (np.nan, np.inf, -np.inf)
 # Their answers are arrays of numbers, several at a time.
 OF_ARRAYS = ("p1-M", "p1-inertia_from_links", "p2-M_dot", "p2-C", "p2-C_other", "p4-g_vec",
              "p4-equilibria", "p5-f", "p5-rk4_step", "p5-simulate", "p5-energy_drift",
-             "c6-regressor", "c6-identify")  # fmt: skip
+             "c6-regressor", "c6-identify", "c7-rnea", "c7-count")  # fmt: skip
 DIVIDING = "q, qd = x[:2], x[2:]\nreturn np.concatenate([qd, {wrong}qd / np.abs(qd)])"
 
 

@@ -114,7 +114,8 @@ def test_hidden_cases_differ_from_the_visible_ones(name):
     visible = calls_of(name, np.random.default_rng(VISIBLE_SEED), VISIBLE_CASES)
     hidden = calls_of(name, stream("seed", name), HIDDEN_CASES)
     assert not set(visible) & set(hidden)
-    assert not set(hidden) & set(calls_of(name, stream("seeds", name), HIDDEN_CASES))
+    if name != "c7-count":  # whole numbers, of which two draws share some
+        assert not set(hidden) & set(calls_of(name, stream("seeds", name), HIDDEN_CASES))
     assert hidden == calls_of(name, stream("seed", name), HIDDEN_CASES)
 
 

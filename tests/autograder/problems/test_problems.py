@@ -46,6 +46,14 @@ OWN = {
         "c6-five-columns c6-discussion",
         ("moved into",),
     ),
+    "c7-recursive": Own(
+        "c7-discussion",
+        4,
+        15,
+        "c7-setup answer-rnea c7-rnea c7-poses answer-terms c7-terms c7-own-terms answer-gravity_sign "
+        "c7-gravity_sign c7-two-programs c7-two-ways answer-count c7-count c7-table c7-discussion",
+        ("even in the velocities", "accelerometer"),
+    ),
     "p1-inertia": Own(
         "p1-proof",
         4,
@@ -118,6 +126,10 @@ WRONG = {
     "c6-regressor": (0, "wrong sign / g(q)", "absolute acceleration of link 2", "J1 at joint 2"),
     "c6-rank_of_excitation": (0, "number of columns"),
     "c6-identify": (0,),
+    "c7-rnea": (0, "nothing handed down"),
+    "c7-terms": (0, "gravity in M", "gravity in C q̇", "gravity in motion", "C q̇ in the friction"),
+    "c7-gravity_sign": (0, "always 1"),
+    "c7-count": (0, "products only"),
 }
 PARTLY_RIGHT = {
     "p1-inertia_from_links": (0.5, "last link only"),
@@ -143,6 +155,10 @@ PARTLY_RIGHT = {
     "c6-regressor": (0.75, "coupling without the factor 2"),
     "c6-rank_of_excitation": (0.35, "joint 1 only"),
     "c6-identify": (0, "fit: coupling without the factor 2"),
+    "c7-rnea": (0.45, "gyroscopic term missing"),
+    "c7-terms": (0.7, "friction in C q̇"),
+    "c7-gravity_sign": (0.5, "whose torque not asked"),
+    "c7-count": (0.5, "n times one link"),
 }
 
 

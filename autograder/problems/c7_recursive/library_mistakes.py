@@ -1,0 +1,252 @@
+"""Mistakes in what is asked of a library that has only rnea, and in counting operations."""
+
+from collections.abc import Callable
+from types import SimpleNamespace
+
+import numpy as np
+
+from autograder.judging.claims import Claim
+from autograder.judging.diagnosis import Mistake
+from autograder.problems.c7_recursive.counting import count, direct, operations
+from autograder.problems.c7_recursive.counting import sweeps as by_sweeps
+
+
+def parts(library, q, qd) -> SimpleNamespace:
+    """M (n, n), and c = C q̇, g and f (n,), as the library's torques give them."""
+    rest = np.zeros(len(q))
+    g = library(q, rest, rest)
+    forth, back = library(q, qd, rest) - g, library(q, -qd, rest) - g
+    M = np.column_stack([library(q, rest, e) - g for e in np.eye(len(q))])
+    return SimpleNamespace(M=M, c=(forth + back) / 2, g=g, f=(forth - back) / 2)
+
+
+def _but(**of: Callable):
+    """The right terms, of which some are others."""
+
+    def wrong(library, q, qd):
+        right = parts(library, q, qd)
+        found = SimpleNamespace(**vars(right) | {name: own(right) for name, own in of.items()})
+        return found.M, found.c, found.g, found.f
+
+    return wrong
+
+
+terms = _but()  # the right answer
+
+
+def _gravity_at_zero(library, q, qd):
+    M, c, _, f = terms(library, q, qd)
+    return M, c, parts(library, 0 * q, qd).g, f
+
+
+def _column(v):
+    return v[:, np.newaxis]
+
+
+TERMS = (
+    Mistake(
+        "gravity in M",
+        _but(M=lambda of: of.M + _column(of.g)),
+        "Each column of your M holds a torque that is there without any acceleration. What does the "
+        "library return for an arm that is held still?",
+    ),
+    Mistake(
+        "M asked in motion",
+        _but(M=lambda of: of.M + _column(of.c + of.f)),
+        "Each column of your M holds torques that come from q̇. With which velocity do you ask for it?",
+    ),
+    Mistake(
+        "M asked in motion, with gravity",
+        _but(M=lambda of: of.M + _column(of.c + of.f + of.g)),
+        "Each column of your M holds all that the library adds to M q̈: ask at rest, and take away "
+        "what is left without any acceleration.",
+    ),
+    Mistake(
+        "M from one acceleration of all joints",
+        _but(M=lambda of: np.diag(of.M.sum(axis=1))),
+        "Your M comes from a single acceleration of all joints, spread along the diagonal. One call "
+        "gives n numbers: how many calls does a matrix of n columns need?",
+    ),
+    Mistake(
+        "diagonal of M",
+        _but(M=lambda of: np.diag(np.diag(of.M))),
+        "Your M is right on its diagonal and zero beside it. A call returns the torques of all joints, "
+        "also of those that do not accelerate.",
+    ),
+    Mistake(
+        "gravity in C q̇",
+        _but(c=lambda of: of.c + of.g),
+        "Your C q̇ holds a torque that is there without any velocity. What does the library return "
+        "for an arm that is held still?",
+    ),
+    Mistake(
+        "friction in C q̇",
+        _but(c=lambda of: of.c + of.f),
+        "Your C q̇ holds the friction. Turn all velocities round: which of the two torques changes its "
+        "sign, and which does not?",
+    ),
+    Mistake(
+        "gravity and friction in C q̇",
+        _but(c=lambda of: of.c + of.f + of.g),
+        "Your C q̇ is all that the library returns without acceleration. Which two other torques are "
+        "in it?",
+    ),
+    Mistake(
+        "C q̇ in the friction",
+        _but(f=lambda of: of.f + of.c),
+        "Your friction holds C q̇. Turn all velocities round: which of the two torques changes its "
+        "sign, and which does not?",
+    ),
+    Mistake(
+        "C q̇ and friction exchanged",
+        _but(c=lambda of: of.f, f=lambda of: of.c),
+        "You return the friction where C q̇ belongs, and C q̇ where the friction belongs. Which of them "
+        "do the velocities enter as products of two?",
+    ),
+    Mistake(
+        "gravity of the level arm",
+        _gravity_at_zero,
+        "Your gravity torque is that of q = 0. In which position is the arm?",
+    ),
+    Mistake(
+        "gravity in motion",
+        _but(g=lambda of: of.g + of.c + of.f),
+        "Your gravity torque holds torques that come from q̇. With which velocity do you ask for it?",
+    ),
+)
+
+
+def _torque(library, acceleration=0.0, joint=1, held=1.0):
+    """Of one joint, with the arm level; held: how often what holds the arm counts."""
+    rest = np.zeros(2)
+    return (
+        library(rest, rest, acceleration * np.ones(2))[joint]
+        - (1 - held) * library(rest, rest, rest)[joint]
+    )
+
+
+def _inertia(library) -> float:
+    return np.sign(_torque(library, 1.0, held=0.0))
+
+
+def gravity_sign(library) -> float:
+    """1 where gravity pulls down, −1 where it pulls up, 0 where there is none: the right answer."""
+    return np.sign(_torque(library)) * _inertia(library)
+
+
+ONE_SIGN = (
+    "Your function returns the same number for every library. Ask the library for a torque: which "
+    "joint of a level arm has a weight to hold?"
+)
+
+
+def _of_all(*rows) -> tuple[Mistake, ...]:
+    """Of three possible numbers those of one criterion may be a mistake's by chance."""
+    return tuple(Mistake(name, wrong, said, Claim.WHOLE) for name, wrong, said in rows)
+
+
+GRAVITY_SIGN = _of_all(
+    ("always 1", lambda library: 1, ONE_SIGN),
+    ("always −1", lambda library: -1, ONE_SIGN),
+    (
+        "joint 1",
+        lambda library: np.sign(_torque(library, joint=0)),
+        "Your number is 0 for every library. The axis of joint 1 is vertical: can it feel a weight?",
+    ),
+    (
+        "whose torque not asked",
+        lambda library: np.sign(_torque(library)),
+        "You take for granted that the library returns the torque of the motors. Some return the one "
+        "that the arm puts on them: which other call tells you?",
+    ),
+    (
+        "reversed",
+        lambda library: -gravity_sign(library),
+        "Your signs are all turned round. A level arm must be pushed up where gravity pulls down, and "
+        "up is where q2 grows.",
+    ),
+    (
+        "reversed, and whose torque not asked",
+        lambda library: -np.sign(_torque(library)),
+        "A level arm must be pushed up where gravity pulls down, and up is where q2 grows. And does "
+        "each library return the torque of the motors?",
+    ),
+    (
+        "nothing between",
+        lambda library: 1 if gravity_sign(library) > 0 else -1,
+        "Some libraries have no gravity at all, until it is set. What does your function return "
+        "for such a one?",
+    ),
+    (
+        "nothing between, and whose torque not asked",
+        lambda library: 1 if _torque(library) > 0 else -1,
+        "Some libraries have no gravity at all, and some return the torque that the arm puts on its "
+        "motors. What does your function return for each of these?",
+    ),
+    (
+        "asked with an acceleration",
+        lambda library: np.sign(_torque(library, acceleration=1.0)),
+        "You ask with an acceleration, and look at one torque: it mixes weight and inertia. Which call "
+        "has the weight alone?",
+    ),
+    (
+        "sign of the inertia",
+        _inertia,
+        "You return the sign of the inertia's torque. It says whose torque the library gives; what "
+        "does gravity add to it?",
+    ),
+)
+
+
+def _counted(kinds: str):
+    return lambda n: tuple(
+        sum(number for kind, number in operations(algorithm, n).items() if kind in kinds)
+        for algorithm in (direct, by_sweeps)
+    )
+
+
+COUNT = (
+    Mistake(
+        "products only",
+        _counted("*"),
+        "You count the multiplications only. What else costs an operation?",
+    ),
+    Mistake(
+        "sums only",
+        _counted("+-"),
+        "You count sums and differences only. What else costs an operation?",
+    ),
+    Mistake("plus only", _counted("+"), "You count the signs + only. What else is asked for?"),
+    Mistake(
+        "without subtractions",
+        _counted("+*"),
+        "Your count leaves the subtractions out. Which method of your number stands for −?",
+    ),
+    Mistake(
+        "exchanged",
+        lambda n: count(n)[::-1],
+        "Your two counts are right, but in the other order. Which of them does the docstring ask for "
+        "first?",
+    ),
+    Mistake(
+        "not set back",
+        lambda n: (count(n)[0], sum(count(n))),
+        "Your second count includes the first one. When does your counter start again from zero?",
+    ),
+    Mistake(
+        "one link fewer",
+        lambda n: count(n - 1),
+        "Your counts are those of an arm with one link fewer. How long are the lists that you pass?",
+    ),
+    Mistake(
+        "n times one link",
+        lambda n: tuple(n * number for number in count(1)),
+        "You take n times the operations of one link. Look at the loops: in which algorithm does a link "
+        "cost more when the arm is longer?",
+    ),
+    Mistake(
+        "pairs counted twice",
+        lambda n: (count(n)[0] + (count(n)[0] - n * count(1)[0]), count(n)[1]),
+        "You count each pair of links twice. Where does the inner loop of the direct sum begin?",
+    ),
+)

@@ -1,0 +1,243 @@
+"""Mistakes in the two sweeps: each is a sweep in which something counts wrongly, or not at all."""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import numpy as np
+
+from autograder.judging.diagnosis import Mistake
+from autograder.problems.c7_recursive.sweeps import Sweeps, changed
+
+# The chain of the notebook's set-up cell.
+EXAMPLE = SimpleNamespace(
+    axis=np.array([[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [0.0, -0.8, 0.6]]),
+    offset=np.array([[0.0, 0.0, 0.3], [0.05, 0.0, 0.25], [0.42, 0.02, 0.0]]),
+    m=np.array([6.2, 4.1, 2.3]),
+    com=np.array([[0.01, 0.02, 0.12], [0.2, 0.01, 0.03], [0.17, -0.02, 0.04]]),
+    I=np.array(
+        [np.diag([0.06, 0.05, 0.03]), np.diag([0.012, 0.09, 0.085]), np.diag([0.005, 0.03, 0.028])]
+    ),
+    viscous=np.array([0.8, 0.6, 0.3]),
+    gravity=np.array([0.0, 0.0, -9.81]),
+)
+
+CENTRIPETAL = (
+    "In your outward sweep a point of a turning link has no acceleration towards the axis. What "
+    "acceleration has the end of a sling that turns evenly?"
+)
+HANDED_DOWN = (
+    "Your inward sweep loses something on its way to the base. A joint carries all links beyond "
+    "it: which two things does the next link hand down?"
+)
+FRAMES = "into the frame of the next link, or of the link before"
+SIGN_OF_ANGLE = (
+    "You turn vectors the wrong way. Your rotation matrix takes a vector from one frame to another: "
+    "from which, and to which?"
+)
+NOT_TURNED = (
+    f"You hand vectors on without turning them {FRAMES}. In whose axes are the components of each "
+    "vector given?"
+)
+NOT_WITH_THE_LINK = (
+    "A vector or matrix of the chain is given in the axes of its link, which have turned with it. You "
+    "use one of them as if its axes were still those of the base. "
+)
+OFFSETS = (
+    "You take a wrong place for the next joint. Which entry of offset says where joint k + 1 sits on "
+    "link k?"
+)
+CENTRE_FOR_JOINT = (
+    "You carry on at the centre of mass of the link, as if the next joint sat there. Which of "
+    "the chain's vectors leads to the next joint?"
+)
+
+
+@dataclass(frozen=True)
+class _AlwaysDown(Sweeps):
+    """Gravity of Earth along −z, also where there is none."""
+
+    def __call__(self, q, qd, qdd, chain):
+        down = np.full_like(chain.gravity, [0.0, 0.0, -9.81])
+        return super().__call__(q, qd, qdd, changed(chain, gravity=down))
+
+
+@dataclass(frozen=True)
+class _Reversed(Sweeps):
+    """The torques from the tip to the base."""
+
+    def __call__(self, q, qd, qdd, chain):
+        return super().__call__(q, qd, qdd, chain)[..., ::-1]
+
+
+def _mistakes(*rows) -> tuple[Mistake, ...]:
+    return tuple(Mistake(name, wrong, sentence) for name, wrong, sentence in rows)
+
+
+RNEA = _mistakes(
+    (
+        "gravity missing",
+        Sweeps(gravity=0.0),
+        "Your torques do not feel gravity. How does your outward sweep start: what does it take for "
+        "the acceleration of the base?",
+    ),
+    (
+        "sign of gravity",
+        Sweeps(gravity=-1.0),
+        "Your gravity pulls the wrong way. chain.gravity points down. A lift that starts presses you "
+        "to its floor: which way must the base accelerate to load the links as gravity does?",
+    ),
+    (
+        "gravity twice",
+        Sweeps(weight=1.0),
+        "Your links are twice as heavy as they should be. The base that accelerates and the weight of "
+        "each link are two ways to say one thing.",
+    ),
+    (
+        "9.81 downwards",
+        _AlwaysDown(),
+        "Your gravity is always 9.81 m/s² along −z. The check also takes the chain to other places, and "
+        "hangs it from walls: which entry of chain says where gravity points?",
+    ),
+    (
+        "gyroscopic term missing",
+        Sweeps(gyro=0.0),
+        "In your Euler's equation the angular momentum changes only with the angular velocity. But it "
+        "turns with the link: which part of its rate is left even at constant angular velocity?",
+    ),
+    (
+        "sign of the gyroscopic term",
+        Sweeps(gyro=-1.0),
+        "In your Euler's equation one of two parts has the wrong sign. In which order do the factors "
+        "of a cross product stand?",
+    ),
+    ("no centripetal acceleration of the joint", Sweeps(joint_centre=0.0), CENTRIPETAL),
+    ("no centripetal acceleration of the centre", Sweeps(centre=0.0), CENTRIPETAL),
+    ("no centripetal acceleration", Sweeps(joint_centre=0.0, centre=0.0), CENTRIPETAL),
+    (
+        "no angular acceleration at the joint",
+        Sweeps(joint_along=0.0),
+        "The next joint does not feel how the link speeds up its turning. Two parts of its "
+        "acceleration come from the turning: which of them have you written?",
+    ),
+    (
+        "no angular acceleration at the centre",
+        Sweeps(along=0.0),
+        "The centre of mass does not feel how the link speeds up its turning. Two parts of its "
+        "acceleration come from the turning: which of them have you written?",
+    ),
+    (
+        "moment arm of the link's own force missing",
+        Sweeps(lever=0.0),
+        "Your moment of each link is the one about its centre of mass. About which point does the "
+        "motor turn the link, and where does the link's force act?",
+    ),
+    (
+        "moment arm of the next link's force missing",
+        Sweeps(arm=0.0),
+        "The next link pulls at the far end of this link, and in your inward sweep this force has no "
+        "moment about the joint. What is its lever arm?",
+    ),
+    ("force not handed down", Sweeps(force=0.0), HANDED_DOWN),
+    ("torque not handed down", Sweeps(torque=0.0), HANDED_DOWN),
+    ("nothing handed down", Sweeps(torque=0.0, arm=0.0), HANDED_DOWN),
+    (
+        "inertia about the joint",
+        Sweeps(parallel=1.0),
+        "You carry the inertia over to the joint, and also give the link's force a moment about the "
+        "joint. One of them is enough: about which point do you write Euler's equation?",
+    ),
+    (
+        "inertia about the joint, without the force",
+        Sweeps(parallel=1.0, lever=0.0),
+        "You carry the inertia over to the joint, and leave out the moment of the link's force. That "
+        "would do if the joint were at rest. Is it?",
+    ),
+    (
+        "angular acceleration of the link before missing",
+        Sweeps(turn=0.0),
+        "Each of your links has only its own joint's angular acceleration. What else turns it faster?",
+    ),
+    (
+        "angular velocity of the link before missing",
+        Sweeps(spin=0.0),
+        "Each of your links has only its own joint's angular velocity. Who carries the joint?",
+    ),
+    (
+        "turning of the axis missing",
+        Sweeps(twist=0.0),
+        "You add up the accelerations of the joints. But the axis of a joint turns with the link "
+        "before: how does that change the angular velocity, even if all rates are constant?",
+    ),
+    (
+        "turning of the axis with the wrong sign",
+        Sweeps(twist=-1.0),
+        "A joint's axis turns with the link before, and you take this with the wrong sign. In which "
+        "order do the factors of the cross product stand?",
+    ),
+    (
+        "acceleration of the joint missing",
+        Sweeps(own_turn=0.0),
+        "Your torques do not feel the joints' accelerations. Where does your outward sweep use qdd?",
+    ),
+    ("turned the wrong way outwards", Sweeps(out=-1), SIGN_OF_ANGLE),
+    ("turned the wrong way inwards", Sweeps(back=-1), SIGN_OF_ANGLE),
+    ("turned the wrong way", Sweeps(out=-1, back=-1), SIGN_OF_ANGLE),
+    ("not turned outwards", Sweeps(out=0), NOT_TURNED),
+    ("not turned inwards", Sweeps(back=0), NOT_TURNED),
+    ("not turned", Sweeps(out=0, back=0), NOT_TURNED),
+    (
+        "inertia not turned",
+        Sweeps(in_base="I"),
+        f"{NOT_WITH_THE_LINK}It is a matrix: how is it turned?",
+    ),
+    (
+        "centre of mass not turned",
+        Sweeps(in_base="com"),
+        f"{NOT_WITH_THE_LINK}It says where a link's mass is.",
+    ),
+    (
+        "axis not turned",
+        Sweeps(in_base="axis"),
+        f"{NOT_WITH_THE_LINK}It says about which line a joint turns.",
+    ),
+    (
+        "offset not turned",
+        Sweeps(in_base="offset"),
+        f"{NOT_WITH_THE_LINK}It says where a joint sits, and its link is the one before.",
+    ),
+    ("centre for the next joint outwards", Sweeps(joint_at="com"), CENTRE_FOR_JOINT),
+    ("centre for the next joint inwards", Sweeps(arm_at="com"), CENTRE_FOR_JOINT),
+    ("centre for the next joint", Sweeps(joint_at="com", arm_at="com"), CENTRE_FOR_JOINT),
+    ("own offset outwards", Sweeps(joint_at="before"), OFFSETS),
+    ("own offset inwards", Sweeps(arm_at="before"), OFFSETS),
+    ("own offset", Sweeps(joint_at="before", arm_at="before"), OFFSETS),
+    (
+        "third component",
+        Sweeps(projected=False),
+        "You take the third component of the moment at each joint. This is the motor's part only if "
+        "the joint turns about its z axis. About which line does joint k turn?",
+    ),
+    (
+        "no rotational inertia",
+        Sweeps(euler=0.0, gyro=0.0),
+        "Your links are point masses: their own inertia does nothing. Which of chain's entries have "
+        "you not used yet?",
+    ),
+    (
+        "friction missing",
+        Sweeps(friction=0.0),
+        "Your joints turn without friction. Which term of the equation of motion is neither weight nor "
+        "inertia?",
+    ),
+    (
+        "sign of friction",
+        Sweeps(friction=-1.0),
+        "Your friction helps the motor. On which side of the equation of motion does f(q̇) stand?",
+    ),
+    (
+        "order of the joints",
+        _Reversed(),
+        "Your torques are right, but come in reverse order. Your inward sweep finds the last joint's "
+        "torque first: where in the result does it belong?",
+    ),
+)
