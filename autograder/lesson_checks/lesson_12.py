@@ -132,7 +132,10 @@ LATE = Choice(
             "because the rate $\\dot u$ of the torque has a part that goes like $\\dot q$.",
         ),
     ),
-    further="The same holds of a velocity that is filtered and an angle that is not.",
+    further=(
+        "A filter that runs forwards only delays as well. Used on the angles alone, it does the same to "
+        "the fit, with the opposite sign."
+    ),
     hints=(
         "Write the late torque as the torque now, less a small time multiplied by its rate.",
         "For a swing, the third derivative of the angle goes like the first, with the opposite sign.",
