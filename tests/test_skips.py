@@ -61,6 +61,16 @@ def test_a_skip_fails_in_ci(inner, monkeypatch):
     result.stdout.fnmatch_lines(["*nothing may be skipped*needs chromium: apt install chromium*"])
 
 
+def test_what_the_project_may_not_contain_is_skipped_in_ci_too(inner, monkeypatch):
+    monkeypatch.setenv("CI", "true")
+    why = "set DATA to the folder of a record, which is not part of the project"
+    inner.makepyfile(f"import pytest\ndef test(): pytest.skip({why!r})")
+    result = inner.runpytest_inprocess()
+    result.assert_outcomes(skipped=1)
+    *_, line, _ = result.outlines
+    assert line == why
+
+
 def test_module_skipped_whole_fails_in_ci(inner, monkeypatch):
     monkeypatch.setenv("CI", "true")
     inner.makepyfile("import pytest; pytest.importorskip('no_such_module')")

@@ -84,6 +84,25 @@ class Identification:
     excitation: Excitation
     consistency: Consistency
     weighted: bool
+    model: Manipulator
+    motors: bool
+
+    def torque(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> np.ndarray:
+        """u of any motion by the estimates, friction and motors included if they were, (..., n).
+
+        q, qd, qdd: (..., n), as for `identify`. Of a motion that the estimates have not seen, it shows
+        whether they are good for more than the fit. Raises ValueError for states of the wrong shape or
+        not finite.
+        """
+        q, qd, qdd = np.broadcast_arrays(*state_vectors(self.model.n, q=q, qd=qd, qdd=qdd))
+        base = self.estimate[: self.base.rank]
+        u = regressor(self.model, q, qd, qdd)[..., list(self.base.independent)] @ base
+        if self.motors:
+            joints = [int(name.removeprefix("armature")) - 1 for name in self.armature]
+            u = u + armature_columns(qdd)[..., joints] @ list(self.armature.values())
+        elif isinstance(self.model, SerialChain):
+            u = u + np.array(self.model.armature) * qdd
+        return u + friction_columns(qd) @ self.friction if self.friction.size else u
 
     @property
     def rank(self) -> int:
@@ -217,6 +236,8 @@ def identify(
     return Identification(
         *(base, names, estimate, standard_error, residual, shown, consistency),
         weighted=noise is not None,
+        model=model,
+        motors=bool(armature),
     )
 
 

@@ -142,3 +142,18 @@ def test_a_single_joint_shows_one_sum():
     (own,) = (k for k, name in enumerate(found.names) if name.startswith("Jzz1"))
     assert found.names[own] == "Jzz1 + armature1"
     np.testing.assert_allclose(found.estimate[own], 1.5)
+
+
+@pytest.mark.parametrize("armature", [True, False])
+@pytest.mark.parametrize("friction", [True, False])
+def test_torque_of_a_motion_that_was_not_fitted(armature, friction):
+    rubbed = {"viscous": (1.0,) * 3, "coulomb": (0.5,) * 3} if friction else {}
+    arm = SerialChain(puma_560().links[:3], armature=ARMATURE[:3], **rubbed)
+    q, qd, qdd = motion(3, 60)
+    u = arm.inverse_dynamics(q, qd, qdd)
+    found = identify(arm, q, qd, qdd, u, friction=friction, armature=armature)
+    other = np.random.default_rng(6).uniform(-3, 3, size=(3, 2, 5, 3))
+    assert found.torque(*other).shape == (2, 5, 3)
+    np.testing.assert_allclose(found.torque(*other), arm.inverse_dynamics(*other), atol=1e-6)
+    with pytest.raises(ValueError, match="qd"):
+        found.torque(other[0], other[1][..., :2], other[2])
