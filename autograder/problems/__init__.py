@@ -9,6 +9,7 @@ from types import MappingProxyType
 from autograder.judging.check import Check
 from autograder.problems import families
 from autograder.problems.c6_regressor import checks as c6_regressor
+from autograder.problems.c8_control import checks as c8_control
 from autograder.problems.material.conventions import Convention
 from autograder.problems.own_mechanisms import check_of_file, files_here
 from autograder.problems.p1_inertia import checks as p1_inertia
@@ -26,10 +27,19 @@ MODULES = (
     p4_gravity,
     p5_state_space,
     c6_regressor,
+    c8_control,
 )
 CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 # The answers that a person reads, by the grade_id of their cell.
-READ = ("p1-proof", "p2-proof", "p3-derivation", "p4-check", "p5-discussion", "c6-discussion")
+READ = (
+    "p1-proof",
+    "p2-proof",
+    "p3-derivation",
+    "p4-check",
+    "p5-discussion",
+    "c6-discussion",
+    "c8-discussion",
+)
 
 
 # Those that can give each student an arm of the student's own.
