@@ -215,8 +215,8 @@ CHECKS = (
         ),
         section=Section("05-gravity", "05-compensation", "4 · Gravity compensation"),
         further=(
-            "The proof needs no mass of the arm but those in g. So a robot may be stiff or soft, "
-            "and fast or slow, and with g right it ends at the goal all the same."
+            "The proof needs no number of the arm but those in g, and any positive gains. So the same "
+            "controller brings a light arm and a heavy one to their goals."
         ),
         pose=lambda call: planar_2r.joints(call.args[0], call.args[3]),
     ),
