@@ -100,7 +100,8 @@ def sentences(
     said: list[str] = []
     of_each: list[tuple[str, ...]] = [()] * len(criteria)
     for k, criterion in enumerate(criteria):
-        if met[k] or (criterion.in_loop and any(said)):
+        accounted = any(own and not c.in_loop for own, c in zip(of_each, criteria, strict=True))
+        if met[k] or (criterion.in_loop and accounted):
             continue
         before = len(said)
         named = [(wrong.mistakes[i].sentence, true[i]) for i in shown[k]]

@@ -138,13 +138,13 @@ def _of_law(call, value):
         error, rise = value
         right, _ = call.right
         return (
-            NOTHING,
-            NOTHING,
+            *4 * (NOTHING,),
             np.array(right if error <= MORE_ERROR * right else error),
             np.array(0.0 if rise <= LEAST_RISE else rise),
         )
     both = vector(value, 8)
-    return both[:2], both[2:], NOTHING, NOTHING
+    u, masses, moments, inertias = both[:2], both[2::3], both[3::3], both[4::3]
+    return u, masses, moments, inertias, NOTHING, NOTHING
 
 
 def _rate_calls(rng, count):
@@ -264,12 +264,9 @@ CHECKS = (
         quantities=_of_law,
         criteria=(
             Criterion("torque u", "N·m", 0.35),
-            Criterion(
-                "rate of the estimates",
-                "",
-                0.3,
-                units=("kg/s", "kg·m/s", "kg·m²/s", "kg/s", "kg·m/s", "kg·m²/s"),
-            ),
+            Criterion("rates of the estimates of m1 and m2", "kg/s", 0.1),
+            Criterion("rates of the estimates of m1 ℓc1 and m2 ℓc2", "kg·m/s", 0.1),
+            Criterion("rates of the estimates of J1 and J2", "kg·m²/s", 0.1),
             _in_loop(
                 "closed loop that begins here: largest error of the last second",
                 "rad",
@@ -278,7 +275,7 @@ CHECKS = (
                     Said(
                         "In closed loop, with a payload that nobody told your controller of, the arm is "
                         "lost: a joint races, or a number that came back is not finite.",
-                        _lost(2),
+                        _lost(4),
                     ),
                     Said(
                         "In closed loop, with a payload that nobody told your controller of, the arm "

@@ -8,7 +8,7 @@ from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.terms import Term
 from autograder.problems.c8_control.chain import chain
-from autograder.problems.c8_control.mistakes import EXAMPLE, regressor_r
+from autograder.problems.c8_control.mistakes import EXAMPLE, REGRESSOR, regressor_r
 from autograder.problems.material.planar_2r import C, M, M_dot, h
 
 
@@ -190,6 +190,25 @@ LAW = (
 )
 
 
+# A law that is right, on a wrong Y_r of part B; those of `LAW` may come of either.
+STANDS_ON = (
+    "Your law is right, but its Y_r is not. First make the card of part B green, or look at what you "
+    "pass to regressor_r here."
+)
+OF_THE_LAW = ("qd for qd_r", "qd_r twice", "example arm")
+
+
+def _on(wrong):
+    return law(Y=lambda w: wrong(w.q, w.qd, w.qd_r, w.qdd_r, w.arm))
+
+
+LAW += tuple(
+    Mistake(f"law: {mistake.name}", _on(mistake.wrong), STANDS_ON, combines=False)
+    for mistake in REGRESSOR
+    if mistake.name not in OF_THE_LAW
+)
+
+
 def rate_of_V(q, qd, s, C_used, gains, arm, damping=-1.0, of_M=0.5, of_C=-1.0) -> float:
     """V̇, W: the right answer, or with other factors before its three terms."""
     return float(
@@ -201,10 +220,10 @@ def _factors(**factors):
     return partial(rate_of_V, **factors)
 
 
+# With the Christoffel C the terms with Ṁ and C cancel: no number tells one from the other.
 V_TERMS = (
     Term("the damping", _factors(of_M=0.0, of_C=0.0)),
-    Term("the term with Ṁ", _factors(damping=0.0, of_C=0.0)),
-    Term("the term with C", _factors(damping=0.0, of_M=0.0)),
+    Term("the part with Ṁ and C", _factors(damping=0.0)),
 )
 
 

@@ -272,6 +272,12 @@ REGRESSOR = (
         "coupling in M11 with that in M12.",
     ),
     Mistake(
+        "absolute acceleration of link 2",
+        _plus(lambda q, qd, qd_r, qdd_r, arm: {(0, 5): -qdd_r[0], (1, 5): -qdd_r[0]}),
+        "In your column of J2, link 2 turns with the second entry of q̈r alone. What does joint 1 do to "
+        "link 2?",
+    ),
+    Mistake(
         "9.81",
         lambda q, qd, qd_r, qdd_r, arm: regressor_r(q, qd, qd_r, qdd_r, changed(arm, g=9.81)),
         "Your Y_r is right only on Earth, because you typed 9.81 into it. Which parameter of arm gives "

@@ -46,6 +46,15 @@ OWN = {
         "c6-five-columns c6-discussion",
         ("moved into",),
     ),
+    "c8-control": Own(
+        "c8-discussion",
+        5,
+        15,
+        "c8-setup answer-gravity_compensation c8-gravity_compensation c8-settle answer-regressor_r "
+        "c8-regressor_r c8-compare answer-slotine_li c8-slotine_li c8-parcel answer-V_dot c8-V_dot "
+        "c8-growth c8-discussion",
+        ("christoffel.T", "leaves nothing for the spring to fight"),
+    ),
     "p1-inertia": Own(
         "p1-proof",
         4,
@@ -118,6 +127,10 @@ WRONG = {
     "c6-regressor": (0, "wrong sign / g(q)", "absolute acceleration of link 2", "J1 at joint 2"),
     "c6-rank_of_excitation": (0, "number of columns"),
     "c6-identify": (0,),
+    "c8-gravity_compensation": (0, "sign of gravity"),
+    "c8-regressor_r": (0, "sign of gravity", "absolute acceleration of link 2"),
+    "c8-slotine_li": (0,),
+    "c8-V_dot": (0, "damping left out"),
 }
 PARTLY_RIGHT = {
     "p1-inertia_from_links": (0.5, "last link only"),
@@ -143,6 +156,10 @@ PARTLY_RIGHT = {
     "c6-regressor": (0.75, "coupling without the factor 2"),
     "c6-rank_of_excitation": (0.35, "joint 1 only"),
     "c6-identify": (0, "fit: coupling without the factor 2"),
+    "c8-gravity_compensation": (0.2, "gravity at the goal"),
+    "c8-regressor_r": (0.6, "all of h on the second entry"),
+    "c8-slotine_li": (0.35, "law: all of h on the second entry"),
+    "c8-V_dot": (0.4, "skew-symmetry taken for granted"),
 }
 
 
@@ -293,7 +310,7 @@ def assert_said(given, kind, expected):
     for check_id, verdict in given.graded(kind).verdicts.items():
         credit, *names = expected.get(check_id, (1,))
         assert verdict.credit == pytest.approx(credit), check_id
-        otherwise = [criterion.otherwise for criterion in CHECKS[check_id].criteria]
+        otherwise = [own.text for one in CHECKS[check_id].criteria for own in one.said]
         said = tuple(one for one in verdict.diagnosis if one not in otherwise)
         assert said == sentences(check_id, *names)
         assert verdict.diagnosis or credit == 1
