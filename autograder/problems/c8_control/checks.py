@@ -148,9 +148,9 @@ def _of_law(call, value):
 
 
 def _rate_calls(rng, count):
-    """In turn with the Christoffel C and with another valid one."""
+    """In turn with the Christoffel C and with another valid one; at least six of each."""
     calls: list[Call] = []
-    while len(calls) < count:
+    while len(calls) < max(count, 12):
         arm, q, qd = sampling.planar_2r(rng), sampling.angles(rng), sampling.velocities(rng)
         s = rng.choice([-1.0, 1.0], 2) * rng.uniform(0.3, 1.5, 2)
         a, b = rng.choice([-1.0, 1.0], 2) * rng.uniform(0.7, 1.5, 2) * (len(calls) % 2)
@@ -206,12 +206,12 @@ CHECKS = (
         mistakes=mistakes.HOLD,
         terms=mistakes.HOLD_TERMS,
         hints=(
-            "Put the arm at q*, at rest. Spring and damper are silent there. Which torque must be left, "
-            "so that the arm stays?",
-            "The spring pulls from q towards q*, the damper against the velocity. Both act on each "
-            "joint by itself, with that joint's own gain.",
+            "Put the arm at the goal, at rest. Spring and damper are silent there. Which torque must be "
+            "left, so that the arm stays?",
+            "The spring pulls from q towards the goal, the damper against the velocity. Both act on "
+            "each joint by itself, with that joint's own gain.",
             "The torque is a sum of three terms, and the set-up cell has a function for one of them. "
-            "Take it where the arm is now, and let the other two vanish at q*, at rest.",
+            "Take it where the arm is now, and let the other two vanish at the goal, at rest.",
         ),
         section=Section("05-gravity", "05-compensation", "4 · Gravity compensation"),
         further=(
