@@ -73,10 +73,15 @@ def rounded(call: Call, digits: int = SHORT) -> Call:
 
 
 def _is_by_name(call: Call) -> bool:
-    return any(
-        isinstance(value, Symbol | Expressions)
-        or (isinstance(value, np.ndarray) and value.size > LONGEST_ARRAY)
-        for value in call.args
+    return any(map(_is_long, call.args))
+
+
+def _is_long(value) -> bool:
+    """Whether an argument stands by its name: a symbol, or a long array, also in a namespace."""
+    if isinstance(value, SimpleNamespace):
+        return any(map(_is_long, vars(value).values()))
+    return isinstance(value, Symbol | Expressions) or (
+        isinstance(value, np.ndarray) and value.size > LONGEST_ARRAY
     )
 
 

@@ -155,8 +155,7 @@ def _rate_calls(rng, count):
         s = rng.choice([-1.0, 1.0], 2) * rng.uniform(0.3, 1.5, 2)
         a, b = rng.choice([-1.0, 1.0], 2) * rng.uniform(0.7, 1.5, 2) * (len(calls) % 2)
         C_used = law.valid_C(q, qd, arm, a, b)
-        gains = _gains(rng, arm)
-        gains.KD *= 0.3
+        gains = SimpleNamespace(KD=0.3 * _gains(rng, arm).KD)
         args = (q, qd, s, C_used, gains, arm)
         damping, rest = s @ gains.KD @ s, abs(law.rate_of_V(*args, damping=0.0))
         # Neither of the two is small beside the other, where it is not zero.
