@@ -43,7 +43,7 @@ LAW_TERMS = (
     Term("K_D s", law(forward=_no_torque, rate=_no_rate)),
     Term("the rate of the estimates", law(forward=_no_torque, damping=_no_torque)),
 )
-LAW = (
+LAW: tuple[Mistake, ...] = (
     Mistake(
         "sign of Λ in q̇r",
         law(
