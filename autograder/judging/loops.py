@@ -67,7 +67,7 @@ def asked(
     calls: list[Call], ask: Callable[[list[Call]], list[Reply]]
 ) -> tuple[list[Call], list[Reply]]:
     """The replies to calls of which some may be loops, in the order of the calls that are returned too:
-    where a step of a loop fails, that step stands in the loop's place, and it is the last.
+    where a step of a loop fails, that step is among them, and the last that has a reply.
 
     The loops go on together, so that a step is one question. None begins where another call fails.
     """
@@ -79,7 +79,7 @@ def asked(
     runs = [call.begin() for call in loops]
     if failed := _run(loops[0].name, runs, ask):
         step, reply = failed
-        return [*others, step], [*replies, reply]
+        return [*others, step, *loops], [*replies, reply]
     figures = iter(runs)
     rest = iter(replies)
     return calls, [

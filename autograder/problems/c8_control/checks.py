@@ -18,7 +18,6 @@ from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.section import Section
 from autograder.problems.c8_control import law, loops, mistakes
 from autograder.problems.material import planar_2r, sampling
-from autograder.problems.material.driven_arm import FASTEST
 from autograder.protocol import Call
 
 NOTHING = np.empty(0)  # a quantity of a criterion that a call says nothing of
@@ -48,7 +47,7 @@ def _hold_calls(rng, count):
 def _held(call, value):
     judged = [NOTHING] * 4
     if isinstance(call, Loop):
-        judged[3] = np.where(value <= [NEAR, SLOW], 0.0, value)
+        judged[3] = np.where(value <= [NEAR, SLOW, 0.0], 0.0, value)
         return tuple(judged)
     q, qd, q_star, _ = call.args
     judged[2 if np.any(qd) else 1 if np.any(q != q_star) else 0] = vector(value, 2)
@@ -59,14 +58,11 @@ def _held(call, value):
 _in_loop = partial(Criterion, is_property=True, is_bound=True, of_lacking=True, in_loop=True)
 
 
-def _runs(k: int):
-    """The figures of an answer's closed loops."""
-    return lambda answered: [case[k] for case in answered.given if np.size(case[k])]
-
-
 def _lost(k: int):
+    """Whether the arm is lost in one of the closed loops of criterion k, whose last figure says so."""
+
     def holds(answered: Answered) -> bool:
-        return any(np.max(figures) >= FASTEST for figures in _runs(k)(answered))
+        return any(case[k][-1] == 1 for case in answered.given if np.size(case[k]))
 
     return holds
 
@@ -135,11 +131,11 @@ def _law_calls(rng, count):
 @each
 def _of_law(call, value):
     if isinstance(call, Loop):
-        error, rise = value
-        right, _ = call.right
+        error, rise, lost = value
+        right, *_ = call.right
         return (
             *4 * (NOTHING,),
-            np.array(right if error <= MORE_ERROR * right else error),
+            np.array([right if error <= MORE_ERROR * right else error, lost]),
             np.array(0.0 if rise <= LEAST_RISE else rise),
         )
     both = vector(value, 8)
@@ -199,7 +195,12 @@ CHECKS = (
                         "the torque of part A."
                     ),
                 ),
-                units=("rad", "rad/s"),
+                units=("rad", "rad/s", ""),
+                entries=(
+                    "distance from q* at the end of the closed loop that begins here",
+                    "speed at the end of the closed loop that begins here",
+                    "1 for an arm that is lost in the closed loop that begins here",
+                ),
             ),
         ),
         mistakes=mistakes.HOLD,
@@ -268,8 +269,13 @@ CHECKS = (
             Criterion("rates of the estimates of J1 and J2", "kg·m²/s", 0.1),
             _in_loop(
                 "closed loop that begins here: largest error of the last second",
-                "rad",
+                "",
                 0.2,
+                units=("rad", ""),
+                entries=(
+                    "largest error of the last second of the closed loop that begins here",
+                    "1 for an arm that is lost in the closed loop that begins here",
+                ),
                 otherwise=(
                     Said(
                         "In closed loop, with a payload that nobody told your controller of, the arm is "

@@ -7,7 +7,7 @@ takes milliseconds.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import cos, isfinite, sin
+from math import cos, sin
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,6 +17,8 @@ from autograder.problems.material.planar_2r import M, parameters
 STEP = 0.02  # s
 # A joint that turns faster, rad/s, is out of control; the run ends there.
 FASTEST = 60.0
+# Numbers of a controller or of the arm that are larger, in SI units, end it too.
+MOST = 1e9
 
 
 class Arm:
@@ -50,15 +52,22 @@ class Arm:
         return w1, w2, (M22 * t1 - M12 * t2) / det, (M11 * t2 - M12 * t1) / det
 
     def move(self, u) -> None:
-        """One STEP under the torque u, two numbers, N·m; lost where it is none or the arm races."""
+        """One STEP under the torque u, two numbers, N·m; lost where the arm races."""
         x, u = self.state, (float(u[0]), float(u[1]))
         k1 = self.rate(x, u)
         k2 = self.rate(_along(x, k1, STEP / 2), u)
         k3 = self.rate(_along(x, k2, STEP / 2), u)
         k4 = self.rate(_along(x, k3, STEP), u)
         mean = [a + 2 * b + 2 * c + d for a, b, c, d in zip(k1, k2, k3, k4, strict=True)]
-        self.state = _along(x, mean, STEP / 6)
-        self.lost = not max(map(abs, self.state[2:])) < FASTEST
+        after = _along(x, mean, STEP / 6)
+        if max(map(abs, after)) < MOST:
+            self.state = after
+        self.lost = not max(map(abs, after[2:])) < FASTEST
+
+
+def _usable(value, count: int) -> bool:
+    """Whether so many numbers came back, and none that is not finite or beyond all bounds."""
+    return bool(np.size(value) == count and np.all(np.abs(value) < MOST))
 
 
 def _along(x, slope, dt):
@@ -79,16 +88,14 @@ class GoalRun:
 
     def tell(self, value):
         self.left -= 1
-        self.body.lost = not (np.size(value) == 2 and np.all(np.isfinite(value)))
+        self.body.lost = not _usable(value, 2)
         if not self.body.lost:
             self.body.move(np.ravel(value))
 
     def figures(self):
-        """How far from the goal it ends, rad, and how fast, rad/s; both FASTEST where it is lost."""
-        if self.body.lost:
-            return np.full(2, FASTEST)
-        off = np.max(np.abs(self.body.q - self.q_star)), np.max(np.abs(self.body.qd))
-        return np.minimum(off, FASTEST)
+        """How far from the goal it ends, rad, how fast, rad/s, and 1 for a run that is lost there."""
+        off, speed = np.max(np.abs(self.body.q - self.q_star)), np.max(np.abs(self.body.qd))
+        return np.array([off, speed, float(self.body.lost)])
 
 
 @dataclass(frozen=True)
@@ -144,7 +151,7 @@ class TrackingRun:
     def tell(self, value):
         self._note()
         self.k += 1
-        self.body.lost = not (np.size(value) == 8 and np.all(np.isfinite(value)))
+        self.body.lost = not _usable(value, 8)
         if not self.body.lost:
             value = np.ravel(value)
             self.body.move(value[:2])
@@ -160,13 +167,11 @@ class TrackingRun:
         self.energies.append(float(s @ M_now @ s + wrong @ self.weight @ wrong) / 2)
 
     def figures(self):
-        """The largest error of the last second, rad, and by how much V rises at most, as a share of
-        its start; FASTEST both of a run that is lost."""
-        rises = np.array(self.energies) - np.minimum.accumulate(self.energies)
-        rise = np.max(rises) / self.energies[0]
-        if self.body.lost or not isfinite(rise):
-            return np.full(2, FASTEST)
-        return np.minimum([max(self.errors[-round(1 / STEP) :]), rise], FASTEST)
+        """The largest error of the last second, rad, by how much V rises at most, as a share of its
+        start, and 1 for a run that is lost."""
+        self._note()
+        rise = np.max(self.energies - np.minimum.accumulate(self.energies)) / self.energies[0]
+        return np.array([max(self.errors[-round(1 / STEP) :]), rise, float(self.body.lost)])
 
 
 @dataclass(frozen=True)
