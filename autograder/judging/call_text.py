@@ -77,11 +77,12 @@ def _is_by_name(call: Call) -> bool:
 
 
 def _is_long(value) -> bool:
+    """Whether an argument stands by its name: a symbol, or a long array, also in a namespace."""
     if isinstance(value, SimpleNamespace):
         return any(map(_is_long, vars(value).values()))
-    if isinstance(value, np.ndarray):
-        return value.size > LONGEST_ARRAY
-    return isinstance(value, Symbol | Expressions)
+    return isinstance(value, Symbol | Expressions) or (
+        isinstance(value, np.ndarray) and value.size > LONGEST_ARRAY
+    )
 
 
 def _symbols(names: list[str], args: tuple) -> dict[str, str]:

@@ -20,6 +20,7 @@ from autograder.judging.criterion import Criterion, errors_of, met_by
 from autograder.judging.diagnosis import Catalogue, Mistake, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
 from autograder.judging.given import Describe, Given, NoNumbersError, Reading
+from autograder.judging.loops import Loop, asked
 from autograder.judging.models import Model, evaluated
 from autograder.judging.places import NOWHERE, place
 from autograder.judging.quantities import Numbers, Quantities, each, one_number
@@ -126,7 +127,7 @@ class Check:
             return verdict.check_failed(self.id, error)
         try:
             started = time.monotonic()
-            replies = ask(calls)
+            calls, replies = asked(calls, ask)
             ask_again = ask if time.monotonic() - started < SLOW else None
         except CannotRunError as error:
             return verdict.check_failed(self.id, error)
@@ -272,7 +273,7 @@ class Check:
 
     def _tried(self, ask: Ask, base: Call) -> dependence.Tried | None:
         """The call with one number changed at a time, if numbers came for all."""
-        probes = dependence.probes(self.signature, base)
+        probes = [] if isinstance(base, Loop) else dependence.probes(self.signature, base)
         if not probes or not isinstance(self.quantities, each):
             return None
         calls = [base, *(probe.call for probe in probes)]

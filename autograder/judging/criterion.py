@@ -45,7 +45,9 @@ class Criterion:
     True and 0 for False, and have no unit. entries: what each of its numbers is called, "M12", where
     that says more than a place in an array. units: that of each of its numbers, row by row, where they
     differ. is_bound: numbers beyond the expected one are right as well, so that an error is no share of
-    it. of_lacking: the numbers say what the answer lacks, so that no entry of it is to blame.
+    it. of_lacking: the numbers say what the answer lacks, so that no entry of it is to blame. in_loop:
+    they come of closed loops, in which no known mistake is run; so what is found wrong elsewhere in an
+    answer accounts for them.
 
     ValueError where the share is not in (0, 1], or a truth value has a unit.
     """
@@ -62,6 +64,7 @@ class Criterion:
     units: tuple[str, ...] = ()
     is_bound: bool = False
     of_lacking: bool = False
+    in_loop: bool = False
 
     def __post_init__(self):
         if not 0 < self.share <= 1:

@@ -68,9 +68,11 @@ class Wrong:
         given: list[np.ndarray],
         met: list[bool],
     ) -> Mistake | None:
-        """The first whose numbers are those given, in all criteria."""
+        """The first whose numbers are those given, in all criteria but those of closed loops."""
         left = np.arange(len(self.mistakes))
         for k, criterion in enumerate(criteria):
+            if criterion.in_loop:
+                continue
             same = layout[k].same(self.rows[k][left], given[k], criterion.allows(met[k]))
             left = left[same]
         return self.mistakes[left[0]] if len(left) else None
@@ -101,7 +103,8 @@ def sentences(
     said: list[str] = []
     of_each: list[tuple[str, ...]] = [()] * len(criteria)
     for k, criterion in enumerate(criteria):
-        if met[k]:
+        accounted = any(own and not c.in_loop for own, c in zip(of_each, criteria, strict=True))
+        if met[k] or (criterion.in_loop and accounted):
             continue
         before = len(said)
         named = [(wrong.mistakes[i].sentence, true[i]) for i in shown[k]]

@@ -47,6 +47,8 @@ def describe_fault(fault: Fault, name: str, signature: str, needed: str = NUMBER
         "Is there a loop that never ends?",
         FaultKind.STARVED: f"{signature} did not return within {fault.message}, and slept most of "
         "that time. Does it wait for something?",
+        FaultKind.SLOW_LOOP: f"The check called {name} step by step in a closed loop, and after "
+        f"{fault.message} it had not come to the end. Which of its lines takes so long?",
         FaultKind.NO_TOOLS: f"{name} is written in a language that cannot run here. "
         f"{fault.message} You can always answer in Python.",
         FaultKind.DIED: f"Python itself stopped while {signature} was running. "

@@ -9,6 +9,7 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
+from autograder.judging.loops import Loop
 from autograder.protocol import Call, Symbol, read, real
 
 
@@ -40,7 +41,8 @@ Model = Callable
 def evaluated(model: Model, calls: list[Call]) -> Sequence | np.ndarray:
     """A model's numbers for each call, as those of a student's function are read.
 
-    A model of plain Symbols is one of numbers here, and tried point by point.
+    A model of plain Symbols is one of numbers here, and tried point by point. None is run in a loop:
+    there it has the figures of the right answer.
     """
     if isinstance(model, OfCalls):
         return model.for_calls(calls)
@@ -48,6 +50,8 @@ def evaluated(model: Model, calls: list[Call]) -> Sequence | np.ndarray:
 
 
 def _of_call(model: Callable, call: Call):
+    if isinstance(call, Loop):
+        return call.right
     if call.at and all(isinstance(value, Symbol) for value in call.args):
         points = [[point[symbol.name] for symbol in call.args] for point in call.at]
         return np.array([model(*point) for point in points], dtype=float)

@@ -10,6 +10,7 @@ from autograder.judging.check import Check
 from autograder.problems import families
 from autograder.problems.c6_regressor import checks as c6_regressor
 from autograder.problems.c7_recursive import checks as c7_recursive
+from autograder.problems.c8_control import checks as c8_control
 from autograder.problems.material.conventions import Convention
 from autograder.problems.own_mechanisms import check_of_file, files_here
 from autograder.problems.p1_inertia import checks as p1_inertia
@@ -28,6 +29,7 @@ MODULES = (
     p5_state_space,
     c6_regressor,
     c7_recursive,
+    c8_control,
 )
 CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
 # The answers that a person reads, by the grade_id of their cell.
@@ -39,6 +41,7 @@ READ = (
     "p5-discussion",
     "c6-discussion",
     "c7-discussion",
+    "c8-discussion",
 )
 
 

@@ -28,6 +28,7 @@ class FaultKind(StrEnum):
     RAISED = "raised"
     TIMED_OUT = "timed out"
     STARVED = "starved"  # at the clock's limit, not the processor's: asleep, or a busy machine
+    SLOW_LOOP = "slow loop"  # the steps of a closed loop took too long together
     NO_TOOLS = "no tools"  # it is in a language whose compiler is not installed
     DIED = "died"  # the process ended during the call
     NOTHING = "nothing"  # returned None

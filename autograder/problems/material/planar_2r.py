@@ -74,22 +74,26 @@ def changed(arm, **parameters) -> SimpleNamespace:
     return SimpleNamespace(**vars(arm) | parameters)
 
 
-def regressor(q, qd, qdd, arm) -> np.ndarray:
+def regressor(q, qd, qdd, arm, qd_r=None) -> np.ndarray:
     """Y with M q̈ + C q̇ + g = Y π for π of `parameters`, (..., 2, 6); q, qd, qdd: (..., 2).
 
+    qd_r: (..., 2), a velocity that takes the place of q̇ behind the Christoffel C, and nowhere else.
     Of the arm only l1 and g enter. Atkeson, An & Hollerbach 1986, Estimation of Inertial Parameters
-    of Manipulator Loads and Links.
+    of Manipulator Loads and Links; with qd_r, Slotine & Li 1987, On the Adaptive Control of Robot
+    Manipulators.
     """
+    qd_r = qd if qd_r is None else qd_r
     q1, q2, qd1, qd2 = q[..., 0], q[..., 1], qd[..., 0], qd[..., 1]
-    qdd1, qdd2 = qdd[..., 0], qdd[..., 1]
+    r1, r2, qdd1, qdd2 = qd_r[..., 0], qd_r[..., 1], qdd[..., 0], qdd[..., 1]
     weight_2 = arm.g * np.cos(q1 + q2)
-    swing = np.cos(q2) * (2 * qdd1 + qdd2) - np.sin(q2) * (2 * qd1 * qd2 + qd2**2)
+    products = qd2 * r1 + (qd1 + qd2) * r2
+    swing = np.cos(q2) * (2 * qdd1 + qdd2) - np.sin(q2) * products
     Y = np.zeros((*np.shape(q), 6))
     Y[..., 0, 1] = arm.g * np.cos(q1)
     Y[..., 0, 2] = qdd1
     Y[..., 0, 3] = arm.l1**2 * qdd1 + arm.l1 * arm.g * np.cos(q1)
     Y[..., 0, 4] = arm.l1 * swing + weight_2
-    Y[..., 1, 4] = arm.l1 * (np.cos(q2) * qdd1 + np.sin(q2) * qd1**2) + weight_2
+    Y[..., 1, 4] = arm.l1 * (np.cos(q2) * qdd1 + np.sin(q2) * qd1 * r1) + weight_2
     Y[..., 0, 5] = Y[..., 1, 5] = qdd1 + qdd2
     return Y
 
@@ -99,6 +103,14 @@ def parameters(arm) -> np.ndarray:
     first_1, first_2 = arm.m1 * arm.lc1, arm.m2 * arm.lc2
     about_joints = arm.I1 + first_1 * arm.lc1, arm.I2 + first_2 * arm.lc2
     return np.array([arm.m1, first_1, about_joints[0], arm.m2, first_2, about_joints[1]])
+
+
+def with_payload(arm, mass: float) -> SimpleNamespace:
+    """The arm with a point mass, kg, in its hand, which is a part of link 2 then."""
+    m2 = arm.m2 + mass
+    lc2 = (arm.m2 * arm.lc2 + mass * arm.l2) / m2
+    I2 = arm.I2 + arm.m2 * (lc2 - arm.lc2) ** 2 + mass * (arm.l2 - lc2) ** 2
+    return changed(arm, m2=m2, lc2=lc2, I2=I2)
 
 
 # The columns of Y that are kept where only base parameters are asked for.

@@ -26,7 +26,7 @@ def cells(path: Path) -> list[dict]:
 
 def plain(heading: str) -> str:
     """A heading without the signs of a formula."""
-    return re.sub(r"[${}\\]", "", heading)
+    return re.sub(r"[${}\\]", "", heading.replace(r"\ne", "≠").replace(r"\dot q", "q̇"))
 
 
 @cache

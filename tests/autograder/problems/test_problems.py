@@ -54,6 +54,15 @@ OWN = {
         "c7-gravity_sign c7-two-programs c7-two-ways answer-count c7-count c7-table c7-discussion",
         ("even in the velocities", "accelerometer"),
     ),
+    "c8-control": Own(
+        "c8-discussion",
+        5,
+        15,
+        "c8-setup answer-gravity_compensation c8-gravity_compensation c8-settle answer-regressor_r "
+        "c8-regressor_r c8-compare answer-slotine_li c8-slotine_li c8-parcel answer-V_dot c8-V_dot "
+        "c8-growth c8-discussion",
+        ("christoffel.T", "leaves nothing for the spring to fight"),
+    ),
     "p1-inertia": Own(
         "p1-proof",
         4,
@@ -130,6 +139,10 @@ WRONG = {
     "c7-terms": (0, "gravity in M", "gravity in C q̇", "gravity in motion", "C q̇ in the friction"),
     "c7-gravity_sign": (0, "always 1"),
     "c7-count": (0, "products only"),
+    "c8-gravity_compensation": (0, "sign of gravity"),
+    "c8-regressor_r": (0, "sign of gravity", "absolute acceleration of link 2"),
+    "c8-slotine_li": (0,),
+    "c8-V_dot": (0, "damping left out"),
 }
 PARTLY_RIGHT = {
     "p1-inertia_from_links": (0.5, "last link only"),
@@ -159,6 +172,10 @@ PARTLY_RIGHT = {
     "c7-terms": (0.7, "friction in C q̇"),
     "c7-gravity_sign": (0.5, "whose torque not asked"),
     "c7-count": (0.5, "n times one link"),
+    "c8-gravity_compensation": (0.2, "gravity at the goal"),
+    "c8-regressor_r": (0.6, "all of h on the second entry"),
+    "c8-slotine_li": (0.35, "law: all of h on the second entry"),
+    "c8-V_dot": (0.4, "skew-symmetry taken for granted"),
 }
 
 
@@ -309,7 +326,7 @@ def assert_said(given, kind, expected):
     for check_id, verdict in given.graded(kind).verdicts.items():
         credit, *names = expected.get(check_id, (1,))
         assert verdict.credit == pytest.approx(credit), check_id
-        otherwise = [criterion.otherwise for criterion in CHECKS[check_id].criteria]
+        otherwise = [own.text for one in CHECKS[check_id].criteria for own in one.said]
         said = tuple(
             one
             for one in verdict.diagnosis

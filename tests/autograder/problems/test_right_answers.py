@@ -23,7 +23,13 @@ OF_SYMBOLS, OF_PARTS = ("p2-christoffel", "p3-lagrangian"), ("p1-singular_arm", 
 OF_TRUTH = ("p1-is_spd",)
 NUMBERS = [id for id in RIGHT if id not in (*OF_SYMBOLS, *OF_PARTS, *OF_TRUTH)]
 # Of these only every so manieth seed is tried, as each takes its time.
-EVERY = {"p2-christoffel": 5, "p5-rk4_step": 2, "p5-simulate": 8, "c6-rank_of_excitation": 2}
+EVERY = {
+    "p2-christoffel": 5,
+    "p5-rk4_step": 2,
+    "p5-simulate": 8,
+    "c6-rank_of_excitation": 2,
+    "c8-slotine_li": 8,
+}
 
 
 def namespace_with(check_id, answer):
@@ -74,6 +80,8 @@ def test_no_false_alarm_over_a_thousand_seeds(check_id, seeds):
 
 # Small whole numbers, and zeros.
 COUNTED = ("c6-rank_of_excitation", "c7-gravity_sign", "p3-C")
+# What is left where all is wrong by a little: Ṁ22 is 0, and stays so; an arm in closed loop arrives.
+SPARED = {"p2-M_dot": 0.1, "c8-gravity_compensation": 0.25, "c8-slotine_li": 0.35}
 MEASURED = pytest.mark.parametrize("check_id", [id for id in NUMBERS if id not in COUNTED])
 
 
@@ -113,9 +121,10 @@ def test_one_entry_wrong_by_1e_4_fails_at_any_seed(check_id):
 
 @MEASURED
 def test_all_wrong_by_1e_4_earns_nothing(check_id):
-    zero = 0.1 if check_id == "p2-M_dot" else 0  # Ṁ22 is 0, and stays so
+    left = SPARED.get(check_id, 0)
     for seed in range(20):
-        assert judged_spoilt(check_id, lambda value: 1.0001 * value, seed).credit == zero, seed
+        credit = judged_spoilt(check_id, lambda value: 1.0001 * value, seed).credit
+        assert credit == pytest.approx(left), seed
 
 
 LIBRARIES = "import sympy as sp, scipy, scipy.linalg, scipy.optimize\n"

@@ -129,7 +129,7 @@ def p3_M(q):
         ("g_vec", ["p3-g_vec", "p4-g_vec"]),
         ("p5-step", ["p5-rk4_step"]),
         ("p5-rk4step", ["p5-rk4_step"]),
-        ("p6-regressor", ["c6-regressor"]),
+        ("p6-regressor", ["c6-regressor", "c8-regressor_r"]),
         ("p4", [id for id in CHECKS if id.startswith("p4-")]),
         ("p4-!", [id for id in CHECKS if id.startswith("p4-")]),
         ("", []),

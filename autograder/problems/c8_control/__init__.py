@@ -1,0 +1,1 @@
+"""c8: a controller."""
