@@ -76,7 +76,8 @@ class Compared:
         )
 
     def together(self, k: int, kept: Sequence[int], first: int, second: int) -> bool:
-        """Whether two of those kept that explain criterion k together show in no other as something else.
+        """Whether two of those kept that explain criterion k together show in no other as something
+        else.
 
         Properties count where one of the two speaks of all that is judged: two entries of C may add
         up to the C q̇ of another C.
