@@ -23,7 +23,13 @@ OF_SYMBOLS, OF_PARTS = ("p2-christoffel", "p3-lagrangian"), ("p1-singular_arm", 
 OF_TRUTH = ("p1-is_spd",)
 NUMBERS = [id for id in RIGHT if id not in (*OF_SYMBOLS, *OF_PARTS, *OF_TRUTH)]
 # Of these only every so manieth seed is tried, as each takes its time.
-EVERY = {"p2-christoffel": 5, "p5-rk4_step": 2, "p5-simulate": 8, "c6-rank_of_excitation": 2}
+EVERY = {
+    "p2-christoffel": 5,
+    "p5-rk4_step": 2,
+    "p5-simulate": 8,
+    "c6-rank_of_excitation": 2,
+    "c7-rnea": 3,
+}
 
 
 def namespace_with(check_id, answer):
