@@ -28,6 +28,7 @@ EVERY = {
     "p5-rk4_step": 2,
     "p5-simulate": 8,
     "c6-rank_of_excitation": 2,
+    "c7-rnea": 3,
     "c8-slotine_li": 8,
 }
 

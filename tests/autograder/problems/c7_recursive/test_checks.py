@@ -143,7 +143,7 @@ def test_the_notebooks_rotation_and_robot_are_those_of_a_chain_that_exists(capsy
 
 
 def test_the_counts_grow_as_the_card_says():
-    direct, sweeps = np.transpose([counting.count(n) for n in (500, 1000)])
+    direct, sweeps = np.transpose([counting.count(n) for n in (200, 400)])
     assert 3.9 < direct[1] / direct[0] < 4
     assert sweeps[1] == 2 * sweeps[0]
     assert counting.count(1)[0] < counting.count(1)[1]
