@@ -24,6 +24,7 @@ html_sourcelink_suffix = ""
 html_theme_options = {
     "use_download_button": True,
     "show_toc_level": 2,
+    "navbar_persistent": [],  # the search field is beside the pages' list
     "search_bar_text": "Search the course",
 }
 
@@ -38,4 +39,6 @@ myst_dmath_double_inline = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_inherit_docstrings = False  # Matplotlib's are not ours
-suppress_warnings = ["misc.highlighting_failure"]  # Pygments does not know all of Wolfram's language
+suppress_warnings = [
+    "misc.highlighting_failure"
+]  # Pygments does not know all of Wolfram's language

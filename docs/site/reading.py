@@ -1,4 +1,7 @@
-"""Changes a page's text, or a docstring, as Sphinx reads it; files that a reader can fetch stay as they are."""
+"""Changes a page's text, or a docstring, as Sphinx reads it.
+
+The files that a reader can fetch stay as they are.
+"""
 
 import json
 import re
@@ -12,7 +15,15 @@ from docs import diagrams
 CELL_LINK = re.compile(r"\]\([^)\s]*#cell-id=([\w-]+)\)")
 SOLUTIONS = re.compile(r"(\]\((?:\.\./)*)solutions/")
 # The tests of the autograder hold right answers, so no page leads to them.
-NOT_SERVED = re.compile(r"\[([^\[\]]+)\]\((?:\.\./)*(?:tests/(?:autograder|submissions)|autograder)/[^)]*\)")
+NOT_SERVED = re.compile(
+    r"\[([^\[\]]+)\]\((?:\.\./)*(?:tests/(?:autograder|submissions)|autograder)/[^)]*\)"
+)
+# What JupyterLab folds, as myst-nb calls it.
+FOLDED = {
+    ("source_hidden",): "hide-input",
+    ("outputs_hidden",): "hide-output",
+    ("outputs_hidden", "source_hidden"): "hide-cell",
+}
 CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
 NO_ANSWER = "YOUR ANSWER HERE"
 
@@ -37,6 +48,10 @@ def page_text(name: str, text: str) -> str:
     for cell in notebook["cells"]:
         if cell["cell_type"] == "markdown":
             cell["source"] = f"({cell['id']})=\n{links(''.join(cell['source']))}"
+        folded = tuple(sorted(k for k, v in cell["metadata"].get("jupyter", {}).items() if v))
+        if folded in FOLDED:
+            tags = cell["metadata"].get("tags", [])
+            cell["metadata"]["tags"] = [*tags, FOLDED[folded]]
     return json.dumps(notebook)
 
 

@@ -52,11 +52,11 @@ def lay_out(source: Path) -> None:
     for page in PAGES:
         shutil.copy(ROOT / page, source)
     modules = _api(source / "api")
-    problems = sorted(p.relative_to(source).as_posix() for p in source.glob("problems/*/*.ipynb"))
-    lessons = sorted(p.relative_to(source).as_posix() for p in source.glob("lessons/*.ipynb"))
+    challenges = _pages(source, "problems/c*/*.ipynb")
+    problems = [page for page in _pages(source, "problems/*/*.ipynb") if page not in challenges]
     contents = {
-        "Lessons": lessons,
-        "Problems": problems,
+        "Lessons": _pages(source, "lessons/*.ipynb"),
+        "Problems": problems + challenges,
         "Guides": [f"docs/{name}" for name in (*GUIDES, "benchmarks")],
         "The library": ["api/index"],
         "The project": [*PAGES],
@@ -73,6 +73,10 @@ def lay_out(source: Path) -> None:
         encoding="utf-8",
     )
     _fetched_files(source)
+
+
+def _pages(source: Path, pattern: str) -> list[str]:
+    return sorted(page.relative_to(source).as_posix() for page in source.glob(pattern))
 
 
 def _hidden(folder: str, names: list[str]) -> list[str]:
