@@ -41,7 +41,8 @@ def notebook(*cells: dict) -> str:
 
 def test_of_a_problem_the_story_is_read():
     text = {"cell_type": "markdown", "source": ["# A story"]}
-    proof = {"cell_type": "markdown", "source": ["YOUR ANSWER HERE"]}
+    proof = {"cell_type": "markdown", "source": ["(your answer)"]}
+    proof["metadata"] = {"nbgrader": {"solution": True}}
     code = {"cell_type": "code", "source": ["M = 1"]}
     read = json.loads(page_text("problems/p1/p1", notebook(text, code, proof)))
     assert [cell["source"] for cell in read["cells"]] == ["(c0)=\n# A story"]

@@ -1,4 +1,4 @@
-"""A notebook as a chapter in Pandoc's Markdown: its text, its open code, its figures and its formulas."""
+"""A notebook as a chapter in Pandoc's Markdown: its text, open code, figures and formulas."""
 
 import base64
 import json
@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from docs import diagrams
+from docs.site.reading import is_told
 
 LINK = re.compile(r"(?<!!)\[((?:[^\[\]]|\[[^\[\]]*\])+)\]\(([^)\s]+)\)")
 PICTURE = re.compile(r"!\[([^\]]*)\]\(([^)\s]+\.svg)\)")
@@ -13,7 +14,8 @@ MERMAID = re.compile(r"```mermaid\n(.*?)```", re.DOTALL)
 DISPLAY = re.compile(r"\$\$.+?\$\$", re.DOTALL)
 # What no index term is looked for in: code, formulas, links, headings, tables.
 APART = re.compile(
-    r"(```.*?```|\$\$.*?\$\$|`[^`]*`|\$[^$]+\$|\[[^\]]*\]\([^)]*\)|^[#|].*$)", re.S | re.M
+    r"(```.*?```|\$\$.*?\$\$|`[^`]*`|\$[^$]+\$|\[[^\]]*\]\([^)]*\)|^[#|][^\n]*)",
+    re.DOTALL | re.MULTILINE,
 )
 
 
@@ -47,7 +49,7 @@ class Chapter:
         parts = []
         for number, cell in enumerate(self.cells):
             source = "".join(cell["source"])
-            if cell["cell_type"] == "markdown" and "YOUR ANSWER HERE" not in source:
+            if is_told(cell):
                 label = self.name if number == 0 else cell["id"]
                 parts.append(
                     self._text(source, label if label in self.labels else "", labels, terms)

@@ -25,7 +25,6 @@ FOLDED = {
     ("outputs_hidden", "source_hidden"): "hide-cell",
 }
 CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
-NO_ANSWER = "YOUR ANSWER HERE"
 
 
 class Mermaid(SphinxDirective):
@@ -44,7 +43,7 @@ def page_text(name: str, text: str) -> str:
         return links(text)
     notebook = json.loads(text)
     story_only = name.startswith("problems/")
-    notebook["cells"] = [cell for cell in notebook["cells"] if not story_only or _is_story(cell)]
+    notebook["cells"] = [cell for cell in notebook["cells"] if not story_only or is_told(cell)]
     for cell in notebook["cells"]:
         if cell["cell_type"] == "markdown":
             cell["source"] = f"({cell['id']})=\n{links(''.join(cell['source']))}"
@@ -78,8 +77,10 @@ def _plain(text: str) -> str:
     return re.sub(r"([\\|_]|\*(?! ))", r"\\\1", text)
 
 
-def _is_story(cell: dict) -> bool:
-    return cell["cell_type"] == "markdown" and NO_ANSWER not in "".join(cell["source"])
+def is_told(cell: dict) -> bool:
+    """Whether a cell is text of the course's, and no place for an answer."""
+    place = cell["metadata"].get("nbgrader", {}).get("solution")
+    return cell["cell_type"] == "markdown" and not place
 
 
 def _read(app: Sphinx, name: str, source: list[str]) -> None:

@@ -11,12 +11,12 @@ from urllib.parse import unquote
 import pytest
 from playwright.sync_api import expect
 
+from tests.notebooks.secrets import flat, secrets
+
 ROOT = Path(__file__).parents[2]
 PHONE, DESK = {"width": 390, "height": 844}, {"width": 1366, "height": 900}
 ABROAD = re.compile(r"[a-z]+:")
-SOLUTION = re.compile(r"### BEGIN (SOLUTION|HIDDEN TESTS)\n(.*?)### END \1", re.DOTALL)
 TEXT = {".html", ".ipynb", ".js", ".json", ".md", ".py", ".svg", ".toml", ".txt"}
-LONG = 25  # letters: a line of an answer that is shorter may stand elsewhere by chance
 
 TYPESET = "() => window.MathJax?.startup?.promise.then(() => true) ?? true"
 FORMULAS = """() => {
@@ -59,10 +59,6 @@ def pages(site) -> dict[Path, str]:
     return {path: path.read_text(encoding="utf-8") for path in found}
 
 
-def flat(text: str) -> str:
-    return " ".join(text.split())
-
-
 def words(page: str) -> str:
     """What a page says, without its tags."""
     return flat(html.unescape(re.sub(r"<[^>]+>", "", page)))
@@ -73,32 +69,6 @@ def said(path: Path) -> str:
     if path.suffix == ".ipynb":
         text = "\n".join("".join(cell["source"]) for cell in json.loads(text)["cells"])
     return words(text) if path.suffix == ".html" else flat(text)
-
-
-def cells(pattern: str) -> list[tuple[str, str]]:
-    """Of each cell of the notebooks, what students are shown, and what they are not."""
-    parts = []
-    for path in ROOT.glob(pattern):
-        for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
-            source = "".join(cell["source"])
-            solution = cell["metadata"].get("nbgrader", {}).get("solution")
-            if solution and cell["cell_type"] == "markdown":
-                parts.append(("", source))
-            else:
-                hidden = "\n".join(match[2] for match in SOLUTION.finditer(source))
-                parts.append((SOLUTION.sub("", source), hidden))
-    return parts
-
-
-def secrets() -> set[str]:
-    """Lines of worked answers, hidden tests and model proofs that nothing public shares with them."""
-    texts = [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("lib/**/*.py")]
-    told = [path.read_text(encoding="utf-8") for path in texts]
-    problems = cells("solutions/*/*.ipynb")
-    told += [shown for shown, _ in [*problems, *cells("lessons/*.ipynb")]]
-    known = flat("\n".join(told))
-    lines = {flat(line) for _, hidden in problems for line in hidden.splitlines()}
-    return {line for line in lines if len(line) >= LONG and line not in known}
 
 
 def test_there_is_a_page_for_all_of_the_course(site, pages):
