@@ -24,6 +24,7 @@ html_sourcelink_suffix = ""
 html_theme_options = {
     "use_download_button": True,
     "show_toc_level": 2,
+    "navigation_depth": 1,
     "navbar_persistent": [],  # the search field is beside the pages' list
     "search_bar_text": "Search the course",
 }
