@@ -1,10 +1,11 @@
-.PHONY: help lab test test-all coverage lint hooks lessons bench installed
+.PHONY: help lab test test-all coverage lint hooks lessons bench site book installed
 .SUFFIXES:
 
 ARGS =
-# CI has the libraries that armdyn is compared with; elsewhere the tests that need them are skipped.
+# CI has the libraries that armdyn is compared with, and those that make the site; elsewhere the tests that
+# need them are skipped.
 comma := ,
-TESTED := $(if $(CI),test$(comma)peers,test)
+TESTED := $(if $(CI),test$(comma)peers$(comma)site,test)
 LOG := .venv/install.log
 
 help:
@@ -15,6 +16,8 @@ help:
 	@echo 'make hooks     have git run "make lint" before each commit'
 	@echo 'make bench     time library, ports, grading and feedback; writes docs/benchmarks.md'
 	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md, references.md'
+	@echo 'make site      the course as static pages, in build/site; open build/site/index.html'
+	@echo 'make book      the course as one PDF, build/armdyn.pdf'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
 
 lab: .venv/lab.done
@@ -72,6 +75,12 @@ bench: .venv/bench.done
 	.venv/bin/python -m tests.benchmarks.grading docs/benchmarks.md
 	.venv/bin/python -m tests.benchmarks.checks docs/benchmarks.md
 
+site: .venv/site.done
+	.venv/bin/python -m docs.site build/site
+
+book: .venv/site.done
+	.venv/bin/python -m docs.book build/armdyn.pdf
+
 define install
 @echo "Installing $(1) into .venv; the first time takes some minutes (log: $(LOG))"
 @.venv/bin/python -m pip --disable-pip-version-check install -c constraints.txt -e ".[$(1)]" \
@@ -84,7 +93,7 @@ endef
 	$(call install,lab)
 
 # One after the other, also with -j: two installations into one .venv break each other.
-.venv/$(TESTED).done .venv/dev.done .venv/bench.done: .venv/lab.done
+.venv/$(TESTED).done .venv/dev.done .venv/bench.done .venv/site.done: .venv/lab.done
 	$(call install,$(basename $(@F)))
 
 # An environment knows its own path and its Python: when either has gone, it is made anew.

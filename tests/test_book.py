@@ -1,0 +1,68 @@
+"""The course as one PDF: it is set whole, every formula in it is a formula, and it has no answer."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.notebooks.secrets import flat, secrets
+
+ROOT = Path(__file__).parents[1]
+RAW = re.compile(r"(`{3,}).*?\1|`[^`\n]*`", re.DOTALL)
+DISPLAY = re.compile(r"\$\$.+?\$\$", re.DOTALL)
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory) -> Path:
+    """The book as Typst, beside its figures."""
+    why = "needs pypandoc: pip install -c constraints.txt -e .[site]"
+    pytest.importorskip("pypandoc", reason=why)
+    from docs.book.__main__ import book
+
+    folder = tmp_path_factory.mktemp("book")
+    file = folder / "book.typ"
+    file.write_text(book(folder), encoding="utf-8")
+    return file
+
+
+@pytest.fixture(scope="module")
+def text(source) -> str:
+    return source.read_text(encoding="utf-8")
+
+
+def test_it_is_set_and_its_index_leads_through_the_book(source):
+    import typst
+
+    compiler = typst.Compiler(source)
+    assert compiler.compile().startswith(b"%PDF")
+    marks = [mark["value"] for mark in json.loads(compiler.query("<marked>"))]
+    assert {"Lagrangian", "inertia matrix", "skew-symmetric", "regressor"} <= set(marks)
+    assert len(marks) > 100
+
+
+def test_a_formula_is_no_text(text):
+    told = RAW.sub("", text)
+    assert r"\$" not in told
+    assert "\\dot" not in told
+
+
+def test_each_chapter_and_figure_is_in_it(text):
+    for path in [*ROOT.glob("lessons/*.ipynb"), *ROOT.glob("solutions/*/*.ipynb")]:
+        assert f"<{path.stem}>" in text
+    stored = sum(
+        "image/png" in output.get("data", {})
+        for path in ROOT.glob("lessons/*.ipynb")
+        for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]
+        if not cell["metadata"].get("jupyter", {}).get("source_hidden")
+        for output in cell.get("outputs", [])
+    )
+    assert text.count(".png") == stored > 20
+    assert "flowchart TD" not in text
+
+
+def test_it_has_no_answer(text):
+    printed = flat(text)
+    assert [line for line in secrets() if line in printed] == []
+    assert "In a greenhouse a robot arm" in printed
+    assert "your answer goes here" not in printed
