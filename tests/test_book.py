@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.notebooks.secrets import flat, secrets
+from tests.notebooks.answer_lines import answer_lines, flat
 
 ROOT = Path(__file__).parents[1]
 RAW = re.compile(r"(`{3,}).*?\1|`[^`\n]*`", re.DOTALL)
@@ -63,6 +63,6 @@ def test_each_chapter_and_figure_is_in_it(text):
 
 def test_it_has_no_answer(text):
     printed = flat(text)
-    assert [line for line in secrets() if line in printed] == []
+    assert [line for line in answer_lines() if line in printed] == []
     assert "In a greenhouse a robot arm" in printed
     assert "your answer goes here" not in printed

@@ -264,7 +264,9 @@ class Check:
         return sentences(self.criteria, expected, given, met, wrong, parts, unsteady, elsewhere)
 
     def _repeated(self, ask: Ask, calls: list[Call]) -> Given | None:
-        """What the same calls give once more; None where that is nothing to judge."""
+        """What the same calls give once more; None where that is no answer, or would cost whole runs."""
+        if any(isinstance(call, Loop) for call in calls):
+            return None
         replies = ask(calls)
         try:
             return self._given(calls, replies) if len(replies) == len(calls) else None

@@ -11,7 +11,7 @@ from urllib.parse import unquote
 import pytest
 from playwright.sync_api import expect
 
-from tests.notebooks.secrets import flat, secrets
+from tests.notebooks.answer_lines import answer_lines, flat
 
 ROOT = Path(__file__).parents[2]
 PHONE, DESK = {"width": 390, "height": 844}, {"width": 1366, "height": 900}
@@ -110,7 +110,7 @@ def test_a_problem_leads_to_the_cell_that_prepares_it(site, pages):
 
 
 def test_no_page_and_no_file_has_an_answer(site):
-    secret = secrets()
+    secret = answer_lines()
     assert len(secret) > 100
     served = [
         path for path in site.rglob("*") if path.suffix in TEXT and "_static" not in path.parts

@@ -205,8 +205,11 @@ def test_of_every_check_the_one_call_that_fails_is_shown(check_id, spoil):
 
     verdict = verdict_of(check, {check.name: spoilt_once}, count=VISIBLE_CASES)
     failed = verdict.failed
-    again = spoil is nowhere_finite  # that call is made once more, to hear where NumPy warns
-    assert (failed.count, failed.tried) == (1, len(made) - again)
+    assert failed.count == 1
+    if spoil is nowhere_finite:  # that call may be made once more, and closed loops go on
+        assert failed.tried <= len(made)
+    else:
+        assert failed.tried == len(made)
     assert failed.of.name == check.name
     assert any(failed.call in own.text + own.code for own in failing(failed))
     assert (failed.given_by == "") == (check.signature == f"{check.name}()")

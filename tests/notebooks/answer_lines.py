@@ -28,7 +28,7 @@ def cells(pattern: str) -> list[tuple[str, str]]:
     return parts
 
 
-def secrets() -> set[str]:
+def answer_lines() -> set[str]:
     """Lines of worked answers, hidden tests and model proofs that nothing public shares with them."""
     texts = [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("lib/**/*.py")]
     told = [path.read_text(encoding="utf-8") for path in texts]
