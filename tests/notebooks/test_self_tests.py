@@ -3,6 +3,7 @@
 A cell with the tag `self-test` only asserts what a text or a picture says: a student may skip it.
 """
 
+import ast
 import re
 import symtable
 from pathlib import Path
@@ -34,6 +35,21 @@ def is_folded(cell) -> bool:
     return bool(cell.metadata.get("jupyter", {}).get("source_hidden"))
 
 
+def of_comprehensions(source: str) -> set[str]:
+    """The names that comprehensions alone assign: from Python 3.12 on the cell's table has them."""
+    tree = ast.parse(source)
+    targets = [
+        name
+        for part in ast.walk(tree)
+        if isinstance(part, ast.comprehension)
+        for name in ast.walk(part.target)
+        if isinstance(name, ast.Name)
+    ]
+    inside = set(map(id, targets))
+    stored = (n for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store))
+    return {n.id for n in targets} - {n.id for n in stored if id(n) not in inside}
+
+
 def names(source: str) -> tuple[set[str], set[str]]:
     """What a cell uses of other cells, and what it defines for them."""
     top = symtable.symtable(source, "cell", "exec")
@@ -43,6 +59,8 @@ def names(source: str) -> tuple[set[str], set[str]]:
         if s.is_assigned() or s.is_imported() or s.is_namespace()
     }
     used = {s.get_name() for s in top.get_symbols() if s.is_referenced()}
+    own = of_comprehensions(source)
+    used, defined = used - own, defined - own
     inner = list(top.get_children())
     while inner:
         scope = inner.pop()

@@ -27,8 +27,8 @@ MADE = [check_of(MECHANISMS[name], answer) for name in KINDS for answer in ANSWE
 SOME = [*CHECKS.values(), *MADE[::4]]
 FEW, MANY = 16, 160
 WAYS = ("one", "noise in one entry", "two", "parts of two", "scaled", "permuted", "in one column")
-# An arm and a configuration, not numbers: tests/autograder/judging/test_truth.py tries it.
-NO_NUMBERS = ("p1-singular_arm",)
+# Several parts, not one array. tests/autograder/judging/test_truth.py tries the first.
+NO_NUMBERS = ("p1-singular_arm", "c7-terms")
 
 
 def spoilt(way: str, one: list, other: list, right: list, rng) -> list | None:

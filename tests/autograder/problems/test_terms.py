@@ -57,7 +57,12 @@ def test_each_term_is_found_where_it_is_too_large(check_id):
 
         verdict = check.run(ask, np.random.default_rng(1), HIDDEN_CASES)
         explained = [sentence for sentence in verdict.diagnosis if sentence not in general]
-        silent = [k for k, row in enumerate(verdict.rows) if not (row.met or row.said)]
+        # What fails in a closed loop is accounted for by what is said of the law itself.
+        silent = [
+            k
+            for k, (row, criterion) in enumerate(zip(verdict.rows, check.criteria, strict=True))
+            if not (row.met or row.said or criterion.in_loop)
+        ]
         assert explained
         assert all(len(row.said) <= 1 for row in verdict.rows)
         # With a wrong C_other q̇ the distance from skew-symmetric is 0 by definition: no second mistake.
