@@ -206,10 +206,12 @@ def test_of_every_check_the_one_call_that_fails_is_shown(check_id, spoil):
     verdict = verdict_of(check, {check.name: spoilt_once}, count=VISIBLE_CASES)
     failed = verdict.failed
     assert failed.count == 1
-    if spoil is nowhere_finite:  # that call may be made once more, and closed loops go on
-        assert failed.tried <= len(made)
+    again = spoil is nowhere_finite and len(made) > failed.tried  # to hear where NumPy warns
+    if again and any(criterion.in_loop for criterion in check.criteria):
+        # A run is one of them, however many steps it has.
+        assert failed.tried == len(check.calls(np.random.default_rng(0), VISIBLE_CASES))
     else:
-        assert failed.tried == len(made)
+        assert failed.tried == len(made) - again
     assert failed.of.name == check.name
     assert any(failed.call in own.text + own.code for own in failing(failed))
     assert (failed.given_by == "") == (check.signature == f"{check.name}()")

@@ -73,6 +73,11 @@ def test_outside_a_ready_course_one_line_says_what_to_do(course, monkeypatch, ca
     assert "seed is empty: put the course's seed back" in capsys.readouterr().err
 
 
+def test_no_jobs_at_all_is_refused():
+    with pytest.raises(ValueError, match="jobs is 0; it must be at least 1"):
+        Processes(0, (), share, use_shared)
+
+
 def test_a_process_that_dies_takes_nobody_along():
     tasks = [(str(n), (abs, -n)) for n in range(6)]
     tasks.insert(2, ("deadly", (os._exit, 1)))

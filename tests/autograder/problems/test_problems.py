@@ -332,6 +332,11 @@ def assert_said(given, kind, expected):
             for one in verdict.diagnosis
             if one not in otherwise and "the values depend" not in one
         )
+        # On what its numbers depend is said of a criterion that no mistake explains, and nothing else.
+        depends = [
+            row.said for row in verdict.rows if any("the values depend" in one for one in row.said)
+        ]
+        assert all(len(own) == 1 for own in depends)
         assert said == sentences(check_id, *names)
         assert verdict.diagnosis or credit == 1
 
