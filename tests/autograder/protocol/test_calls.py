@@ -3,6 +3,7 @@
 import json
 import linecache
 import signal
+import sys
 import time
 from fractions import Fraction
 from types import SimpleNamespace
@@ -428,6 +429,20 @@ def test_time_that_the_processor_spends_elsewhere_is_not_the_calls(monkeypatch):
     body = "import time\ndef f():\n    time.sleep({})\n    return 1"
     assert ask(body.format(0.25)).value == 1.0
     assert ask(body.format(9)).fault == Fault(FaultKind.STARVED, "0.5 s")
+
+
+def test_an_alarm_in_a_destructor_is_not_reported_and_the_next_one_ends_the_call(
+    monkeypatch, capsys
+):
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.1)
+    monkeypatch.setattr(calls, "PATIENCE", 1000.0)
+    hook = sys.unraisablehook
+    slow = "class Slow:\n    def __del__(self):\n        while True: pass\n"
+    assert ask(f"{slow}def f():\n    Slow()\n    while True: pass").fault == Fault(
+        FaultKind.TIMED_OUT, "0.1 s"
+    )
+    assert sys.unraisablehook is hook
+    assert capsys.readouterr().err == ""
 
 
 def test_no_except_exception_sees_the_time_limit(monkeypatch):
