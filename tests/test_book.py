@@ -41,6 +41,29 @@ def test_it_is_set_and_its_index_leads_through_the_book(source):
     assert len(marks) > 100
 
 
+def test_a_column_is_as_wide_as_what_stands_in_it(text):
+    first = text.index("The lessons along this map")
+    widths = re.search(r"columns: \(([^)]+)\)", text[first:])[1].split(", ")
+    lesson, about, leads, minutes = (float(width.rstrip("%")) for width in widths)
+    assert min(lesson, about, leads) > 2 * minutes
+
+
+def test_an_index_mark_takes_no_room(source):
+    import typst
+
+    (source.parent / "mark.typ").write_text(
+        "#set page(width: auto)\n"
+        + next(
+            line for line in source.read_text(encoding="utf-8").splitlines() if "let marked" in line
+        )
+        + """
+#context assert(measure([form#marked("form").]).width == measure([form.]).width)
+""",
+        encoding="utf-8",
+    )
+    assert typst.compile(source.parent / "mark.typ").startswith(b"%PDF")
+
+
 def test_a_formula_is_no_text(text):
     told = RAW.sub("", text)
     assert r"\$" not in told

@@ -11,6 +11,7 @@ from docs.site.reading import is_told
 LINK = re.compile(r"(?<!!)\[((?:[^\[\]]|\[[^\[\]]*\])+)\]\(([^)\s]+)\)")
 PICTURE = re.compile(r"!\[([^\]]*)\]\(([^)\s]+\.svg)\)")
 MERMAID = re.compile(r"```mermaid\n(.*?)```", re.DOTALL)
+TABLE = re.compile(r"^\|.+\n\|[-:| ]+\|$(?:\n\|.+)*", re.MULTILINE)
 DISPLAY = re.compile(r"\$\$.+?\$\$", re.DOTALL)
 # What no index term is looked for in: code, formulas, links, headings, tables.
 APART = re.compile(
@@ -63,6 +64,7 @@ class Chapter:
     def _text(self, source: str, label: str, labels: set[str], terms: list[str]) -> str:
         source = PICTURE.sub(self._drawing, source)
         source = MERMAID.sub(self._diagram, source)
+        source = TABLE.sub(lambda table: _in_columns(table[0]), source)
         source = LINK.sub(lambda link: _inside(link[1], link[2], labels), source)
         if label:
             source = re.sub(r"^(#+ .+)$", rf"\1 {{#{label}}}", source, count=1, flags=re.MULTILINE)
@@ -100,6 +102,18 @@ def _heading(cell: dict) -> bool:
 
 def _folded(cell: dict) -> bool:
     return bool(cell["metadata"].get("jupyter", {}).get("source_hidden"))
+
+
+def _in_columns(table: str) -> str:
+    """The table with columns as wide as what stands in them: Pandoc takes widths from its dashes."""
+    rows = [re.split(r"(?<!\\)\|", row.strip().strip("|")) for row in table.splitlines()]
+    longest = [
+        max(len(LINK.sub(r"\1", cell).strip()) for cell in column)
+        for column in zip(*rows[:1], *rows[2:], strict=False)
+    ]
+    dashes = "|".join(":" + "-" * min(max(width, 10), 40) for width in longest)
+    lines = table.splitlines()
+    return "\n".join([lines[0], f"|{dashes}|", *lines[2:]])
 
 
 def _inside(text: str, target: str, labels: set[str]) -> str:
