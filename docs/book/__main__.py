@@ -8,6 +8,7 @@ import pypandoc
 import typst
 
 from autograder.nbgrader_glue.release import write_problem
+from docs import reading_order
 from docs.book.chapters import Chapter
 
 ROOT = Path(__file__).parents[2]
@@ -27,7 +28,7 @@ def chapters(folder: Path) -> list[Chapter]:
     for path in ROOT.glob("solutions/*/*.ipynb"):
         write_problem(ROOT, path.stem, folder / "problems" / path.stem)
     stories = folder.glob("problems/*/*.ipynb")
-    lessons = [Chapter(path, folder, True) for path in sorted(ROOT.glob("lessons/*.ipynb"))]
+    lessons = [Chapter(path, folder, True) for path in reading_order.lessons(ROOT / "lessons")]
     problems = sorted(stories, key=lambda path: (path.stem[0] == "c", path.stem))
     return lessons + [Chapter(path, folder, False) for path in problems]
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import armdyn
 from autograder.nbgrader_glue.release import write_problem
+from docs import reading_order
 
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
@@ -55,7 +56,7 @@ def lay_out(source: Path) -> None:
     challenges = _pages(source, "problems/c*/*.ipynb")
     problems = [page for page in _pages(source, "problems/*/*.ipynb") if page not in challenges]
     contents = {
-        "Lessons": _pages(source, "lessons/*.ipynb"),
+        "Lessons": [f"lessons/{path.name}" for path in reading_order.lessons(source / "lessons")],
         "Problems": problems + challenges,
         "Guides": [f"docs/{name}" for name in (*GUIDES, "benchmarks")],
         "The library": ["api/index"],

@@ -11,6 +11,7 @@ from urllib.parse import unquote
 import pytest
 from playwright.sync_api import expect
 
+from docs import reading_order
 from tests.notebooks.answer_lines import answer_lines, flat
 
 ROOT = Path(__file__).parents[2]
@@ -69,6 +70,14 @@ def said(path: Path) -> str:
     if path.suffix == ".ipynb":
         text = "\n".join("".join(cell["source"]) for cell in json.loads(text)["cells"])
     return words(text) if path.suffix == ".html" else flat(text)
+
+
+def test_the_lessons_are_listed_as_they_are_read(site, pages):
+    listed = re.findall(
+        r'class="reference internal" href="lessons/([^"#]+)\.html"', pages[site / "index.html"]
+    )
+    read = [path.stem for path in reading_order.lessons(ROOT / "lessons")]
+    assert list(dict.fromkeys(listed)) == read != sorted(read)
 
 
 def test_there_is_a_page_for_all_of_the_course(site, pages):

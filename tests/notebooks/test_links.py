@@ -12,7 +12,10 @@ from urllib.parse import unquote
 import nbformat
 import pytest
 
+from docs import reading_order
+
 ROOT = Path(__file__).parents[2]
+IN_ORDER = reading_order.lessons(ROOT / "lessons")
 LESSONS = sorted((ROOT / "lessons").glob("*.ipynb"))
 PROBLEMS = sorted((ROOT / "solutions").glob("*/*.ipynb"))
 LINK = re.compile(r"(?<!!)\[(?:[^\[\]]|\[[^\]]*\])*\]\(([^()\s]+)\)")
@@ -94,19 +97,13 @@ def test_each_part_links_to_the_section_that_prepares_it_and_that_links_back(pat
         )
 
 
-def in_order() -> list[Path]:
-    """The lessons as they are read: the order of the table in lesson 00."""
-    rows = re.findall(r"^\| \[\d\d · .+?\]\((.+?)\) \|", cells(LESSONS[0])["00-lessons"], re.M)
-    return [ROOT / "lessons" / row for row in rows]
-
-
 def test_the_order_is_told_once_and_every_lesson_is_in_it():
-    assert sorted(in_order()) == LESSONS
-    assert [path.name[:2] for path in in_order()][:4] == ["00", "01", "07", "02"]
+    assert sorted(IN_ORDER) == LESSONS
+    assert [path.name[:2] for path in IN_ORDER][:4] == ["00", "01", "07", "02"]
 
 
 @pytest.mark.parametrize(
-    ("path", "after"), list(itertools.pairwise(in_order())), ids=lambda path: path.stem
+    ("path", "after"), list(itertools.pairwise(IN_ORDER)), ids=lambda path: path.stem
 )
 def test_each_lesson_leads_to_the_next(path, after):
     text = "\n".join(cells(path).values())
@@ -119,9 +116,10 @@ def test_a_lesson_needs_only_lessons_before_it(path):
     """What it says under "You need", in its first cell."""
     needed = re.search(r"You need: (.+)", next(iter(cells(path).values())))
     named = re.findall(r"\]\((\d\d-[\w-]+\.ipynb)", needed[1] if needed else "")
-    order = in_order()
     for name in named:
-        assert order.index(path.parent / name) < order.index(path) or name.startswith("00"), name
+        assert IN_ORDER.index(path.parent / name) < IN_ORDER.index(path) or name.startswith("00"), (
+            name
+        )
 
 
 @pytest.mark.parametrize(
