@@ -11,7 +11,6 @@ from docs.site.reading import is_told
 LINK = re.compile(r"(?<!!)\[((?:[^\[\]]|\[[^\[\]]*\])+)\]\(([^)\s]+)\)")
 PICTURE = re.compile(r"!\[([^\]]*)\]\(([^)\s]+\.svg)\)")
 MERMAID = re.compile(r"```mermaid\n(.*?)```", re.DOTALL)
-DISPLAY = re.compile(r"\$\$.+?\$\$", re.DOTALL)
 # What no index term is looked for in: code, formulas, links, headings, tables.
 APART = re.compile(
     r"(```.*?```|\$\$.*?\$\$|`[^`]*`|\$[^$]+\$|\[[^\]]*\]\([^)]*\)|^[#|][^\n]*)",
@@ -35,14 +34,6 @@ class Chapter:
     def labels(self) -> set[str]:
         """The ids that a link may lead to: the chapter's own, and each cell's that begins a section."""
         return {self.name} | {cell["id"] for cell in self.cells[1:] if _heading(cell)}
-
-    def formula(self) -> str | None:
-        """The display formula at the head of the chapter, or None."""
-        found = DISPLAY.search("".join(self.cells[0]["source"]))
-        return found and found[0]
-
-    def title(self) -> str:
-        return "".join(self.cells[0]["source"]).partition("\n")[0].removeprefix("# ")
 
     def markdown(self, labels: set[str], terms: list[str]) -> str:
         """The chapter, with links to what is in the book, and each term marked once a section."""
