@@ -1,13 +1,13 @@
-"""No output of a lesson is what a problem on the same arm asks for.
+"""Nothing in a lesson is what a problem on the same arm asks for: no output, no code, no formula.
 
-A lesson derives M, C and g of the 2R arm and of the pendulum; the student who writes them in a problem
-shall not find them printed. An output's expressions, and the terms of their sums, are compared in
-numbers with the entries that the problems ask for, whatever their letters are called. Nor are the base
-parameters of the 2R arm printed, for which c6 asks.
+A lesson leads to M, C and g of the 2R arm and of the pendulum; the student who writes them in a problem
+shall not find them ready. The expressions of outputs, of open code and of texts, and the terms of their
+sums, are compared in numbers with the entries that the problems ask for, whatever their letters are
+called. Nor are the base parameters of the 2R arm printed, for which c6 asks.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -18,6 +18,7 @@ import pytest
 import sympy as sp
 
 from autograder.problems import CHECKS
+from tests.notebooks.formulas import CodeReader, Reader, known_as
 
 LESSONS = sorted((Path(__file__).parents[2] / "lessons").glob("*.ipynb"))
 # Cells that still print such an answer, to be mended with their lesson's checks.
@@ -30,7 +31,6 @@ STATES = ("q", "q1", "q2", "qd", "qd1", "qd2", "qdd", "qdd1", "qdd2")
 NUMBERS = dict(zip(PARAMETERS + STATES, RNG.uniform(0.5, 2.0, 21), strict=True))
 # m1 cx1 + m2 l1 and J1 + m2 l1², as `armdyn.base_parameters` and people write them.
 BASE = re.compile(r"\b(m1 l?cx?1|J1) \+ ([\d.]+ )?m2\b")
-LETTERS = {"ell_": "l", "ell": "l", "qddot": "qdd", "qdot": "qd"}
 
 
 @cache
@@ -74,9 +74,7 @@ def number(expression: sp.Expr) -> float | None:
     """The expression in numbers; None where it has letters that no problem has."""
     values = {}
     for symbol in expression.free_symbols:
-        name = symbol.name
-        for own, ours in LETTERS.items():
-            name = name.replace(own, ours)
+        name = known_as(symbol.name)
         if name not in NUMBERS:
             return None
         values[symbol] = NUMBERS[name]
@@ -124,3 +122,27 @@ def test_a_lesson_prints_no_answer(path):
                 printed[cell.id] = printed.get(cell.id, set()) | found
     number = path.name[:2]
     assert printed == {id: of for id, of in TO_MEND.items() if id.startswith(number)}
+
+
+def answers_among(worths: Iterable[tuple[float, ...]]) -> set[str]:
+    """The checks of which formulas with these numbers are an entry."""
+    return {
+        id
+        for numbers in worths
+        for value in numbers
+        for id, entry in asked()
+        if np.isclose(value, entry, rtol=1e-9)
+    }
+
+
+def typed_in(path: Path) -> dict[str, set[str]]:
+    """The checks whose entries stand in a lesson's texts and open code, by the cells' ids."""
+    reader, code = Reader(NUMBERS), CodeReader(NUMBERS)
+    found = {}
+    for cell in nbformat.read(path, as_version=4).cells:
+        folded = cell.metadata.get("jupyter", {}).get("source_hidden")
+        if cell.cell_type == "markdown":
+            found[cell.id] = answers_among(reader.worths(cell.source))
+        elif not folded:
+            found[cell.id] = answers_among(code.worths(cell.source))
+    return {id: checks for id, checks in found.items() if checks}
