@@ -25,6 +25,16 @@ LESSONS = sorted((Path(__file__).parents[2] / "lessons").glob("*.ipynb"))
 TO_MEND = {
     "09-wolfram-run": {"p1-M", "p2-C", "p2-M_dot"},
 }
+# Formulas that stand in a lesson though a problem asks for them, and why.
+STANDS = {
+    # The smallest case is derived once, as the model of all that follow; p3 asks to do it again, for its
+    # Lagrangian, its traps and its frequency.
+    "01-pendulum-hand": {"p3-g_vec"},
+    # p3 names this trap only once the student has met it.
+    "01-trap-sign": {"p3-g_vec"},
+    # To be mended with its lesson's checks.
+    "09-solve": {"p2-C", "p2-M_dot"},
+}
 RNG = np.random.default_rng(17)
 PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "m", "lc", "I", "g")
 STATES = ("q", "q1", "q2", "qd", "qd1", "qd2", "qdd", "qdd1", "qdd2")
@@ -146,3 +156,58 @@ def typed_in(path: Path) -> dict[str, set[str]]:
         elif not folded:
             found[cell.id] = answers_among(code.worths(cell.source))
     return {id: checks for id, checks in found.items() if checks}
+
+
+H = r"$h = -\,m_2\ell_1\ell_{c2}\sin q_2$, so "
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        (r"$M_{12} = I_2 + m_2(\ell_{c2}^2 + \ell_1\ell_{c2}\cos q_2)$", {"p1-M"}),
+        (r"$M_{12} = I_2 + m_2(\ell_{c2}^2 - \ell_1\ell_{c2}\cos q_2)$", set()),
+        (
+            r"$\alpha = I_2 + m_2\ell_{c2}^2$, $k = m_2\ell_1\ell_{c2}$: $\alpha + k\cos q_2$",
+            {"p1-M"},
+        ),
+        (H + r"$$\begin{bmatrix}h\dot q_2 & 0\\ 0 & 1\end{bmatrix}$$", {"p2-C", "p2-M_dot"}),
+        (
+            H + r"$C\dot q = \bigl(h\,(2\dot q_1\dot q_2 + \dot q_2^2),\ -h\,\dot q_1^2\bigr)$",
+            set(),
+        ),
+        (
+            r"$$C = \begin{bmatrix}\sigma\,\dot q_2 & 0\\ -\sigma\,\dot q_1 & 0\end{bmatrix}$$",
+            set(),
+        ),
+        (r"$P = \underbrace{(m_1\ell_{c1} + m_2\ell_1)g}_A\sin q_1$, $g_1 - B = A\cos q_1$", set()),
+        (r"$\underbrace{m_2\ell_{c2}\,g}_{B}$ and $g_2 = B\cos(q_1 + q_2)$", {"p4-g_vec"}),
+        (r"$$I\,\ddot q + m g\,\ell_c\sin q = u$$", {"p3-g_vec"}),
+        (r"$\det M = \alpha\beta - \gamma^2$ and $\sum_k m_k$", set()),
+    ],
+)
+def test_an_answer_is_seen_in_a_text(text, found):
+    assert answers_among(Reader(NUMBERS).worths(text)) == found
+
+
+@pytest.mark.parametrize(
+    ("code", "found"),
+    [
+        ("k = m2 * l1 * lc2\nM12 = I2 + m2 * lc2**2 + k * sp.cos(q2)", {"p1-M"}),
+        ("k = m2 * l1 * lc2\nM12 = I2 + m2 * lc2**2 + k * sp.sin(q2)", set()),
+        ("h = -arm.m2 * arm.l1 * arm.lc2 * np.sin(q[..., 1])\nC = [[h * qd[..., 1], 0]]", {"p2-C"}),
+        ("h = -m2 * l1 * lc2 * np.sin(Q[:, 1])\nC[:, 1, 0] = -h * QD[:, 0]", {"p2-C"}),
+        ("def C(qd1):\n    return m2 * l1 * lc2 * sin(q2) * qd1", {"p2-C"}),
+        ("u = k * qd1 * qd2\nk = m2 * l1 * lc2 * sin(q2)", set()),
+        ("g2 = -P.diff(q2)\nM11 = equation.jacobian(qdd)[0, 0]", set()),
+        ("assert equal(a, m2 * lc2 * g * sp.cos(q1 + q2))", {"p4-g_vec"}),
+    ],
+)
+def test_an_answer_is_seen_in_code(code, found):
+    assert answers_among(CodeReader(NUMBERS).worths(code)) >= found
+    assert bool(answers_among(CodeReader(NUMBERS).worths(code))) == bool(found)
+
+
+@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
+def test_a_lesson_types_no_answer(path):
+    stands = {id: of for id, of in STANDS.items() if id.startswith(path.name[:2])}
+    assert typed_in(path) == stands
