@@ -30,8 +30,9 @@ STANDS = {
     # The smallest case is derived once, as the model of all that follow; p3 asks to do it again, for its
     # Lagrangian, its traps and its frequency.
     "01-pendulum-hand": {"p3-g_vec"},
-    # p3 names this trap only once the student has met it.
-    "01-trap-sign": {"p3-g_vec"},
+    # The columns of link 1 and of J2 are the worked examples of a regressor; c6 asks for all six.
+    "06-regressor-hand": {"c6-regressor"},
+    "06-regressor-sympy": {"c6-regressor"},
     # To be mended with its lesson's checks.
     "09-solve": {"p2-C", "p2-M_dot"},
 }
@@ -55,6 +56,7 @@ def asked() -> list[tuple[str, float]]:
         "p3-g_vec": (np.array([arm.q]), arm),
         "p4-g_vec": (q, arm),
         "p4-potential_energy": (q, arm),
+        "c6-regressor": (q, qd, np.array([arm.qdd1, arm.qdd2]), arm),
     }
     found = []
     for id, given in arguments.items():
