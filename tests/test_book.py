@@ -10,7 +10,12 @@ from tests.notebooks.answer_lines import answer_lines, flat
 
 ROOT = Path(__file__).parents[1]
 RAW = re.compile(r"(`{3,}).*?\1|`[^`\n]*`", re.DOTALL)
-DISPLAY = re.compile(r"\$\$.+?\$\$", re.DOTALL)
+# On which pages the formula sheet and what follows it begin.
+SHEET = """
+#context [#metadata(
+  (<13-sheet>, <13-questions>).map(place => query(place).first().location().page())
+) <sheet>]
+"""
 
 
 @pytest.fixture(scope="module")
@@ -31,14 +36,17 @@ def text(source) -> str:
     return source.read_text(encoding="utf-8")
 
 
-def test_it_is_set_and_its_index_leads_through_the_book(source):
+def test_it_is_set_its_index_leads_through_it_and_its_sheet_is_one_page(source):
     import typst
 
+    source.write_text(source.read_text(encoding="utf-8") + SHEET, encoding="utf-8")
     compiler = typst.Compiler(source)
     assert compiler.compile().startswith(b"%PDF")
     marks = [mark["value"] for mark in json.loads(compiler.query("<marked>"))]
     assert {"Lagrangian", "inertia matrix", "skew-symmetric", "regressor"} <= set(marks)
     assert len(marks) > 100
+    ((begins, next_begins),) = (mark["value"] for mark in json.loads(compiler.query("<sheet>")))
+    assert next_begins == begins + 1
 
 
 def test_a_column_is_as_wide_as_what_stands_in_it(text):

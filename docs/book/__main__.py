@@ -14,13 +14,6 @@ from docs.book.chapters import Chapter
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
 FORMAT = "markdown-yaml_metadata_block-citations-auto_identifiers+lists_without_preceding_blankline"
-SHEET = """# Formula sheet {#formula-sheet}
-
-The formula at the head of each lesson.
-
-`#set math.equation(numbering: none)`{=typst}
-
-"""
 
 
 def chapters(folder: Path) -> list[Chapter]:
@@ -39,12 +32,6 @@ def book(folder: Path) -> str:
     parts = chapters(folder)
     labels = set().union(*(part.labels for part in parts))
     text = [part.markdown(labels, terms) for part in parts]
-    lines = [
-        f"[{part.title()}](#{part.name})\n\n{part.formula()}"
-        for part in parts
-        if part.shows_code and part.formula()
-    ]
-    text.append(SHEET + "\n\n".join(lines))
     settings = ["--syntax-highlighting=idiomatic", "--wrap=preserve"]
     body = pypandoc.convert_text("\n\n".join(text), "typst", format=FORMAT, extra_args=settings)
     head, index = ((HERE / name).read_text(encoding="utf-8") for name in ("book.typ", "index.typ"))

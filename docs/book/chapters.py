@@ -12,7 +12,6 @@ LINK = re.compile(r"(?<!!)\[((?:[^\[\]]|\[[^\[\]]*\])+)\]\(([^)\s]+)\)")
 PICTURE = re.compile(r"!\[([^\]]*)\]\(([^)\s]+\.svg)\)")
 MERMAID = re.compile(r"```mermaid\n(.*?)```", re.DOTALL)
 TABLE = re.compile(r"^\|.+\n\|[-:| ]+\|$(?:\n\|.+)*", re.MULTILINE)
-DISPLAY = re.compile(r"\$\$.+?\$\$", re.DOTALL)
 # What no index term is looked for in: code, formulas, links, headings, tables.
 APART = re.compile(
     r"(```.*?```|\$\$.*?\$\$|`[^`]*`|\$[^$]+\$|\[[^\]]*\]\([^)]*\)|^[#|][^\n]*)",
@@ -36,14 +35,6 @@ class Chapter:
     def labels(self) -> set[str]:
         """The ids that a link may lead to: the chapter's own, and each cell's that begins a section."""
         return {self.name} | {cell["id"] for cell in self.cells[1:] if _heading(cell)}
-
-    def formula(self) -> str | None:
-        """The display formula at the head of the chapter, or None."""
-        found = DISPLAY.search("".join(self.cells[0]["source"]))
-        return found and found[0]
-
-    def title(self) -> str:
-        return "".join(self.cells[0]["source"]).partition("\n")[0].removeprefix("# ")
 
     def markdown(self, labels: set[str], terms: list[str]) -> str:
         """The chapter, with links to what is in the book, and each term marked once a section."""
@@ -105,14 +96,19 @@ def _folded(cell: dict) -> bool:
 
 
 def _in_columns(table: str) -> str:
-    """The table with columns as wide as what stands in them: Pandoc takes widths from its dashes."""
-    rows = [re.split(r"(?<!\\)\|", row.strip().strip("|")) for row in table.splitlines()]
+    """The table with columns as wide as what stands in them, if it does not say how wide they are.
+
+    Pandoc takes the widths from the dashes.
+    """
+    lines = table.splitlines()
+    if "----" in lines[1]:
+        return table
+    rows = [re.split(r"(?<!\\)\|", row.strip().strip("|")) for row in lines]
     longest = [
         max(len(LINK.sub(r"\1", cell).strip()) for cell in column)
         for column in zip(*rows[:1], *rows[2:], strict=False)
     ]
     dashes = "|".join(":" + "-" * min(max(width, 10), 40) for width in longest)
-    lines = table.splitlines()
     return "\n".join([lines[0], f"|{dashes}|", *lines[2:]])
 
 

@@ -16,6 +16,7 @@ from tests.notebooks.answer_lines import answer_lines, flat
 
 ROOT = Path(__file__).parents[2]
 PHONE, DESK = {"width": 390, "height": 844}, {"width": 1366, "height": 900}
+PAPER = {"width": 717, "height": 1046}  # A4 within a browser's margins
 ABROAD = re.compile(r"[a-z]+:")
 TEXT = {".html", ".ipynb", ".js", ".json", ".md", ".py", ".svg", ".toml", ".txt"}
 
@@ -192,3 +193,20 @@ def test_printed_a_lesson_stands_alone(tab, site):
     for beside in (".bd-sidebar-primary", ".bd-sidebar-secondary", ".bd-header-article"):
         assert tab.locator(beside).first.is_hidden(), beside
     assert tab.get_by_role("heading", name="05 · Gravity").first.is_visible()
+
+
+def test_printed_the_formula_sheet_is_one_page(tab, site):
+    tab.set_viewport_size(PAPER)
+    tab.emulate_media(media="print")
+    tab.goto((site / "lessons" / "13-before-the-exam.html").as_uri())
+    tab.wait_for_function(TYPESET)
+    sheet = tab.locator("#sheet")
+    assert sheet.locator("tbody tr").count() > 20
+    assert sheet.bounding_box()["height"] < PAPER["height"]
+    assert sheet.locator("table").bounding_box()["width"] <= PAPER["width"]
+    assert sheet.evaluate(
+        "e => [getComputedStyle(e).breakBefore, getComputedStyle(e).breakAfter]"
+    ) == [
+        "page",
+        "page",
+    ]

@@ -1,13 +1,13 @@
-"""No output of a lesson is what a problem on the same arm asks for.
+"""Nothing in a lesson is what a problem on the same arm asks for: no output, no code, no formula.
 
-A lesson derives M, C and g of the 2R arm and of the pendulum; the student who writes them in a problem
-shall not find them printed. An output's expressions, and the terms of their sums, are compared in
-numbers with the entries that the problems ask for, whatever their letters are called. Nor are the base
-parameters of the 2R arm printed, for which c6 asks.
+A lesson leads to M, C and g of the 2R arm and of the pendulum; the student who writes them in a problem
+shall not find them ready. The expressions of outputs, of open code and of texts, and the terms of their
+sums, are compared in numbers with the entries that the problems ask for, whatever their letters are
+called. Nor are the base parameters of the 2R arm printed, for which c6 asks.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -18,11 +18,23 @@ import pytest
 import sympy as sp
 
 from autograder.problems import CHECKS
+from tests.notebooks.formulas import CodeReader, Reader, known_as
 
 LESSONS = sorted((Path(__file__).parents[2] / "lessons").glob("*.ipynb"))
 # Cells that still print such an answer, to be mended with their lesson's checks.
 TO_MEND = {
     "09-wolfram-run": {"p1-M", "p2-C", "p2-M_dot"},
+}
+# Formulas that stand in a lesson though a problem asks for them, and why.
+STANDS = {
+    # The smallest case is derived once, as the model of all that follow; p3 asks to do it again, for its
+    # Lagrangian, its traps and its frequency.
+    "01-pendulum-hand": {"p3-g_vec"},
+    # The columns of link 1 and of J2 are the worked examples of a regressor; c6 asks for all six.
+    "06-regressor-hand": {"c6-regressor"},
+    "06-regressor-sympy": {"c6-regressor"},
+    # To be mended with its lesson's checks.
+    "09-solve": {"p2-C", "p2-M_dot"},
 }
 RNG = np.random.default_rng(17)
 PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "m", "lc", "I", "g")
@@ -30,7 +42,6 @@ STATES = ("q", "q1", "q2", "qd", "qd1", "qd2", "qdd", "qdd1", "qdd2")
 NUMBERS = dict(zip(PARAMETERS + STATES, RNG.uniform(0.5, 2.0, 21), strict=True))
 # m1 cx1 + m2 l1 and J1 + m2 l1², as `armdyn.base_parameters` and people write them.
 BASE = re.compile(r"\b(m1 l?cx?1|J1) \+ ([\d.]+ )?m2\b")
-LETTERS = {"ell_": "l", "ell": "l", "qddot": "qdd", "qdot": "qd"}
 
 
 @cache
@@ -45,6 +56,7 @@ def asked() -> list[tuple[str, float]]:
         "p3-g_vec": (np.array([arm.q]), arm),
         "p4-g_vec": (q, arm),
         "p4-potential_energy": (q, arm),
+        "c6-regressor": (q, qd, np.array([arm.qdd1, arm.qdd2]), arm),
     }
     found = []
     for id, given in arguments.items():
@@ -74,9 +86,7 @@ def number(expression: sp.Expr) -> float | None:
     """The expression in numbers; None where it has letters that no problem has."""
     values = {}
     for symbol in expression.free_symbols:
-        name = symbol.name
-        for own, ours in LETTERS.items():
-            name = name.replace(own, ours)
+        name = known_as(symbol.name)
         if name not in NUMBERS:
             return None
         values[symbol] = NUMBERS[name]
@@ -124,3 +134,82 @@ def test_a_lesson_prints_no_answer(path):
                 printed[cell.id] = printed.get(cell.id, set()) | found
     number = path.name[:2]
     assert printed == {id: of for id, of in TO_MEND.items() if id.startswith(number)}
+
+
+def answers_among(worths: Iterable[tuple[float, ...]]) -> set[str]:
+    """The checks of which formulas with these numbers are an entry."""
+    return {
+        id
+        for numbers in worths
+        for value in numbers
+        for id, entry in asked()
+        if np.isclose(value, entry, rtol=1e-9)
+    }
+
+
+def typed_in(path: Path) -> dict[str, set[str]]:
+    """The checks whose entries stand in a lesson's texts and open code, by the cells' ids."""
+    reader, code = Reader(NUMBERS), CodeReader(NUMBERS)
+    found = {}
+    for cell in nbformat.read(path, as_version=4).cells:
+        folded = cell.metadata.get("jupyter", {}).get("source_hidden")
+        if cell.cell_type == "markdown":
+            found[cell.id] = answers_among(reader.worths(cell.source))
+        elif not folded:
+            found[cell.id] = answers_among(code.worths(cell.source))
+    return {id: checks for id, checks in found.items() if checks}
+
+
+H = r"$h = -\,m_2\ell_1\ell_{c2}\sin q_2$, so "
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        (r"$M_{12} = I_2 + m_2(\ell_{c2}^2 + \ell_1\ell_{c2}\cos q_2)$", {"p1-M"}),
+        (r"$M_{12} = I_2 + m_2(\ell_{c2}^2 - \ell_1\ell_{c2}\cos q_2)$", set()),
+        (
+            r"$\alpha = I_2 + m_2\ell_{c2}^2$, $k = m_2\ell_1\ell_{c2}$: $\alpha + k\cos q_2$",
+            {"p1-M"},
+        ),
+        (H + r"$$\begin{bmatrix}h\dot q_2 & 0\\ 0 & 1\end{bmatrix}$$", {"p2-C", "p2-M_dot"}),
+        (
+            H + r"$C\dot q = \bigl(h\,(2\dot q_1\dot q_2 + \dot q_2^2),\ -h\,\dot q_1^2\bigr)$",
+            set(),
+        ),
+        (
+            r"$$C = \begin{bmatrix}\sigma\,\dot q_2 & 0\\ -\sigma\,\dot q_1 & 0\end{bmatrix}$$",
+            set(),
+        ),
+        (r"$P = \underbrace{(m_1\ell_{c1} + m_2\ell_1)g}_A\sin q_1$, $g_1 - B = A\cos q_1$", set()),
+        (r"$\underbrace{m_2\ell_{c2}\,g}_{B}$ and $g_2 = B\cos(q_1 + q_2)$", {"p4-g_vec"}),
+        (r"$$I\,\ddot q + m g\,\ell_c\sin q = u$$", {"p3-g_vec"}),
+        (r"$\det M = \alpha\beta - \gamma^2$ and $\sum_k m_k$", set()),
+    ],
+)
+def test_an_answer_is_seen_in_a_text(text, found):
+    assert answers_among(Reader(NUMBERS).worths(text)) == found
+
+
+@pytest.mark.parametrize(
+    ("code", "found"),
+    [
+        ("k = m2 * l1 * lc2\nM12 = I2 + m2 * lc2**2 + k * sp.cos(q2)", {"p1-M"}),
+        ("k = m2 * l1 * lc2\nM12 = I2 + m2 * lc2**2 + k * sp.sin(q2)", set()),
+        ("h = -arm.m2 * arm.l1 * arm.lc2 * np.sin(q[..., 1])\nC = [[h * qd[..., 1], 0]]", {"p2-C"}),
+        ("h = -m2 * l1 * lc2 * np.sin(Q[:, 1])\nC[:, 1, 0] = -h * QD[:, 0]", {"p2-C"}),
+        ("def C(qd1):\n    return m2 * l1 * lc2 * sin(q2) * qd1", {"p2-C"}),
+        ("u = k * qd1 * qd2\nk = m2 * l1 * lc2 * sin(q2)", set()),
+        ("g2 = -P.diff(q2)\nM11 = equation.jacobian(qdd)[0, 0]", set()),
+        ("assert equal(a, m2 * lc2 * g * sp.cos(q1 + q2))", {"p4-g_vec"}),
+    ],
+)
+def test_an_answer_is_seen_in_code(code, found):
+    assert answers_among(CodeReader(NUMBERS).worths(code)) >= found
+    assert bool(answers_among(CodeReader(NUMBERS).worths(code))) == bool(found)
+
+
+@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
+def test_a_lesson_types_no_answer(path):
+    stands = {id: of for id, of in STANDS.items() if id.startswith(path.name[:2])}
+    assert typed_in(path) == stands
