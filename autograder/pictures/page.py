@@ -60,9 +60,9 @@ def _picture(shown: Shown) -> str:
         "<", "\\u003c"
     )
     key = hashlib.sha256((shown.svg + data).encode()).hexdigest()[:12]
-    player = _script("player.js", __package__)
+    player = _script("autograder", "pictures/player.js")
     # By its file: importing armdyn.plotting would bring Matplotlib into the student's kernel.
-    player = player.replace("@CONTROLS@", _script("plotting/controls.js", "armdyn"))
+    player = player.replace("@CONTROLS@", _script("armdyn", "plotting/controls.js"))
     still = f"<p data-still-only>{STILL}</p>" if shown.motion else ""
     return (
         f'<div data-armdyn-picture="{key}">'
@@ -72,5 +72,5 @@ def _picture(shown: Shown) -> str:
     )
 
 
-def _script(path: str, package: str | None) -> str:
+def _script(package: str, path: str) -> str:
     return resources.files(package).joinpath(path).read_text(encoding="utf-8")

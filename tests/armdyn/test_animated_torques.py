@@ -149,14 +149,15 @@ def test_arcs_have_one_easy_unit_and_the_colours_of_the_bars(shown):
 
 def test_of_several_motions_each_has_its_own():
     starts = [[1.2, 0.3, 0, 0], [-1.2, -0.3, 0, 0]]
-    x = simulate(FREE.state_derivative, starts, [0, 0], T[:401])
-    both = Animation(FREE, T[:401], x[..., :2], ALT, qd=x[..., 2:])
-    torques, frames = (data_of(both)[name] for name in ("torques", "frames"))
+    t = T[:101]
+    x = simulate(FREE.state_derivative, starts, [0, 0], t)
+    both = data_of(Animation(FREE, t, x[..., :2], ALT, qd=x[..., 2:]))
+    torques, frames = both["torques"], both["frames"]
     for k in range(2):
-        alone = Animation(FREE, T[:401], x[k, :, :2], ALT, qd=x[k, :, 2:])
-        one = data_of(alone)["torques"]
+        alone = data_of(Animation(FREE, t, x[k, :, :2], ALT, qd=x[k, :, 2:]))
+        one = alone["torques"]
         for of, all_of in zip(one["values"][0], torques["values"][k], strict=True):
-            ends = read(of, data_of(alone)["frames"], one["unit"])[:, [0, -1]]
+            ends = read(of, alone["frames"], one["unit"])[:, [0, -1]]
             same = read(all_of, frames, torques["unit"])[:, [0, -1]]
             assert same == pytest.approx(ends, abs=0.51 * (one["unit"] + torques["unit"]))
     assert torques["values"][0] != torques["values"][1]

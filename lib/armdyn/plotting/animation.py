@@ -130,7 +130,9 @@ class Animation:
     def _times(self) -> np.ndarray:
         """The times of the frames, s, evenly from t[0] to t[-1]."""
         watched = (self.t[-1] - self.t[0]) / self.speed
-        most = LARGEST // (len(self.q) * self._columns)
+        balance = self._balance()
+        columns = self.model.n + (balance.columns if balance else 0)
+        most = LARGEST // (len(self.q) * columns)
         frames = min(round(watched * FRAMES_PER_SECOND) + 1, most)
         if (frames - 1) < FEWEST_PER_SECOND * watched - 1:
             longest = most / FEWEST_PER_SECOND
@@ -144,6 +146,7 @@ class Animation:
         times = self._times()
         parts = skeleton(self.model)
         angles = parts.angles(along(times, self.t, self.q))
+        balance = self._balance()
         data = {
             "lengths": parts.l.tolist(),
             "arms": [[changes(column, 1e-3) for column in motion.T] for motion in angles],
@@ -155,17 +158,14 @@ class Animation:
             "colours": [OKABE_ITO[name] for name in LINES],
             "names": self.names,
             "alt": self.alt,
-            "torques": self._balance().data(times) if self.qd is not None else None,
+            "torques": balance.data(times) if balance else None,
         }
         # "<" could close the script's element.
         return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
 
-    @property
-    def _columns(self) -> int:
-        """How many numbers a frame of one motion has."""
-        return self.model.n + (self._balance().columns if self.qd is not None else 0)
-
-    def _balance(self) -> Balance:
+    def _balance(self) -> Balance | None:
+        if self.qd is None:
+            return None
         u = np.zeros_like(self.q) if self.u is None else self.u
         return Balance(self.model, self.t, self.q, self.qd, u)
 
