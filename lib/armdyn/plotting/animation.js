@@ -55,11 +55,19 @@ for (const root of document.querySelectorAll(`[data-armdyn-animation="@KEY@"]:no
   }
   axes();
 
+  // Smoothly between frames, since a fast link turns far from one to the next: a cubic through four of them.
+  function smoothAt(column, time) {
+    const last = column.length - 1, at = Math.min(time / step, last), k = Math.min(Math.floor(at), last);
+    const [a, b, c, d] = [k - 1, k, k + 1, k + 2].map((i) => column[Math.max(0, Math.min(i, last))]);
+    const s = at - k;
+    return b + 0.5 * s * (c - a + s * (2 * a - 5 * b + 4 * c - d + s * (3 * (b - c) + d - a)));
+  }
+
   const n = lengths.length;
   function joints(arm, time) {
     const points = [[0, 0]];
     for (let i = 0; i < n; i++) {
-      const a = valueAt(angles[arm][i], time, step), [x, y] = points[i];
+      const a = smoothAt(angles[arm][i], time), [x, y] = points[i];
       points.push([x + lengths[i] * Math.cos(a), y + lengths[i] * Math.sin(a)]);
     }
     return points;
@@ -83,7 +91,8 @@ for (const root of document.querySelectorAll(`[data-armdyn-animation="@KEY@"]:no
     const stands = arms.map((_, arm) => joints(arm, time));
     stands.forEach((now, arm) => {
       const { way, links, rings, name } = drawn[arm], tips = [];
-      for (let s = Math.max(0, time - trail * speed); s < time; s += step / 2) tips.push(joints(arm, s)[n]);
+      const dot = step / 3, first = Math.ceil(Math.max(0, time - trail * speed) / dot);
+      for (let s = first; s * dot < time; s++) tips.push(joints(arm, s * dot)[n]);
       way.setAttribute("points", through([...tips, now[n]]));
       links.setAttribute("points", through(now));
       rings.forEach((ring, i) => {
