@@ -60,7 +60,9 @@ def _picture(shown: Shown) -> str:
         "<", "\\u003c"
     )
     key = hashlib.sha256((shown.svg + data).encode()).hexdigest()[:12]
-    player = resources.files(__package__).joinpath("player.js").read_text(encoding="utf-8")
+    player = _script("autograder", "pictures/player.js")
+    # By its file: importing armdyn.plotting would bring Matplotlib into the student's kernel.
+    player = player.replace("@CONTROLS@", _script("armdyn", "plotting/controls.js"))
     still = f"<p data-still-only>{STILL}</p>" if shown.motion else ""
     return (
         f'<div data-armdyn-picture="{key}">'
@@ -68,3 +70,7 @@ def _picture(shown: Shown) -> str:
         f' src="data:image/svg+xml;base64,{image}">{still}</div>'
         f"<script>{player.replace('@KEY@', key).replace('@DATA@', data)}</script>"
     )
+
+
+def _script(package: str, path: str) -> str:
+    return resources.files(package).joinpath(path).read_text(encoding="utf-8")

@@ -33,11 +33,14 @@ def data_of(animation):
     return json.loads(re.search(r"= (\{.*\});\n", html_of(animation)).group(1))
 
 
+def read(columns, frames, unit):
+    """Columns as the player adds them up, each (frames,); one that stays has a single number."""
+    return np.array([np.broadcast_to(np.cumsum(column), frames) for column in columns]) * unit
+
+
 def angles_of(data):
-    """The directions of the links, (B, frames, n), rad, as the player adds them up."""
-    n = len(data["lengths"])
-    deltas = np.array(data["arms"]).reshape(len(data["arms"]), -1, n)
-    return np.cumsum(deltas, axis=1) / 1000
+    """The directions of the links, (B, frames, n), rad."""
+    return np.array([read(links, data["frames"], 1e-3).T for links in data["arms"]])
 
 
 def test_ten_seconds_are_under_50_kb(runs):
@@ -176,6 +179,12 @@ def test_only_known_models_are_animated():
         ({"q": np.zeros((0, 3, 2))}, r"^q: got shape \(0, 3, 2\)"),
         ({"q": np.zeros(2)}, r"^q: got shape \(2,\)"),
         ({"speed": 0}, "^speed = 0"),
+        ({"u": [0.0, 0.0]}, "^u: needs qd too"),
+        ({"qd": np.zeros((2, 2))}, r"^qd: got shape \(2, 2\), needs that of q, \(3, 2\)"),
+        ({"qd": np.zeros(2)}, r"^qd: got shape \(2,\)"),
+        ({"qd": np.zeros((3, 2)), "u": np.zeros(3)}, r"^u: got shape \(3,\)"),
+        ({"qd": np.zeros((3, 2)), "u": np.zeros((1, 3, 2))}, r"^u: got shape \(1, 3, 2\)"),
+        ({"qd": [[0, 0], [0, np.inf], [0, 0]]}, "^qd.*inf"),
         ({"names": ("a", "b")}, r"^names = \('a', 'b'\): needs 1"),
         ({"t": [0, 1, 1000]}, "^t: 1e.03 s of watching do not fit into a notebook, 125 s do"),
         ({"t": [0, 1, 200], "speed": 0.1}, "^t: 2e.03 s of watching do not fit"),

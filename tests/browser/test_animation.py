@@ -15,16 +15,8 @@ arm = Planar2R(1.0, 0.8, 0.5, 0.4, 2.0, 1.5, 0.2, 0.1)
 t = np.linspace(0, 3, 151)
 q = simulate(arm.state_derivative, [0.4, -0.7, 0.5, 1.0], [0, 0], t)[:, :2]
 """
-SHOW = 'Animation(arm, t, q, alt="A free arm falls and swings.")'
-
-# Pixels of the canvas that are as grey as a link.
-LINKS = """canvas => {
-  const { width, height } = canvas, all = canvas.getContext("2d").getImageData(0, 0, width, height).data;
-  const found = [];
-  for (let i = 0; i < all.length; i += 4)
-    if (all[i] == 0x77 && all[i + 1] == 0x77 && all[i + 2] == 0x77) found.push(i / 4);
-  return found.map(k => [k % width, Math.floor(k / width)]);
-}"""
+NAME = "A free arm falls and swings."
+SHOW = f'Animation(arm, t, q, alt="{NAME}")'
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +41,7 @@ class Player:
 
     def __init__(self, root):
         self.root = root
-        self.canvas = root.locator("canvas")
+        self.picture = root.get_by_role("img", name=NAME).and_(root.locator("svg"))
         self.button = root.get_by_role("button")
         self.slider = root.get_by_role("slider")
 
@@ -59,9 +51,10 @@ class Player:
 
     @property
     def links(self) -> np.ndarray:
-        """x and y of the pixels of the links, as shares of the canvas, y up."""
-        pixels = np.array(self.canvas.evaluate(LINKS))
-        return pixels / self.canvas.evaluate("c => c.width") * [1, -1] + [0, 1]
+        """The joints and the tip, (3, 2), as shares of the picture, y up."""
+        points = self.picture.locator("[data-links]").get_attribute("points").split()
+        pixels = np.array([[float(number) for number in point.split(",")] for point in points])
+        return pixels / 340 * [1, -1] + [0, 1]
 
     def move_to(self, time: float) -> None:
         self.slider.fill(str(time))
@@ -69,7 +62,7 @@ class Player:
 
 def test_it_plays_pauses_and_ends(tab, file):
     tab.goto(file)
-    expect(tab.locator("canvas")).to_have_count(2)  # the same output twice: two players
+    expect(tab.locator("[data-links]")).to_have_count(2)  # the same output twice: two players
     first, second = (Player(root) for root in tab.locator("[data-armdyn-animation]").all())
     expect(first.button).to_have_text("Play")
     still = first.links
@@ -103,24 +96,20 @@ def test_the_arm_stands_where_the_motion_says(tab, file, made):
         q1, q2 = (np.interp(time, made.t, column) for column in made.q[0].T)
         elbow = arm.l1 * np.array([np.cos(q1), np.sin(q1)])
         tip = elbow + arm.l2 * np.array([np.cos(q1 + q2), np.sin(q1 + q2)])
-        links = player.links
-        # From metres to the canvas: 44 of its 340 pixels are left of x = −edge and below y.
-        for point in (elbow / 2, (elbow + tip) / 2):
+        # From metres to the picture: 44 of its 340 units are left of x = −edge and below y.
+        for point, drawn in zip((np.zeros(2), elbow, tip), player.links, strict=True):
             share = (44 + (point + edge) / (2 * edge) * 288) / 340
-            assert np.min(np.linalg.norm(links - share, axis=1)) < 0.02
-        outside = (44 + (1.12 * tip - 0.12 * elbow + edge) / (2 * edge) * 288) / 340
-        assert np.min(np.linalg.norm(links - outside, axis=1)) > 0.005
+            assert drawn == pytest.approx(share, abs=0.005)
 
 
 def test_it_is_described_and_works_from_the_keyboard(tab, file):
     tab.goto(file)
     player = Player(tab.locator("[data-armdyn-animation]").first)
-    expect(player.canvas).to_have_attribute("role", "img")
-    expect(player.canvas).to_have_accessible_name("A free arm falls and swings.")
+    expect(player.picture).to_have_count(1)
     expect(player.slider).to_have_accessible_name("time")
     expect(player.root.locator("[data-still-only]")).to_have_count(0)
-    figure, canvas = player.root.locator("img").bounding_box(), player.canvas.bounding_box()
-    assert canvas["x"] + canvas["width"] <= figure["x"]  # the figure stays, beside it
+    figure, moving = player.root.locator("img").bounding_box(), player.picture.bounding_box()
+    assert moving["x"] + moving["width"] <= figure["x"]  # the figure stays, beside it
     player.slider.focus()
     tab.keyboard.press("End")
     assert player.time == pytest.approx(3, abs=0.05)
@@ -135,8 +124,8 @@ def test_it_is_described_and_works_from_the_keyboard(tab, file):
 @pytest.mark.parametrize("tab", [False], indirect=True)
 def test_without_scripts_the_figure_and_its_text_are_what_one_sees(tab, file):
     tab.goto(file)
-    expect(tab.locator("canvas, button, input")).to_have_count(0)
-    for figure in tab.get_by_role("img", name="A free arm falls and swings.").all():
+    expect(tab.locator("svg, button, input")).to_have_count(0)
+    for figure in tab.get_by_role("img", name=NAME).all():
         assert figure.bounding_box()["width"] > 300
     expect(tab.locator("[data-still-only]").first).to_contain_text("A still figure: run the cell")
 
@@ -160,9 +149,9 @@ def test_in_jupyterlab_untrusted_then_run_then_as_stored_output(page, opened, st
     opened(stored.name)
     panel = page.locator(".jp-NotebookPanel", has_text="Animation(arm, t, q")
     output = panel.locator(".jp-OutputArea-output")
-    figure = output.get_by_role("img", name="A free arm falls and swings.").last
+    figure = output.get_by_role("img", name=NAME).last
     expect(figure).to_be_visible(timeout=60_000)
-    expect(output.locator("canvas, button, input")).to_have_count(0)
+    expect(output.locator("svg, button, input")).to_have_count(0)
     expect(output).to_contain_text("A still figure: run the cell")
     page.screenshot(path=tmp_path / "untrusted.png")
 
@@ -170,7 +159,7 @@ def test_in_jupyterlab_untrusted_then_run_then_as_stored_output(page, opened, st
     expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle", timeout=60_000)
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_text("Run All Cells", exact=True).click()
-    expect(output.locator("canvas")).to_be_visible(timeout=60_000)
+    expect(output.locator("[data-links]")).to_be_visible(timeout=60_000)
     expect(output.get_by_text("A still figure: run the cell")).to_have_count(0)
     player = Player(output.locator("[data-armdyn-animation]"))
     before = player.links
@@ -196,7 +185,7 @@ def test_in_jupyterlab_untrusted_then_run_then_as_stored_output(page, opened, st
     assert saved.cells[0].execution_count == 1
     assert len(stored.read_bytes()) < 50_000
     opened(stored.name)
-    expect(output.locator("canvas")).to_be_visible(timeout=60_000)
+    expect(output.locator("[data-links]")).to_be_visible(timeout=60_000)
     player.move_to(1.0)
     assert player.time == 1.0
     page.screenshot(path=tmp_path / "stored.png")

@@ -1,137 +1,113 @@
 // The player of armdyn.plotting.Animation, with the names between @ put in by animation.py. It makes
 // every control itself, so that a page that runs no script shows the figure alone.
 for (const root of document.querySelectorAll(`[data-armdyn-animation="@KEY@"]:not([data-live])`)) {
-  const { lengths, arms, frames, start, step, speed, reach, colours, names, alt } = @DATA@;
+  const { lengths, arms, frames, start, step, speed, reach, colours, names, alt, torques } = @DATA@;
   const size = 340, margin = 44, trail = 1.5, end = (frames - 1) * step;
   root.dataset.live = "";
   root.querySelector("[data-still-only]")?.remove();
 
-  const n = lengths.length;
-  // Thousandths of a radian, each frame as the change from the frame before.
-  const angles = arms.map((deltas) => {
-    const all = Float64Array.from(deltas);
-    for (let i = n; i < all.length; i++) all[i] += all[i - n];
-    return all.map((value) => value / 1000);
-  });
+@CONTROLS@
+  // Whole numbers, each as the change from the one before.
+  const summed = (deltas, unit) => {
+    let sum = 0;
+    return Float64Array.from(deltas, (delta) => (sum += delta) * unit);
+  };
+  const angles = arms.map((links) => links.map((deltas) => summed(deltas, 1e-3)));
 
-  const make = (tag, properties, parent) => parent.appendChild(Object.assign(document.createElement(tag), properties));
+  const paper = "var(--armdyn-paper)", ink = "currentColor";
   const player = make("div", { className: "armdyn-player" }, root);
-  player.style.cssText = `width:${size}px;flex:none`;
   root.prepend(player);
-  const canvas = make("canvas", { role: "img", ariaLabel: alt }, player);
-  const scale = window.devicePixelRatio || 1;
-  canvas.width = canvas.height = size * scale;
-  canvas.style.cssText = `display:block;width:${size}px;height:${size}px`;
-  const bar = make("div", {}, player);
-  bar.style.cssText = "display:flex;align-items:center;gap:8px;font:13px sans-serif";
-  const button = make("button", { type: "button" }, bar);
-  button.style.cssText = "width:5em;font:inherit";
-  const slider = make("input", { type: "range", min: 0, max: end, step: "any", value: 0, ariaLabel: "time" }, bar);
-  slider.style.flex = "1";
-  slider.dataset.lmSuppressShortcuts = "true"; // JupyterLab: its arrow keys are its own
-  const clock = make("output", {}, bar);
-  clock.style.cssText = "width:5.5em;text-align:right;font-variant-numeric:tabular-nums";
+  make("style", { textContent: `@STYLE@` }, player);
+  const stage = make("div", {}, player);
+  stage.style.cssText = `width:${torques ? 1.1 * size : size}px;max-width:100%`;
+  stage.innerHTML = `<svg viewBox="0 0 ${size} ${size}" style="display:block;width:100%" role="img"></svg>`;
+  const svg = stage.firstChild;
+  svg.ariaLabel = alt;
 
-  const pen = canvas.getContext("2d");
+  // A shape in the picture; without attributes it is drawn later.
+  function put(tag, attributes, parent = svg) {
+    const shape = parent.appendChild(document.createElementNS(svg.namespaceURI, tag));
+    for (const [name, value] of Object.entries(attributes)) shape.setAttribute(name, value);
+    return shape;
+  }
+  const write = (text, x, y, more = {}, parent = svg) =>
+    (put("text", { x, y, fill: ink, "font-size": 12, "text-anchor": "middle", ...more }, parent).textContent = text);
+
   const half = 1.15 * reach;
   const place = (x) => margin + ((x + half) / (2 * half)) * (size - margin - 8);
-  const x = place, y = (value) => size - place(value);
-
-  function joints(angle, time) {
-    const at = Math.min(time / step, frames - 1), k = Math.min(Math.floor(at), Math.max(frames - 2, 0));
-    const points = [[0, 0]];
-    for (let i = 0; i < n; i++) {
-      const from = angle[k * n + i], to = angle[Math.min(k + 1, frames - 1) * n + i];
-      const a = from + (at - k) * (to - from), [px, py] = points[i];
-      points.push([px + lengths[i] * Math.cos(a), py + lengths[i] * Math.sin(a)]);
-    }
-    return points;
-  }
-
-  function line(points, colour, width, dash = []) {
-    pen.beginPath();
-    for (const [px, py] of points) pen.lineTo(x(px), y(py));
-    Object.assign(pen, { strokeStyle: colour, lineWidth: width, lineCap: "round", lineJoin: "round" });
-    pen.setLineDash(dash);
-    pen.stroke();
-  }
+  const inPixels = ([x, y]) => [place(x), size - place(y)];
+  const through = (points) => points.map((point) => inPixels(point).map((x) => x.toFixed(2)).join()).join(" ");
 
   function axes() {
     const power = 10 ** Math.floor(Math.log10(half));
     const tick = [0.2, 0.5, 1, 2, 5].map((s) => s * power).find((s) => half / s <= 2.5);
-    Object.assign(pen, { fillStyle: "#000", font: "12px sans-serif" });
+    const line = (points, more) => put("polyline", { points: through(points), fill: "none", stroke: ink, ...more });
     for (let k = -Math.floor(half / tick); k * tick <= half; k++) {
       const value = k * tick, label = String(+value.toPrecision(3)).replace("-", "−");
-      line([[value, -half], [value, half]], "#ddd", 1);
-      line([[-half, value], [half, value]], "#ddd", 1);
-      pen.textAlign = "center";
-      pen.fillText(label, x(value), size - margin + 15);
-      pen.textAlign = "right";
-      pen.fillText(label, margin - 5, y(value) + 4);
+      line([[value, -half], [value, half]], { opacity: 0.15 });
+      line([[-half, value], [half, value]], { opacity: 0.15 });
+      write(label, place(value), size - margin + 15);
+      write(label, margin - 5, size - place(value) + 4, { "text-anchor": "end" });
     }
-    line([[-half, half], [-half, -half], [half, -half]], "#000", 1);
-    pen.textAlign = "center";
-    pen.fillText("x (m)", x(0), size - margin + 32);
-    pen.save();
-    pen.translate(11, y(0));
-    pen.rotate(-Math.PI / 2);
-    pen.fillText("y (m)", 0, 0);
-    pen.restore();
+    line([[-half, half], [-half, -half], [half, -half]]);
+    write("x (m)", place(0), size - margin + 32);
+    write("y (m)", 11, size - place(0), { transform: `rotate(-90 11 ${size - place(0)})` });
+  }
+  axes();
+
+  // Smoothly between frames, since a fast link turns far from one to the next: a cubic through four of them.
+  function smoothAt(column, time) {
+    const last = column.length - 1, at = Math.min(time / step, last), k = Math.min(Math.floor(at), last);
+    const [a, b, c, d] = [k - 1, k, k + 1, k + 2].map((i) => column[Math.max(0, Math.min(i, last))]);
+    const s = at - k;
+    return b + 0.5 * s * (c - a + s * (2 * a - 5 * b + 4 * c - d + s * (3 * (b - c) + d - a)));
   }
 
-  function draw(time) {
-    pen.setTransform(scale, 0, 0, scale, 0, 0);
-    pen.fillStyle = "#fff";
-    pen.fillRect(0, 0, size, size);
-    axes();
-    angles.forEach((angle, arm) => {
-      const dash = arm ? [2 + 4 * arm, 4] : [], way = [];
-      for (let s = Math.max(0, time - trail * speed); s < time; s += step / 2) way.push(joints(angle, s).pop());
-      const now = joints(angle, time);
-      line([...way, now[n]], colours[arm], 1.5, dash);
-      line(now, arms.length > 1 ? colours[arm] : "#777", 6);
-      for (const point of now.slice(0, n)) {
-        pen.beginPath();
-        pen.arc(x(point[0]), y(point[1]), 4.5, 0, 7);
-        Object.assign(pen, { fillStyle: "#fff", strokeStyle: "#000", lineWidth: 1.5 });
-        pen.setLineDash([]);
-        pen.fill();
-        pen.stroke();
-      }
-      if (names[arm]) {
-        Object.assign(pen, { fillStyle: colours[arm], textAlign: "left", font: "bold 12px sans-serif" });
-        pen.fillText(names[arm], x(now[n][0]) + 7, y(now[n][1]) - 7);
-      }
+  const n = lengths.length;
+  function joints(arm, time) {
+    const points = [[0, 0]];
+    for (let i = 0; i < n; i++) {
+      const a = smoothAt(angles[arm][i], time), [x, y] = points[i];
+      points.push([x + lengths[i] * Math.cos(a), y + lengths[i] * Math.sin(a)]);
+    }
+    return points;
+  }
+
+  const round = { fill: "none", "stroke-linecap": "round", "stroke-linejoin": "round" };
+  const drawn = arms.map((_, arm) => {
+    const colour = colours[arm];
+    const way = put("polyline", { ...round, stroke: colour, "stroke-width": 1.5, "stroke-dasharray": arm ? `${2 + 4 * arm} 4` : "none" });
+    const links = put("polyline", { ...round, stroke: arms.length > 1 ? colour : "#777", "stroke-width": 6, "data-links": arm });
+    const rings = lengths.map(() => put("circle", { r: 4.5, fill: paper, stroke: ink, "stroke-width": 1.5 }));
+    const name = put("text", { fill: colour, "font-size": 12, "font-weight": "bold", stroke: paper, "stroke-width": 3, "paint-order": "stroke" });
+    name.textContent = names[arm] ?? "";
+    return { way, links, rings, name };
+  });
+
+@TORQUES@
+  const numbers = torques && showTorques();
+
+  function draw(time, playing) {
+    const stands = arms.map((_, arm) => joints(arm, time));
+    stands.forEach((now, arm) => {
+      const { way, links, rings, name } = drawn[arm], tips = [];
+      const dot = step / 3, first = Math.ceil(Math.max(0, time - trail * speed) / dot);
+      for (let s = first; s * dot < time; s++) tips.push(joints(arm, s * dot)[n]);
+      way.setAttribute("points", through([...tips, now[n]]));
+      links.setAttribute("points", through(now));
+      rings.forEach((ring, i) => {
+        const [x, y] = inPixels(now[i]);
+        ring.setAttribute("cx", x);
+        ring.setAttribute("cy", y);
+      });
+      const [x, y] = inPixels(now[n]);
+      const isRight = x > size - 60; // so that the name does not leave the picture
+      name.setAttribute("text-anchor", isRight ? "end" : "start");
+      name.setAttribute("x", isRight ? x - 7 : x + 7);
+      name.setAttribute("y", y - 7 + (isRight ? 0 : 13 * arm));
     });
-    const text = `${(start + time).toFixed(2)} s`;
-    clock.textContent = text;
-    slider.value = time;
-    slider.ariaValueText = text;
-    root.dataset.time = time.toFixed(3);
+    numbers?.draw(time, playing, stands);
   }
-
-  let time = 0, playing = false, last = 0;
-  function play(on) {
-    playing = on;
-    button.textContent = on ? "Pause" : "Play";
-    if (on) requestAnimationFrame((now) => { last = now; tick(now); });
-  }
-  function tick(now) {
-    if (!playing || !canvas.isConnected) return play(false);
-    time = Math.min(time + ((now - last) / 1000) * speed, end);
-    last = now;
-    draw(time);
-    if (time >= end) play(false);
-    else requestAnimationFrame(tick);
-  }
-  button.onclick = () => {
-    if (!playing && time >= end) time = 0;
-    play(!playing);
-  };
-  slider.oninput = () => {
-    time = Number(slider.value);
-    draw(time);
-  };
-  play(false);
-  draw(0);
+  const again = addControls(stage, { end, from: 0, speed, zero: start, draw });
+  if (numbers) numbers.onchange = again;
 }
