@@ -173,21 +173,20 @@ ROD = Choice(
     text="the wrong line, and what shows it",
     options=(
         Option(
-            "Line 1 gives $I_1 = 0$. Without it $M$ is no longer positive definite, and the solve "
-            "stops with an error.",
-            "The line is the right one. Which terms are left in M11 without I1, and can joint 1 turn "
-            "without moving any mass?",
+            "Line 1 gives $I_1 = 0$. Then $M$ is not positive definite, or a simulation gains or loses "
+            "energy, so one of the two shows it.",
+            "The line is the right one. Which terms are left in M11 without I1? Is there an arm with "
+            "this M, and what does the energy of that arm do?",
         ),
         Option(
-            "Line 1 gives $I_1 = 0$. $M$ stays positive definite, but a simulation without friction "
-            "gains or loses energy.",
-            "The line is the right one. Is there an arm for which this M is right? Then what does the "
-            "energy of that arm do?",
-        ),
-        Option(
-            "Line 2 gives $I_2 = 0$, because 12 is an integer. $M_{22}$ is too small, and nothing "
-            "else shows it.",
+            "Line 2 gives $I_2 = 0$, because 12 is an integer. Neither $M$ nor the energy shows it: it "
+            "is the right $M$ of another arm.",
             "Line 2 is read from left to right. Of which type is the number that is divided by 12?",
+        ),
+        Option(
+            "Line 3 gives a wrong $M_{22}$, because `l2 / 2` is cut to an integer. Then $M$ is not "
+            "positive definite.",
+            "A division is cut only if both of its numbers are integers. Of which type is l2?",
         ),
         Option(
             "Line 1 gives $I_1 = 0$. Neither $M$ nor the energy shows it: it is the right $M$ of "

@@ -79,9 +79,10 @@ HALVED = Number(
             "This is the ratio of the two changes. To which power is 2 raised to give it?",
         ),
         WrongNumber(
-            "half of the ratio",
-            RATIO / 2,
-            "You halved the ratio. For a method of order p it is 2 to the power of p, and not 2 p.",
+            "order 4",
+            4.0,
+            "A method of order 4 makes the change fall to a sixteenth when the step is halved. How far "
+            "does it fall here?",
         ),
         WrongNumber(
             "natural logarithm",
@@ -132,11 +133,11 @@ PROMISE = Choice(
             "here?",
         ),
         Option(
-            "Yes, if the run steps $(q, p)$ with $p = M\\dot q$: then the drift stays bounded over very "
-            "long runs, if the steps are small enough.",
+            "Only if the run steps $(q, p)$ with $p = M\\dot q$: then the drift stays bounded over very "
+            "long runs, as long as the steps are small enough.",
         ),
         Option(
-            "Yes, if the run steps $(q, p)$ with $p = M\\dot q$: then the energy does not change at "
+            "Only if the run steps $(q, p)$ with $p = M\\dot q$: then the energy does not change at "
             "all, as for the pendulum of section 3.",
             "The pendulum of section 3 was a linear one. What does section 4 promise in general: the "
             "same energy, or bounds?",

@@ -19,7 +19,7 @@ TABLE = {
         right=("3", "np.log2(3.2e-4 / 4e-5)", "np.log(8) / np.log(2)"),
         wrong={
             "ratio": "3.2e-4 / 4e-5",
-            "half of the ratio": "4",
+            "order 4": "4",
             "natural logarithm": "np.log(8)",
             "logarithm to base 10": "np.log10(8)",
             "from first to last": "1.5",
