@@ -220,7 +220,7 @@ SINGLE_FOR_DOUBLE = Number(
         WrongNumber(
             "logarithm to base 10",
             AGREES / log(10),
-            "You took the logarithm to base 10. Of which number is λ the exponent in the law of "
+            "You took the logarithm to base 10. Which number is raised to the power of λt in the law of "
             "growth?",
         ),
         WrongNumber(

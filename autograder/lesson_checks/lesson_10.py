@@ -152,7 +152,7 @@ PROMISE = Choice(
         "knows after so long a time."
     ),
     hints=(
-        "In which pairs of variables does this section define the word symplectic?",
+        "In which pair of variables does this section define the word symplectic?",
         "Section 3 shows how implicit midpoint treats a linear pendulum. Is the arm linear?",
     ),
 )
@@ -245,10 +245,10 @@ TIPS = Choice(
     ),
     further="A calm start or friction would do as well: then small differences do not grow.",
     hints=(
-        "The two methods differ a little in the very first step. What does section 7 say of little "
+        "The two runs differ a little from the very first step on. What does section 7 say of little "
         "differences?",
-        "The distance grows by about 1.7 per second in the exponent. By which factor does it grow in "
-        "12 s?",
+        "In section 7 the exponent grows by about 1.7 per second. By which factor has a difference "
+        "grown after 12 s, if nothing stops it?",
     ),
 )
 
