@@ -70,13 +70,13 @@ class Reader:
                 found = [self._worth(side) for side in sides]
                 for name, side, worth in zip(sides, sides[1:], found[1:], strict=False):
                     if "begin" not in side:
-                        self._define(SPACE.sub("", name).strip("{}\\"), worth)
+                        self._define(re.sub(r"[{}\\_]", "", SPACE.sub("", name)), worth)
                 if again:
                     composed = (not SINGLE.fullmatch(SPACE.sub("", side)) for side in sides)
                     yield from filter(None, itertools.compress(found, composed))
 
     def _define(self, name: str, worth: Worth | None) -> None:
-        if worth and re.fullmatch(r"[A-Za-z]+", name) and name not in self.numbers:
+        if worth and re.fullmatch(r"[A-Za-z]+\d*", name) and known_as(name) not in self.numbers:
             self.own[name] = worth[0]
 
     def _worth(self, formula: str) -> Worth | None:

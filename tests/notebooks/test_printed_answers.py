@@ -3,7 +3,8 @@
 A lesson leads to M, C and g of the 2R arm and of the pendulum; the student who writes them in a problem
 shall not find them ready. The expressions of outputs, of open code and of texts, and the terms of their
 sums, are compared in numbers with the entries that the problems ask for, whatever their letters are
-called. Nor are the base parameters of the 2R arm printed, for which c6 asks.
+called; in a listing in C++, Java or MATLAB its own names are put in first. Nor are the base parameters
+of the 2R arm printed, for which c6 asks.
 """
 
 import re
@@ -21,10 +22,6 @@ from autograder.problems import CHECKS
 from tests.notebooks.formulas import CodeReader, Reader, known_as
 
 LESSONS = sorted((Path(__file__).parents[2] / "lessons").glob("*.ipynb"))
-# Cells that still print such an answer, to be mended with their lesson's checks.
-TO_MEND = {
-    "09-wolfram-run": {"p1-M", "p2-C", "p2-M_dot"},
-}
 # Formulas that stand in a lesson though a problem asks for them, and why.
 STANDS = {
     # The smallest case is derived once, as the model of all that follow; p3 asks to do it again, for its
@@ -33,8 +30,6 @@ STANDS = {
     # The columns of link 1 and of J2 are the worked examples of a regressor; c6 asks for all six.
     "06-regressor-hand": {"c6-regressor"},
     "06-regressor-sympy": {"c6-regressor"},
-    # To be mended with its lesson's checks.
-    "09-solve": {"p2-C", "p2-M_dot"},
 }
 RNG = np.random.default_rng(17)
 PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "m", "lc", "I", "g")
@@ -42,6 +37,14 @@ STATES = ("q", "q1", "q2", "qd", "qd1", "qd2", "qdd", "qdd1", "qdd2")
 NUMBERS = dict(zip(PARAMETERS + STATES, RNG.uniform(0.5, 2.0, 21), strict=True))
 # m1 cx1 + m2 l1 and J1 + m2 l1², as `armdyn.base_parameters` and people write them.
 BASE = re.compile(r"\b(m1 l?cx?1|J1) \+ ([\d.]+ )?m2\b")
+# How C++, Java and MATLAB write what SymPy writes as cos(q2), q2, lc2 and lc2**2.
+SPELLINGS = (
+    (r"\bstd::|\bMath\.|\barm\.", ""),
+    (r"\b(qd?)(?:\[0\]|\.get\(0\)|\(1\))", r"\g<1>1"),
+    (r"\b(qd?)(?:\[1\]|\.get\(1\)|\(2\))", r"\g<1>2"),
+    (r"\bpow\((\w+), 2\)", r"\1**2"),
+    (r"\^", "**"),
+)
 
 
 @cache
@@ -72,32 +75,55 @@ def expressions(text: str) -> Iterator[sp.Expr]:
     for part in [text, *(line.partition(" = ")[2] for line in text.splitlines())]:
         part = re.sub(r"(?<=Cos|Sin)\[([^]]*)\]", r"(\1)", part).replace("^", "**")
         part = part.replace("Cos(", "cos(").replace("Sin(", "sin(")
-        if not re.search(r"\b(sin|cos)\(", part) or not re.fullmatch(r"[\w\s()\[\],*+/.-]+", part):
-            continue
-        names = set(re.findall(r"\b[A-Za-z_]\w*", part)) - {"sin", "cos", "Matrix"}
-        try:
-            found = sp.sympify(part, locals={name: sp.Symbol(name) for name in names})
-        except (sp.SympifyError, SyntaxError, TypeError):
-            continue
-        yield from found if isinstance(found, sp.MatrixBase) else [found]
+        if re.search(r"\b(sin|cos)\(", part):
+            found = expression(part, {})
+            yield from found if isinstance(found, sp.MatrixBase) else [found] if found else []
 
 
-def number(expression: sp.Expr) -> float | None:
-    """The expression in numbers; None where it has letters that no problem has."""
+def listed(text: str) -> Iterator[sp.Expr]:
+    """The expressions of a listing in C++, Java or MATLAB, with its own names put in."""
+    for old, new in SPELLINGS:
+        text = re.sub(old, new, text)
+    known: dict[str, sp.Expr] = {}
+    for line in text.splitlines():
+        for statement in line.split(";"):
+            left, assigned, right = statement.partition(" = ")
+            parts = re.split(r"[,{}\[\]]|<<", right if assigned else left)
+            found = [one for one in (expression(part, known) for part in parts) if one is not None]
+            yield from found
+            if assigned and len(parts) == len(found) == 1:
+                known[left.split()[-1]] = found[0]
+
+
+def expression(text: str, known: dict[str, sp.Expr]):
+    """What SymPy reads in a text, with known names put in; None where it is no expression."""
+    text = text.strip()
+    if not re.fullmatch(r"[\w\s()\[\],*+/.-]+", text):
+        return None
+    names = set(re.findall(r"\b[A-Za-z_]\w*", text)) - {"sin", "cos", "Matrix"}
+    try:
+        found = sp.sympify(text, locals={name: known.get(name, sp.Symbol(name)) for name in names})
+    except (sp.SympifyError, SyntaxError, TypeError, AttributeError):
+        return None
+    return found if isinstance(found, sp.Expr | sp.MatrixBase) else None
+
+
+def number(found: sp.Expr) -> float | None:
+    """An expression in numbers; None where it has letters that no problem has."""
     values = {}
-    for symbol in expression.free_symbols:
+    for symbol in found.free_symbols:
         name = known_as(symbol.name)
         if name not in NUMBERS:
             return None
         values[symbol] = NUMBERS[name]
-    return float(expression.subs(values))
+    return float(found.subs(values))
 
 
 def answers_in(text: str) -> set[str]:
     """The checks of which an output holds an entry."""
     found = {"c6-discussion"} if BASE.search(text) else set()
-    for expression in expressions(text):
-        for part in (expression, *sp.Add.make_args(sp.expand(expression))):
+    for whole in (*expressions(text), *(listed(text) if "```" in text else ())):
+        for part in (whole, *sp.Add.make_args(sp.expand(whole))):
             value = number(part)
             if value is not None and part.has(sp.sin, sp.cos):
                 found |= {id for id, entry in asked() if np.isclose(value, entry, rtol=1e-9)}
@@ -117,6 +143,22 @@ def answers_in(text: str) -> set[str]:
         ("h_122 = -lc2*m2*sin(q2)", set()),
         ("4 base parameters: m1 cx1 + 1.2 m2; J1 + 1.44 m2; m2 cx2; J2", {"c6-discussion"}),
         ("6 base parameters: m1 cx1; m1 cy1; Jzz1 + Jzz2; m2; m2 cx2; m2 cy2", set()),
+        (
+            "```cpp\nconst double b = m2 * l1 * lc2 * std::cos(q[1]);\n"
+            "const double M22 = I2 + m2 * lc2 * lc2;\nconst double M12 = M22 + b;\n```",
+            {"p1-M"},
+        ),
+        (
+            "```java\ndouble h = -m2 * l1 * lc2 * Math.sin(q.get(1));\nreturn new SimpleMatrix("
+            "new double[][] {{h * qd.get(1), h * (qd.get(0) + qd.get(1))}, {-h * qd.get(0), 0}});\n```",
+            {"p2-C", "p2-M_dot"},
+        ),
+        (
+            "```matlab\ngm2 = arm.g*arm.m2*arm.lc2;\ng2 = gm2*cos(q(1) + q(2));\n"
+            "value = [g2 + (arm.m1*arm.lc1 + arm.m2*arm.l1)*arm.g*cos(q(1));\n g2];\n```",
+            {"p4-g_vec"},
+        ),
+        ("```matlab\nM11 = arm.I + arm.m*q(2)^2;\nC12 = arm.m*q(2)*qd(1);\n```", set()),
         ("PD alone rests [11.8  7.1] degrees below the target", set()),
     ],
 )
@@ -129,11 +171,11 @@ def test_a_lesson_prints_no_answer(path):
     printed = {}
     for cell in nbformat.read(path, as_version=4).cells:
         for output in cell.get("outputs", []):
-            text = output.get("text") or output.get("data", {}).get("text/plain", "")
+            data = output.get("data", {})
+            text = output.get("text") or data.get("text/markdown") or data.get("text/plain", "")
             if found := answers_in(text):
                 printed[cell.id] = printed.get(cell.id, set()) | found
-    number = path.name[:2]
-    assert printed == {id: of for id, of in TO_MEND.items() if id.startswith(number)}
+    assert printed == {}
 
 
 def answers_among(worths: Iterable[tuple[float, ...]]) -> set[str]:
@@ -170,6 +212,10 @@ H = r"$h = -\,m_2\ell_1\ell_{c2}\sin q_2$, so "
         (r"$M_{12} = I_2 + m_2(\ell_{c2}^2 - \ell_1\ell_{c2}\cos q_2)$", set()),
         (
             r"$\alpha = I_2 + m_2\ell_{c2}^2$, $k = m_2\ell_1\ell_{c2}$: $\alpha + k\cos q_2$",
+            {"p1-M"},
+        ),
+        (
+            r"$b = m_2\ell_1\ell_{c2}\cos q_2$, $M_{22} = I_2 + m_2\ell_{c2}^2$, $M_{12} = M_{22} + b$",
             {"p1-M"},
         ),
         (H + r"$$\begin{bmatrix}h\dot q_2 & 0\\ 0 & 1\end{bmatrix}$$", {"p2-C", "p2-M_dot"}),
