@@ -23,7 +23,8 @@ mstyle msub msubsup msup mtable mtd mtext mtr munder munderover none
 """
 ACCENTS = set("˙¨^~¯→ˆ˜‾⃗´`˘ˇ⃛⃜")
 VALUE = re.compile(r"[\w .%+-]*")
-SPACE = re.compile(r"([+-]?\d{0,2}(\.\d{1,3})?(em|ex|pt|px|mu)? ?){1,4}|thick|thin|medium")
+LENGTH = r"[+-]?\d{0,2}(\.\d{1,3})?(em|ex|pt|px|mu)?"
+SPACE = re.compile(f"{LENGTH}( {LENGTH}){{0,3}}|thick|thin|medium")
 # Of several, MathJax numbered each line; nothing in the course refers to such a number.
 NUMBERED = re.compile(r"(\\(?:begin|end)\{(?:align|equation|gather|alignat|multline))\}")
 LABEL = re.compile(r"\\(label|nonumber|notag)\b(\s*\{[^{}]*\})?")

@@ -7,6 +7,7 @@ import re
 import unicodedata
 import warnings
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from html import escape, unescape
 from itertools import islice
 from pathlib import Path
@@ -24,11 +25,12 @@ MOST_PIXELS = 120_000_000
 MOST_OF_A_PAGE = 24 << 20
 WIDEST = 2000  # pixels: a hand-written line can still be read
 SHOWN_BY_BROWSERS = {"PNG": "png", "JPEG": "jpeg", "MPO": "jpeg", "GIF": "gif", "WEBP": "webp"}
-READABLE = (*SHOWN_BY_BROWSERS, "TIFF", "BMP")
+READABLE = ("PNG", "JPEG", "GIF", "WEBP", "TIFF", "BMP")
 PICTURES = (".bmp", ".gif", ".heic", ".jpeg", ".jpg", ".png", ".svg", ".tif", ".tiff", ".webp")
 DATA = re.compile(r"data:[\w.+/-]*(;[\w=.-]+)*;base64,", re.IGNORECASE)
 ELSEWHERE = re.compile(r"https?:|//", re.IGNORECASE)
 ATTACHED = "attachment:"
+IN_TEXT = "the picture in the text"
 
 
 class NotShownError(Exception):
@@ -63,9 +65,9 @@ class Pictures:
         return f'<img src="{address}" alt="{escape(alt)}"{sizes}>'
 
     def beside(self) -> list[str]:
-        """An image or a sentence for each picture of the folder that no cell asked for, with its name."""
+        """An image or a sentence for each picture of the folder that no cell shows, with its name."""
         found = []
-        for path in self._files():
+        for path in self._files:
             if path not in self._shown and path.suffix.lower() in PICTURES:
                 name = escape(one_line(path.name, 100))
                 shown = self.img(str(path.relative_to(self._folder or path.parent)), path.name)
@@ -78,7 +80,7 @@ class Pictures:
         if url.lower().startswith(ATTACHED):
             data, name = _attached(url[len(ATTACHED) :], attachments), url[len(ATTACHED) :]
         elif match := DATA.match(url):
-            data, name = _decoded(url[match.end() :], "the picture in the text"), "in the text"
+            data, name = _decoded(url[match.end() :], IN_TEXT), IN_TEXT
         else:
             path = self._file(url)
             data, name = path.read_bytes(), path.name
@@ -95,7 +97,7 @@ class Pictures:
 
     def _file(self, url: str) -> Path:
         by_key: dict[str, Path] = {}
-        for path in self._files():
+        for path in self._files:
             by_key.setdefault(_key(str(path.relative_to(self._folder or path.parent))), path)
         without_query = re.split(r"[?#]", url, maxsplit=1)[0]
         for written in (url, unescape(url), without_query):
@@ -107,6 +109,7 @@ class Pictures:
                     return found
         raise NotShownError(f"{_named(unquote(url))} was not handed in with the notebook")
 
+    @cached_property
     def _files(self) -> list[Path]:
         return list(islice(_plain_files(self._folder), MOST_FILES)) if self._folder else []
 
@@ -173,8 +176,10 @@ def _fit(data: bytes, name: str) -> tuple[str, bytes]:
     from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
-        with warnings.catch_warnings(), Image.open(io.BytesIO(data), formats=READABLE) as image:
-            warnings.simplefilter("ignore")
+        with (
+            warnings.catch_warnings(action="ignore"),  # of large or of odd pictures
+            Image.open(io.BytesIO(data), formats=READABLE) as image,
+        ):
             if image.width * image.height > MOST_PIXELS:
                 raise NotShownError(f"{name} has more than {MOST_PIXELS // 1_000_000} megapixels")
             kind = SHOWN_BY_BROWSERS.get(image.format or "")
