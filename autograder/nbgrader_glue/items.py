@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 
 from nbformat import NotebookNode
 
-from autograder.judging.verdict import State
 from autograder.notebook.grade import is_judged
 from autograder.notebook.letter import HEAD, is_letter
 from autograder.notebook.outputs import read_verdict
 from autograder.notebook.recognise import grade_id
+from autograder.notebook.scores import could_not_be_judged
 from autograder.problems import CHECKS
 
 UNREAD = "unread"  # in a graded cell's settings: a person has not decided on it yet
@@ -119,7 +119,7 @@ def _item(cell: NotebookNode, cells: list[NotebookNode], headings: dict[str, str
     state, kind = "marked", "right" if score >= points else "wrong"
     if found:
         state = str(found["state"])
-        kind = "open" if state == State.CHECK_FAILED else kind
+        kind = "open" if could_not_be_judged(cell) else kind
     elif claims.get(UNREAD):
         state, kind = "not yet read", "open"
     elif score >= points:

@@ -151,6 +151,9 @@ def test_a_proof_is_read_and_marked_in_the_formgrader(formgrader, server, taught
     courses.run(taught, "nbgrader", "generate_feedback", P3)
     assert "0 of 15 points" in before
     assert "4 of 15 points" in returned(taught).read_text()
+    made = returned(taught).stat().st_mtime_ns
+    courses.run(taught, "nbgrader", "generate_feedback", P3)
+    assert returned(taught).stat().st_mtime_ns == made
 
 
 def returned(root: Path) -> Path:

@@ -41,7 +41,7 @@ class Parts(HTMLParser):
         self.attributes |= {(name, value) for name, value in attributes}
 
 
-@pytest.mark.parametrize("latex", [r"\text{<img src=x onerror=forged()>}", 
+@pytest.mark.parametrize("latex", [r"\text{<img src=x onerror=forged()>}",
     r"\href{javascript:forged()}{x}", r"\style{background:url(//forged)}{x}", r"\class{btn-success}{x}",
     r"\text{</math><script>forged()</script>}",
     r"\mathbackground{x}", r"\colorbox{white}{\color{white}x}", "<script>forged()</script>",
