@@ -13,7 +13,8 @@ from nbgrader.api import Gradebook, MissingEntry
 from autograder.digest import digest
 from autograder.nbgrader_glue import worked
 
-MADE_OF = re.compile(r'<meta name="armdyn-made-of" content="(\w+)">')
+# nbconvert writes a tag's settings in an order of its own.
+MADE_OF = re.compile(r'<meta\b(?=[^>]*\bname="armdyn-made-of")[^>]*\bcontent="(\w+)"')
 TEMPLATES = Path(__file__).with_name("templates")
 
 
