@@ -17,6 +17,7 @@ from autograder.notebook.scores import could_not_be_judged
 from autograder.problems import CHECKS
 
 UNREAD = "unread"  # in a graded cell's settings: a person has not decided on it yet
+NO_RESPONSE = "No response."  # as nbgrader says it
 HEADING = re.compile(r"^#{1,6}[ \t]+(.+?)[ \t#]*$", re.MULTILINE)
 # "A. The matrix of the arm (4 points)": only the words are the title.
 NUMBER = re.compile(r"^[A-Z0-9]{1,2}[.)] +")
@@ -124,7 +125,13 @@ def _item(cell: NotebookNode, cells: list[NotebookNode], headings: dict[str, str
         state, kind = "not yet read", "open"
     elif score >= points:
         state = "full marks"
-    comments = [(one.metadata.get("nbgrader") or {}).get("comment") for one in cells]
+    # Of lines that were left empty, their card speaks already.
+    comments = [
+        said
+        for one in cells
+        if (said := (one.metadata.get("nbgrader") or {}).get("comment"))
+        and (one is cell or said != NO_RESPONSE)
+    ]
     return Item(
         name,
         _title(cell, headings.get(name, "")),
@@ -133,7 +140,7 @@ def _item(cell: NotebookNode, cells: list[NotebookNode], headings: dict[str, str
         number(score),
         number(points),
         cells,
-        [said for said in comments if said],
+        comments,
     )
 
 

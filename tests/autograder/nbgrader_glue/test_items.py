@@ -141,5 +141,7 @@ def test_comments_stand_with_the_answer():
     mine.cells.append(new_code_cell("1"))
     proof = next(cell for cell in mine.cells if grade_id(cell) == "p3-derivation")
     proof.metadata.nbgrader["comment"] = "well done"
+    lines = next(cell for cell in mine.cells if grade_id(cell) == "answer-p3-L")
+    lines.metadata.nbgrader["comment"] = "No response."
     _, items = arranged(mine, P3.source)
     assert [item.comments for item in items if item.id == "p3-derivation"] == [["well done"]]
