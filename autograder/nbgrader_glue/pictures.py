@@ -131,10 +131,10 @@ def _key(name: str) -> str:
     """The same for all ways in which systems and editors write one file's name; "" for no name of a
     file beside the notebook.
     """
-    # Compatible forms: a narrow space, as macOS puts it into names, is a space like any other.
-    parts = unicodedata.normalize("NFKC", name.replace("\\", "/")).casefold().split("/")
-    if ".." in parts or not parts[0]:
+    parts = unicodedata.normalize("NFC", name.replace("\\", "/")).casefold().split("/")
+    if not parts[0]:
         return ""
+    # A narrow space, as macOS puts it into names, is a space like any other.
     return "/".join(" ".join(part.split()) for part in parts if part not in ("", "."))
 
 
