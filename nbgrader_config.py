@@ -48,7 +48,11 @@ c.Autograde.autograde_preprocessors = nbgrader_glue.autograde_preprocessors()
 c.Autograde.exporter_class = nbgrader_glue.SUBMISSION_EXPORTER
 c.GenerateFeedback.preprocessors = nbgrader_glue.feedback_preprocessors()
 c.GenerateFeedback.exporter_class = nbgrader_glue.FEEDBACK_EXPORTER
+# The formgrader's pages and the feedback pages hold their formulas and pictures, and ask nothing of
+# another host.
 c.HTMLExporter.filters = nbgrader_glue.PAGE_FILTERS
+c.HTMLExporter.extra_template_basedirs = nbgrader_glue.page_templates()
+c.HTMLExporter.extra_template_paths = nbgrader_glue.templates_of_nbgrader()
 
 c.Application.logging_config = {"formatters": {"console": {"class": nbgrader_glue.LOG_FORMATTER}}}
 # Without, each kernel that Validate starts warns that others could read its traffic.

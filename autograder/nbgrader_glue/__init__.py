@@ -13,7 +13,9 @@ from autograder.nbgrader_glue.steps import (
     autograde_preprocessors,
     feedback_preprocessors,
     generate_preprocessors,
+    page_templates,
     sanitize_preprocessors,
+    templates_of_nbgrader,
 )
 from autograder.notebook.released import CODE_STUB, TEXT_STUB
 
@@ -28,6 +30,8 @@ __all__ = [
     "autograde_preprocessors",
     "feedback_preprocessors",
     "generate_preprocessors",
+    "page_templates",
     "sanitize_preprocessors",
+    "templates_of_nbgrader",
     "write_problem",
 ]

@@ -4,30 +4,22 @@ import copy
 import logging
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
+import nbformat
 from nbconvert.exporters import HTMLExporter
+from nbformat import NotebookNode
+from pygments.formatters import HtmlFormatter
 
+from autograder.nbgrader_glue.items import arranged, number, title_of
 from autograder.nbgrader_glue.names import leave_out_unfit
+from autograder.nbgrader_glue.renewal import Renewal
 from autograder.nbgrader_glue.start import can_start
 from autograder.nbgrader_glue.worked import with_answers
 
-# Without, nbgrader's page is as wide on a phone as on a desk, and its prompts take a third of that.
-HEAD = """<meta name="viewport" content="width=device-width, initial-scale=1">
-<style>
-img, svg { max-width: 100%; height: auto; }
-.MathJax_Display, .rendered_html table { display: block; max-width: 100%; overflow-x: auto; }
-@media (max-width: 640px) {
-  div.prompt { display: none; }
-  .container, #notebook-container, .panel-body { padding: 4px; }
-  div.inner_cell, div.output_subarea, div.text_cell_render { min-width: 0; max-width: 100%; }
-  div.output_subarea { overflow-x: visible; }
-  pre, code { white-space: pre-wrap; overflow-wrap: anywhere; word-break: normal; }
-  h1, h2, h3, h4, p, li { overflow-wrap: anywhere; }
-  div.nbgrader_cell .panel-heading { height: auto; overflow: hidden; }
-}
-</style>
-</head>"""
 MARKER = re.compile(r"^\s*### (BEGIN|END) HIDDEN TESTS[^\S\n]*\n?", re.MULTILINE)
+HEADING = re.compile(r"<(/?)h([1-6])\b([^>]*)>")
+OURS = ' class="page"'
 
 
 class FeedbackExporter(HTMLExporter):
@@ -38,11 +30,15 @@ class FeedbackExporter(HTMLExporter):
 
     def __init__(self, config=None, **kw):
         super().__init__(config=config, **kw)
-        leave_out_unfit(self.parent)
-        can_start(self.parent)
+        self._renewal = None
+        if self.parent is not None:
+            leave_out_unfit(self.parent)
+            can_start(self.parent)
+            self._renewal = Renewal(self.parent)
 
     def from_notebook_node(self, nb, resources=None, **kw):
-        """nbconvert's page, with the worked answers that are open to the student, fit for a phone.
+        """The page, as one file that asks for no other: each graded answer with what is said of it, and
+        with the worked answers that are open to the student.
 
         It has no marker of a hidden test, and no warning that most students' figures have no alternative
         text.
@@ -58,7 +54,69 @@ class FeedbackExporter(HTMLExporter):
             page, resources = super().from_notebook_node(nb, resources, **kw)
         finally:
             log.removeFilter(_is_worth_saying)
-        return page.replace("</head>", HEAD, 1), resources
+        return _with_headings_in_order(page), resources
+
+    def _preprocess(self, nb, resources):
+        """The cells in the order of the page, once they hold their grades."""
+        nb, resources = super()._preprocess(nb, resources)
+        names = resources.get("nbgrader", {})
+        source = self._source(names)
+        late = names.get("late_penalty")
+        title = title_of(source or nb) or names.get("notebook", "")
+        nb, items = arranged(nb, source)
+        resources["page"] = SimpleNamespace(
+            title=title,
+            items=items,
+            score=number(float(names.get("score") or 0)),
+            max_score=number(float(names.get("max_score") or 0)),
+            penalty=number(float(late)) if late else "",
+            unread=sum(item.kind == "open" for item in items),
+            made_of=self._made_of(names),
+            code_style=_code_style(),
+        )
+        return nb, resources
+
+    def _made_of(self, names) -> str:
+        if self._renewal is None or "student" not in names:
+            return ""
+        return self._renewal.made_of(names["assignment"], names["student"])
+
+    def _source(self, names) -> NotebookNode | None:
+        """The assignment's own notebook, if it is still there."""
+        if self.parent is None or "assignment" not in names:
+            return None
+        course = self.parent.coursedir
+        folder = Path(course.format_path(course.source_directory, ".", names["assignment"]))
+        path = folder / f"{names['notebook']}.ipynb"
+        return nbformat.read(path, as_version=4) if path.is_file() else None
+
+
+def _code_style() -> str:
+    """Colours of code, by day and by night."""
+    light, dark = (HtmlFormatter(style=name).get_style_defs(".highlight")
+                   for name in ("default", "github-dark"))  # fmt: skip
+    plain = ".highlight { background: var(--faint) !important; }"
+    return f"{light}\n@media screen and (prefers-color-scheme: dark) {{\n{dark}\n}}\n{plain}"
+
+
+def _with_headings_in_order(page: str) -> str:
+    """The page with its notebook's headings below its own, and none that skips a level, so that a screen
+    reader can go from one to the next.
+    """
+    own = level = written = 1
+
+    def placed(found: re.Match) -> str:
+        nonlocal own, level, written
+        closes, given, settings = found[1], int(found[2]), found[3]
+        if settings == OURS:
+            own = level = written = given
+            return found[0]
+        if not closes:
+            level = written = min(max(given + 2, own + 1), level + 1, 6)
+            return f"<h{written}{settings}>"
+        return f"</h{written}>"
+
+    return HEADING.sub(placed, page)
 
 
 def _without_markers(nb):

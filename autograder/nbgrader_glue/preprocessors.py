@@ -13,6 +13,7 @@ from traitlets import Unicode
 
 from autograder.files import put_in_place
 from autograder.nbgrader_glue import handed_in
+from autograder.nbgrader_glue.items import UNREAD
 from autograder.notebook.beside import Beside
 from autograder.notebook.grade import grade, is_judged
 from autograder.notebook.repair import repair
@@ -116,8 +117,14 @@ class SaveSuggestions(SaveAutoGrades):
 
 class GetDecidedGrades(GetGrades):
     """For `generate_feedback`, instead of nbgrader's GetGrades: once a person has decided on an answer,
-    the page no longer says which points its lines suggest.
+    the page no longer says which points its lines suggest. Until then the answer says that it is unread.
     """
+
+    def _get_score(self, cell, resources):
+        super()._get_score(cell, resources)
+        cell.metadata.nbgrader[UNREAD] = self.gradebook.find_grade(
+            *_place(self, cell)
+        ).needs_manual_grade
 
     def _get_comment(self, cell, resources):
         super()._get_comment(cell, resources)

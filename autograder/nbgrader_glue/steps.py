@@ -3,6 +3,9 @@
 Each list of preprocessors is that of nbgrader 0.9.6 with ours put in; a test compares them.
 """
 
+from importlib.util import find_spec
+from pathlib import Path
+
 OURS = "autograder.nbgrader_glue.preprocessors"
 # For `autograde`: what reads a submission.
 SUBMISSION_EXPORTER = "autograder.nbgrader_glue.submitted.SubmissionExporter"
@@ -12,8 +15,27 @@ FEEDBACK_EXPORTER = "autograder.nbgrader_glue.feedback.FeedbackExporter"
 GRADES_EXPORTER = "autograder.nbgrader_glue.grades.GradesExporter"
 # For every command.
 LOG_FORMATTER = "autograder.nbgrader_glue.log.PlainFormatter"
-# For the formgrader and `generate_feedback`: what shows a student's text.
-PAGE_FILTERS = {"markdown2html": "autograder.nbgrader_glue.markdown.markdown2html"}
+# For the formgrader and `generate_feedback`: what shows a student's text, formulas and pictures.
+PAGE_FILTERS = {
+    "markdown2html": "autograder.nbgrader_glue.markdown.markdown2html",
+    "with_formulas": "autograder.nbgrader_glue.formulas.with_formulas",
+    "pictures_beside": "autograder.nbgrader_glue.markdown.pictures_beside",
+}
+
+
+def page_templates() -> list[str]:
+    """The folders in which nbconvert looks for the pages' templates: ours first, then nbgrader's own."""
+    return [str(Path(__file__).with_name("templates")), *templates_of_nbgrader()]
+
+
+def templates_of_nbgrader() -> list[str]:
+    """The folder of the templates that ours build on."""
+    found = find_spec("nbgrader")
+    folders = found.submodule_search_locations if found else None
+    return [
+        str(Path(folder) / "server_extensions" / "formgrader" / "templates")
+        for folder in folders or ()
+    ]
 
 
 def sanitize_preprocessors() -> list[str]:

@@ -15,7 +15,8 @@ from autograder.proofs import card as proof_card
 from autograder.proofs.marks import Marked
 from autograder.protocol import shortened
 
-SHOWN = ("text/plain", "text/latex", "image/png")
+PICTURES = ("image/png", "image/jpeg", "image/svg+xml")
+SHOWN = ("text/plain", "text/latex", *PICTURES)
 # The runner sends no more; a forged reply may.
 MOST_TEXT = 200_000
 MOST_PICTURE = 4 << 20
@@ -128,7 +129,8 @@ class Allowance:
 
     def _has_room_for(self, output: NotebookNode) -> bool:
         size = len(json.dumps(output, ensure_ascii=False).encode(errors="replace"))
-        pictures = len(output.get("data", {}).get("image/png", ""))
+        data = output.get("data", {})
+        pictures = sum(len(data.get(kind, "").encode(errors="replace")) for kind in PICTURES)
         if size - pictures > self._text or pictures > self._pictures:
             return False
         self._text -= size - pictures
@@ -137,11 +139,23 @@ class Allowance:
 
 
 def _is_shown(kind: str, data) -> bool:
-    """Whether a feedback page may hold it: text that is not too long, or a picture without markup."""
+    """Whether a feedback page may hold it: text that is not too long, or a picture."""
     if not isinstance(data, str):
         return False
-    if kind != "image/png":
+    if kind not in PICTURES:
         return len(data) <= MOST_TEXT
-    return (
-        len(data) <= MOST_PICTURE and re.fullmatch(r"[A-Za-z0-9+/\s]*={0,2}\s*", data) is not None
-    )
+    if len(data) > MOST_PICTURE:
+        return False
+    if kind == "image/svg+xml":
+        return _is_drawing(data)
+    return re.fullmatch(r"[A-Za-z0-9+/\s]*={0,2}\s*", data) is not None
+
+
+def _is_drawing(text: str) -> bool:
+    """Whether a browser can draw it; a page shows it as a picture, in which no script runs."""
+    from defusedxml import ElementTree
+
+    try:
+        return str(ElementTree.fromstring(text.encode()).tag).endswith("svg")
+    except Exception:  # no XML, or XML that unfolds itself without end
+        return False

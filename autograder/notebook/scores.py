@@ -14,6 +14,13 @@ from autograder.notebook.grade import Graded, is_judged
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.suggestion import suggest
 
+CHECK_FAILED = "CheckFailed"
+
+
+def could_not_be_judged(cell: NotebookNode) -> bool:
+    """Whether a judged cell's check failed, so that it has no score of its own."""
+    return any(one.get("ename") == CHECK_FAILED for one in cell.get("outputs", []))
+
 
 def with_verdicts(graded: Graded) -> NotebookNode:
     """The judged notebook, with outputs of its grade cells from which nbgrader reads the scores, and
@@ -35,7 +42,7 @@ def outputs_for(verdict: Verdict, points: float) -> list[NotebookNode]:
     shown = outputs.of_verdict(verdict)
     if verdict.state is State.CHECK_FAILED:
         text = "this cell could not be judged and has no score yet"
-        error = outputs.error("CheckFailed", text, [text])
+        error = outputs.error(CHECK_FAILED, text, [text])
         return [shown, error]
     credit = min(max(0.0, float(verdict.credit)), 1.0)  # in this order NaN is 0 as well
     score = repr(credit * float(points))

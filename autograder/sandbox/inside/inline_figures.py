@@ -28,9 +28,12 @@ def only_pictures():
     setattr(rcsetup, "validate_backend", inline)  # noqa: B010
     matplotlib.RcParams.validate["backend"] = inline
     matplotlib.rcParams["backend"] = INLINE
-    pylabtools.select_figure_formats = lambda shell, formats, **options: select(
-        shell, {"png"}, **options
-    )
+
+    def select_png(shell, formats, **options):
+        options.pop("format", None)  # of the file, whatever the output says that it is
+        select(shell, {"png"}, **options)
+
+    pylabtools.select_figure_formats = select_png
 
 
 def show_rest():

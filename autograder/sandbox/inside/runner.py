@@ -28,8 +28,8 @@ MOST_LEFT_OUT = 500  # characters about a line that was left out
 # Quick calls are answered together, as waking the judge costs more than a call.
 HELD_SECONDS = 0.02
 # What a feedback page shows of a student's output. No HTML or JavaScript: it would run in the
-# instructor's browser.
-SHOWN = ("text/plain", "text/latex", "image/png")
+# instructor's browser. An SVG is shown as a picture, in which nothing runs.
+SHOWN = ("text/plain", "text/latex", "image/png", "image/jpeg", "image/svg+xml")
 
 
 def main():

@@ -491,6 +491,29 @@ def test_no_forged_output_reaches_the_notebook(output):
     assert "execute_result" not in str(notebook)
 
 
+DRAWING = '<svg xmlns="http://www.w3.org/2000/svg"><rect width="9" height="9"/></svg>'
+
+
+@pytest.mark.parametrize(
+    ("kind", "data", "is_shown"),
+    [
+        ("image/jpeg", "/9j/4AAQ", True),
+        ("image/jpeg", "<script>", False),
+        ("image/svg+xml", DRAWING, True),
+        ("image/svg+xml", DRAWING[:-6], False),
+        ("image/svg+xml", "<b>no drawing</b>", False),
+        ("image/svg+xml", '<!DOCTYPE b [<!ENTITY a "a">]><svg>&a;</svg>', False),
+    ],
+)
+def test_pictures_are_kept_if_they_are_some(kind, data, is_shown):
+    written = outputs.of_student(
+        {"output_type": "display_data", "data": {kind: data, "text/plain": "p"}}
+    )
+    assert written is not None
+    assert (kind in written["data"]) == is_shown
+    assert written["data"]["text/plain"] == "p"
+
+
 def text_of(size):
     return {"output_type": "stream", "name": "stdout", "text": "x" * size}
 

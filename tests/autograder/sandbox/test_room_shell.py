@@ -94,6 +94,8 @@ BACKENDS = """
 %pylab tk
 %gui tk
 %config InlineBackend.figure_format = 'svg'
+%config InlineBackend.print_figure_kwargs = {'format': 'svg'}
+from matplotlib_inline.backend_inline import set_matplotlib_formats; set_matplotlib_formats('jpeg')
 get_ipython().run_line_magic("matplotlib", "inline")
 get_ipython().enable_matplotlib("qt")
 import matplotlib; matplotlib.use("TkAgg")
