@@ -30,7 +30,7 @@ html_theme_options = {
     "search_bar_text": "Search the course",
 }
 
-nb_execution_mode = "off"  # what is stored is shown; `make lessons` stores it
+nb_execution_mode = "off"  # what is stored is shown (`make lessons` stores it), and controls.py's
 nb_ipywidgets_js = {}  # without a kernel a widget does nothing, and its scripts lie on another host
 nb_merge_streams = True
 myst_enable_extensions = ["dollarmath", "amsmath"]

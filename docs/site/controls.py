@@ -45,6 +45,7 @@ def has_control(lesson: Path) -> bool:
 def control_of(lesson: Path) -> Control:
     """The lesson's control. Runs, in this process, the cells up to it, but for self-tests."""
     notebook = nbformat.read(lesson, as_version=4)
+    InteractiveShell.clear_instance()
     shell = InteractiveShell.instance()
     here = Path.cwd()
     os.chdir(lesson.parent)
@@ -58,6 +59,7 @@ def control_of(lesson: Path) -> Control:
                     if isinstance(getattr(value, "widget", None), ipywidgets.interactive):
                         return _control(cell.id, value.widget)
     finally:
+        InteractiveShell.clear_instance()
         os.chdir(here)
     raise ValueError(f"{lesson.name}: no cell made a control by ipywidgets.interact")
 

@@ -60,7 +60,7 @@ def _values(part: Input, stride: int) -> list[int]:
 def _strides(part: Input) -> list[int]:
     zero = part.values.index(0) if 0 in part.values else part.start
     far = max(part.start, len(part.values) - 1 - part.start)
-    return [s for s in STRIDES if (zero - part.start) % s == 0 and s <= far]
+    return [s for s in STRIDES if (zero - part.start) % s == 0 and s <= max(far, 1)]
 
 
 def _count(kept: list[list[int]], together: int) -> int:
