@@ -121,6 +121,17 @@ def test_the_page_holds_each_setting_as_the_function_draws_it(control):
     assert data["together"] == 3
 
 
+def test_axes_that_change_are_refused(control):
+    def moves(fig, height):
+        fig.axes[0].set_ylim(-height, height)
+        return "Axes."
+
+    changing = Control("99", (slider(1, 3, 1, 1),), plotting.live(control.live.figure)(moves),
+                       lambda values: {"height": values[0]})  # fmt: skip
+    with pytest.raises(ValueError, match="99: its axes change with its inputs"):
+        element(changing, 100)
+
+
 def test_the_control_of_a_lesson_is_what_its_cell_says():
     control = control_of(ROOT / "lessons" / "06-linearity-in-parameters.ipynb")
     noise, samples = control.inputs

@@ -27,7 +27,10 @@ def _write(lesson: Path, folder: Path, most: int) -> None:
 
 
 def element(control: Control, most: int) -> str:
-    """The still picture, and the data that controls.js makes a control of, deflated."""
+    """The still picture, and the data that controls.js makes a control of, deflated.
+
+    Raises ValueError where the axes change with the inputs: a page holds them once.
+    """
     kept, together = choose(control.inputs, most)
     starts = [values.index(part.start) for values, part in zip(kept, control.inputs, strict=True)]
 
@@ -36,6 +39,7 @@ def element(control: Control, most: int) -> str:
         return control.arguments(tuple(part.values[values[k]] for part, values, k in places))
 
     still = control.live(**arguments(tuple(starts)))
+    background = quick_png(control.live.background())
     width, height = size_in_pixels(control.live.figure)
     parts: dict[str, int] = {}
     frames = {}
@@ -43,6 +47,8 @@ def element(control: Control, most: int) -> str:
         drawn, alt = control.live.strokes(**arguments(setting))
         numbers = [parts.setdefault(part, len(parts)) for part in drawn]
         frames[",".join(map(str, setting))] = [alt, *numbers]
+        if control.live.background_changed:
+            raise ValueError(f"{control.cell}: its axes change with its inputs; set their limits")
     data = {
         "size": [width, height],
         "inputs": [
@@ -58,7 +64,7 @@ def element(control: Control, most: int) -> str:
             len(v) < len(part.values) for v, part in zip(kept, control.inputs, strict=True)
         ),
         "together": together,
-        "background": quick_png(control.live.background()),
+        "background": background,
         "parts": list(parts),
         "frames": frames,
     }

@@ -63,6 +63,7 @@ class Live:
         self.figure = figure
         self._function = function
         self._stays = {id(artist) for artist in _artists(figure)}
+        self.background_changed = False  # at the last call, of those after the first
         self._axes_drawn: Any = None
         self._background: Any = None
 
@@ -116,6 +117,7 @@ class Live:
     def _draw_what_stays(self, moving: list[Artist]) -> None:
         """Lays the figure out and keeps its pixels, where the axes are not as they were."""
         axes = [_limits_and_labels(ax) for ax in self.figure.axes]
+        self.background_changed = self._axes_drawn not in (None, axes)
         if axes == self._axes_drawn:
             for ax in self.figure.axes:
                 ax.apply_aspect()
