@@ -30,7 +30,7 @@ function bring(root, data) {
   const parser = new DOMParser();
   const picture = parser.parseFromString(
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${10 * width} ${10 * height}" width="${width}">` +
-      `<image width="${10 * width}" height="${10 * height}" href="data:image/png;base64,${data.background}"/><g/></svg>`,
+      `<image aria-hidden="true" width="${10 * width}" height="${10 * height}" href="data:image/png;base64,${data.background}"/><g aria-hidden="true"/></svg>`,
     "image/svg+xml",
   ).documentElement;
   picture.setAttribute("role", "img");
