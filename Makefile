@@ -74,6 +74,7 @@ bench: .venv/bench.done
 	.venv/bin/python -m tests.benchmarks.ports docs/benchmarks.md
 	.venv/bin/python -m tests.benchmarks.grading docs/benchmarks.md
 	.venv/bin/python -m tests.benchmarks.checks docs/benchmarks.md
+	.venv/bin/python -m tests.benchmarks.pictures docs/benchmarks.md
 
 site: .venv/site.done
 	.venv/bin/python -m docs.site build/site

@@ -63,3 +63,16 @@ def test_two_diagrams_share_no_id_and_keep_their_text():
     ids = [{part.split('"')[0] for part in svg.split(' id="')[1:]} for svg in (first, second)]
     assert ids[0]
     assert not ids[0] & ids[1]
+
+
+def test_a_control_stands_in_place_of_what_its_cell_stored():
+    stored = {"output_type": "display_data", "data": {"text/plain": "here"}, "metadata": {}}
+    cells = [
+        {"cell_type": "code", "id": name, "metadata": {}, "outputs": [stored], "source": ""}
+        for name in ("01-control", "01-other")
+    ]
+    text = json.dumps({"cells": cells})
+    read = json.loads(page_text("lessons/01", text, {"01-control": "<div>alive</div>"}))
+    control, other = read["cells"]
+    assert [output["data"] for output in control["outputs"]] == [{"text/html": "<div>alive</div>"}]
+    assert other["outputs"] == [stored]

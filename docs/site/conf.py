@@ -20,6 +20,7 @@ html_theme = "sphinx_book_theme"
 html_title = "armdyn"
 html_static_path = [str(Path(__file__).with_name("static"))]
 html_css_files = ["course.css"]
+html_js_files = [("controls.js", {"defer": "defer"})]
 html_sourcelink_suffix = ""
 html_theme_options = {
     "use_download_button": True,
@@ -29,7 +30,7 @@ html_theme_options = {
     "search_bar_text": "Search the course",
 }
 
-nb_execution_mode = "off"  # what is stored is shown; `make lessons` stores it
+nb_execution_mode = "off"  # what is stored is shown (`make lessons` stores it), and controls.py's
 nb_ipywidgets_js = {}  # without a kernel a widget does nothing, and its scripts lie on another host
 nb_merge_streams = True
 myst_enable_extensions = ["dollarmath", "amsmath"]

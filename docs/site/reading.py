@@ -5,6 +5,8 @@ The files that a reader can fetch stay as they are.
 
 import json
 import re
+from functools import cache
+from pathlib import Path
 
 from docutils import nodes
 from sphinx.application import Sphinx
@@ -37,8 +39,11 @@ class Mermaid(SphinxDirective):
         return [nodes.raw("", f'<div class="diagram">{drawing}</div>', format="html")]
 
 
-def page_text(name: str, text: str) -> str:
-    """What Sphinx reads as the page `name` (without its extension), where the file holds `text`."""
+def page_text(name: str, text: str, controls: dict[str, str] | None = None) -> str:
+    """What Sphinx reads as the page `name` (without its extension), where the file holds `text`.
+
+    controls: by the id of its cell, the HTML that a control is on the page.
+    """
     if not name.startswith(("lessons/", "problems/")):
         return links(text)
     notebook = json.loads(text)
@@ -51,6 +56,9 @@ def page_text(name: str, text: str) -> str:
         if folded in FOLDED:
             tags = cell["metadata"].get("tags", [])
             cell["metadata"]["tags"] = [*tags, FOLDED[folded]]
+        if controls and cell["id"] in controls:
+            output = {"output_type": "display_data", "metadata": {}}
+            cell["outputs"] = [output | {"data": {"text/html": controls[cell["id"]]}}]
     return json.dumps(notebook)
 
 
@@ -84,7 +92,12 @@ def is_told(cell: dict) -> bool:
 
 
 def _read(app: Sphinx, name: str, source: list[str]) -> None:
-    source[0] = page_text(name, source[0])
+    source[0] = page_text(name, source[0], _controls(app.config.controls_folder))
+
+
+@cache
+def _controls(folder: str) -> dict[str, str]:
+    return {path.stem: path.read_text(encoding="utf-8") for path in Path(folder).glob("*.html")}
 
 
 def _read_docstring(app: Sphinx, what, name, obj, options, lines: list[str]) -> None:
@@ -98,6 +111,7 @@ def _skip(app: Sphinx, what, name, obj, skip: bool, options) -> bool | None:
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
+    app.add_config_value("controls_folder", "", "env", str)
     app.add_directive("mermaid", Mermaid)
     app.connect("source-read", _read)
     app.connect("autodoc-skip-member", _skip)

@@ -48,8 +48,9 @@ def site(tmp_path_factory) -> Path:
     why = "needs myst_nb: pip install -c constraints.txt -e .[site]"
     pytest.importorskip("myst_nb", reason=why)
     folder = tmp_path_factory.mktemp("site") / "pages"
+    few = ["--pictures", "60"]  # of a control: they take most of the time
     made = subprocess.run(
-        [sys.executable, "-m", "docs.site", folder], cwd=ROOT, capture_output=True, text=True
+        [sys.executable, "-m", "docs.site", folder, *few], cwd=ROOT, capture_output=True, text=True
     )
     assert (made.returncode, made.stderr) == (0, ""), made.stdout
     return folder
@@ -168,6 +169,84 @@ def test_an_animation_plays(tab, site):
     player.get_by_role("button").click()
     expect(clock).not_to_have_text(before)
     assert tab.trouble == []
+
+
+class Control:
+    """A lesson's control on its page."""
+
+    def __init__(self, tab, site, lesson):
+        tab.goto((site / "lessons" / f"{lesson}.html").as_uri())
+        self.root = tab.locator("[data-control]")
+        expect(self.root).to_have_attribute("data-live", "")
+        self.picture = self.root.locator("> svg")
+        self.sliders = self.root.get_by_role("slider")
+
+    @property
+    def drawn(self) -> str:
+        return self.picture.locator("> g").inner_html()
+
+
+def test_each_control_is_alive(tab, site):
+    lessons = [
+        path.stem
+        for path in sorted(ROOT.glob("lessons/*.ipynb"))
+        if "ipywidgets.interact(" in path.read_text(encoding="utf-8")
+    ]
+    assert len(lessons) == 7
+    for lesson in lessons:
+        control = Control(tab, site, lesson)
+        for slider in control.sliders.all():
+            before, text = control.drawn, control.picture.get_attribute("aria-label")
+            slider.focus()
+            at_end = slider.input_value() == slider.get_attribute("max")
+            tab.keyboard.press("Home" if at_end else "End")
+            expect(control.picture).not_to_have_attribute("aria-label", text)
+            assert control.drawn != before, (lesson, text)
+            assert slider.get_attribute("aria-valuetext")
+        expect(control.picture).to_have_attribute("role", "img")
+        assert control.root.locator("> img").is_hidden()
+    assert tab.trouble == []
+
+
+def test_a_control_says_what_it_shows_and_leads_back(tab, site):
+    control = Control(tab, site, "01-canonical-form")
+    first, *_, last = control.sliders.all()
+    start = control.drawn
+    expect(control.picture).to_have_accessible_name(re.compile(r"q = \(0\.5, 1\.0\) rad"))
+    first.press("ArrowRight")
+    moved = control.drawn
+    expect(first).not_to_have_attribute("aria-valuetext", "0.5")
+    last.press("ArrowRight")  # of these six sliders only one at a time may be away from its start
+    expect(first).to_have_attribute("aria-valuetext", "0.5")
+    assert control.drawn not in (start, moved)
+    control.root.get_by_role("button", name="Back to the start").click()
+    assert control.drawn == start
+    expect(control.root).to_contain_text("One slider at a time can be away from the start")
+
+
+def test_a_control_of_boxes(tab, site):
+    control = Control(tab, site, "10-state-space-and-simulation")
+    box = control.root.get_by_role("checkbox", name="euler", exact=True)
+    expect(control.picture).to_have_accessible_name(re.compile(r"^Step 0\.01 s: euler"))
+    box.uncheck()
+    expect(control.picture).to_have_accessible_name(re.compile(r"^Step 0\.01 s: semi_implicit"))
+
+
+def test_on_paper_a_control_is_its_first_picture(tab, site):
+    tab.emulate_media(media="print")
+    control = Control(tab, site, "05-gravity")
+    assert control.root.locator("> img").is_visible()
+    assert control.picture.is_hidden()
+    assert control.sliders.first.is_hidden()
+
+
+@pytest.mark.parametrize("tab", [False], indirect=True)
+def test_without_scripts_a_control_is_its_first_picture(tab, site):
+    tab.goto((site / "lessons" / "05-gravity.html").as_uri())
+    still = tab.locator("[data-control] > img")
+    expect(still).to_have_accessible_name(re.compile(r"^The arm at q = \(20, 60\) degrees"))
+    assert still.bounding_box()["width"] > 300
+    assert tab.locator("[data-control] input").count() == 0
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -17,10 +17,11 @@ from armdyn.plotting.arm import draw_arm, draw_trace, tip
 from armdyn.plotting.block_diagram import draw_block_diagram
 from armdyn.plotting.ellipse import draw_inertia_ellipse, inertia_ellipses
 from armdyn.plotting.landscape import energy_landscape
+from armdyn.plotting.live import Live, live
 from armdyn.plotting.phase import draw_phase, phase_portrait
 from armdyn.plotting.picture import OVERSAMPLING, PIXELS_PER_INCH, Picture
 from armdyn.plotting.style import DASHES, LINES, OKABE_ITO, STYLE, figure
-from armdyn.plotting.torques import TERMS, terms, torque_terms
+from armdyn.plotting.torques import TERMS, draw_torque_terms, terms, torque_axes, torque_terms
 
 __all__ = [
     "DASHES",
@@ -31,17 +32,21 @@ __all__ = [
     "STYLE",
     "TERMS",
     "Animation",
+    "Live",
     "Picture",
     "draw_arm",
     "draw_block_diagram",
     "draw_inertia_ellipse",
     "draw_phase",
+    "draw_torque_terms",
     "draw_trace",
     "energy_landscape",
     "figure",
     "inertia_ellipses",
+    "live",
     "phase_portrait",
     "terms",
     "tip",
+    "torque_axes",
     "torque_terms",
 ]

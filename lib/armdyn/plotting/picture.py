@@ -29,14 +29,17 @@ class Picture:
         check_alt(self.alt)
 
     def _repr_mimebundle_(self, include=None, exclude=None):
-        png = encoded_png(self.figure)
-        width, height = size_in_pixels(self.figure)
-        data = {
-            "text/html": image_tag(png, self.alt, width),
-            "image/png": png,
-            "text/plain": self.alt,
-        }
-        return data, {"image/png": {"alt": self.alt, "width": width, "height": height}}
+        return picture_bundle(encoded_png(self.figure), self.alt, size_in_pixels(self.figure))
+
+
+def picture_bundle(
+    png: str, alt: str, size: tuple[int, int], tag: str = ""
+) -> tuple[dict[str, str], dict[str, dict]]:
+    """What a notebook shows of a picture, and what it has to know of it; png in base64."""
+    width, height = size
+    tag = tag or image_tag(png, alt, width)
+    data = {"text/html": tag, "image/png": png, "text/plain": alt}
+    return data, {"image/png": {"alt": alt, "width": width, "height": height}}
 
 
 def check_alt(alt: str) -> None:
@@ -49,15 +52,28 @@ def size_in_pixels(figure: Figure) -> tuple[int, int]:
     return width, height
 
 
-def image_tag(png: str, alt: str, width: int) -> str:
-    return f'<img src="data:image/png;base64,{png}" alt="{html.escape(alt)}" width="{width}">'
+def image_tag(png: str, alt: str, width: int, height: int | None = None) -> str:
+    """With the height, a page knows the image's place before the image is decoded."""
+    place = "" if height is None else f' height="{height}" style="height:auto"'
+    return (
+        f'<img src="data:image/png;base64,{png}" alt="{html.escape(alt)}" width="{width}"{place}>'
+    )
 
 
 def encoded_png(figure: Figure, oversampling: float = OVERSAMPLING, colours: int = 64) -> str:
     """PNG with few colours, in base64: a third of the size, which counts in a notebook in git."""
-    drawn, small = io.BytesIO(), io.BytesIO()
+    drawn = io.BytesIO()
     figure.savefig(drawn, format="png", dpi=oversampling * PIXELS_PER_INCH)
     with Image.open(drawn) as image:
-        reduced = image.convert("RGB").quantize(colours, Image.Quantize.FASTOCTREE)
-    reduced.save(small, format="png", optimize=True)
-    return base64.b64encode(small.getvalue()).decode()
+        return _few_colours(image.convert("RGB"), colours, optimize=True)
+
+
+def quick_png(image: Image.Image) -> str:
+    """The same of pixels, written at once and a little larger."""
+    return _few_colours(image, 64, compress_level=1)
+
+
+def _few_colours(image: Image.Image, colours: int, **how) -> str:
+    file = io.BytesIO()
+    image.quantize(colours, Image.Quantize.FASTOCTREE).save(file, format="png", **how)
+    return base64.b64encode(file.getvalue()).decode()

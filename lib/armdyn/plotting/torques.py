@@ -33,15 +33,43 @@ def torque_terms(
     """
     values = terms(model, q, qd, qdd)
     limit = 1.25 * max(np.abs(values).max(), 1e-9) if limit is None else limit
+    fig = torque_axes(model.n, limit)
+    draw_torque_terms(fig, model, q, qd, qdd)
+    return fig
+
+
+@styled
+def torque_axes(joints: int, limit: float) -> Figure:
+    """A figure for `draw_torque_terms`: axes for an arm, and for the torques of each of its joints.
+
+    limit: the axes of the torques run from −limit to limit, N·m.
+    """
     fig = StyledFigure(figsize=(8, 3.8))
     parts: Any = fig.subfigures(1, 2, width_ratios=(1, 1.15))
     arm, bars = parts
-    draw_arm(arm.subplots(), model, q)
-    axes = bars.subplots(model.n, 1, sharex=True, squeeze=False)[:, 0]
+    arm.subplots()
+    axes = bars.subplots(joints, 1, sharex=True, squeeze=False)[:, 0]
     for joint, ax in enumerate(axes):
-        _draw_bars(ax, values[:, joint], limit)
-        ax.set_ylabel(f"joint {joint + 1} (N·m)" if model.n > 1 else "torque (N·m)")
+        ax.axhline(0, color="black", linewidth=1)
+        names = [name for name, *_ in TERMS]
+        ax.set(ylim=(-limit, limit), xticks=range(len(TERMS)), xticklabels=names)
+        ax.set(xlim=(-0.6, len(TERMS) - 0.4))
+        ax.set_ylabel(f"joint {joint + 1} (N·m)" if joints > 1 else "torque (N·m)")
     return fig
+
+
+@styled
+def draw_torque_terms(
+    figure: Figure, model: Manipulator, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike
+) -> None:
+    """Draw the arm at q, and M q̈, C q̇, g, f and u as bars, on a figure of `torque_axes`.
+
+    q (rad), qd (rad/s), qdd (rad/s²): (n,).
+    """
+    arm, *bars = figure.axes
+    draw_arm(arm, model, q)
+    for ax, values in zip(bars, terms(model, q, qd, qdd).T, strict=True):
+        _draw_bars(ax, values)
 
 
 def terms(model: Manipulator, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> np.ndarray:
@@ -51,7 +79,8 @@ def terms(model: Manipulator, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> np
     return np.stack([*parts, sum(parts)])
 
 
-def _draw_bars(ax, values, limit) -> None:
+def _draw_bars(ax, values) -> None:
+    limit = ax.get_ylim()[1]
     for place, (value, (_, colour, hatch)) in enumerate(zip(values, TERMS, strict=True)):
         ax.bar(place, value, 0.6, color=colour, hatch=hatch, edgecolor="black", linewidth=0.8)
         height = np.clip(value, -0.8 * limit, 0.8 * limit)
@@ -59,5 +88,3 @@ def _draw_bars(ax, values, limit) -> None:
         # + 0.0 turns a rounded −0.0 into 0.0
         label = f"{round(value, 1) + 0.0:.1f}"
         ax.text(place, height + gap * limit, label, ha="center", va=side, fontsize=9)
-    ax.axhline(0, color="black", linewidth=1)
-    ax.set(ylim=(-limit, limit), xticks=range(len(TERMS)), xticklabels=[name for name, *_ in TERMS])
