@@ -11,7 +11,7 @@ import pytest
 
 from armdyn import plotting
 from docs.site.controls import Control, Input, control_of, has_control
-from docs.site.frames import element
+from docs.site.frames import element, fitting
 from docs.site.grid import choose, settings
 
 ROOT = Path(__file__).parents[1]
@@ -119,6 +119,14 @@ def test_the_page_holds_each_setting_as_the_function_draws_it(control):
         assert alt == said
     assert not data["coarser"]
     assert data["together"] == 3
+
+
+def test_a_control_that_is_too_long_for_a_page_has_fewer_pictures(control):
+    whole = element(control, 100)
+    assert fitting(control, 100, len(whole)) == whole
+    shorter = fitting(control, 100, len(whole) - 1)
+    assert len(shorter) < len(whole)
+    assert unpacked(shorter)["coarser"] or unpacked(shorter)["together"] < 3
 
 
 def test_axes_that_change_are_refused(control):

@@ -11,9 +11,15 @@ from armdyn.plotting.picture import image_tag, quick_png, size_in_pixels
 from docs.site.controls import Control, control_of, has_control
 from docs.site.grid import choose, settings
 
+# A page with its text and its figures then stays below 2 MB.
+LARGEST = 1_500_000
+
 
 def write_controls(lessons: Path, folder: Path, most: int) -> None:
-    """Write a file, CELL.html, into the folder for each control; most: its pictures, at most."""
+    """Write a file, CELL.html, into the folder for each control.
+
+    most: its pictures, at most; fewer, where they would be more than a page may hold.
+    """
     folder.mkdir()
     paths = sorted(filter(has_control, lessons.glob("*.ipynb")))
     # A process a lesson: the names that one defines are not another's.
@@ -23,7 +29,14 @@ def write_controls(lessons: Path, folder: Path, most: int) -> None:
 
 def _write(lesson: Path, folder: Path, most: int) -> None:
     control = control_of(lesson)
-    (folder / f"{control.cell}.html").write_text(element(control, most), encoding="utf-8")
+    (folder / f"{control.cell}.html").write_text(fitting(control, most), encoding="utf-8")
+
+
+def fitting(control: Control, most: int, largest: int = LARGEST) -> str:
+    """The control's element, with half as many pictures until it is no longer than `largest`."""
+    while len(text := element(control, most)) > largest and most > 1:
+        most //= 2
+    return text
 
 
 def element(control: Control, most: int) -> str:
