@@ -61,6 +61,22 @@ def answers(text: str) -> list[str]:
     return found
 
 
+def there(text: str) -> Path:
+    """A file or a folder that is there."""
+    path = Path(text)
+    if not text or not path.exists():
+        raise ArgumentTypeError(f"there is no file {text[:LONGEST_NAME]!r}")
+    return path
+
+
+def pair(text: str) -> tuple[str, str]:
+    """An assignment and a heading, as "p3-pendulum=Homework 3 (123)"."""
+    assignment, equals, heading = text.partition("=")
+    if not (assignment.strip() and equals and heading.strip()):
+        raise ArgumentTypeError(f"{text[:LONGEST_NAME]!r} is no ASSIGNMENT=HEADING")
+    return assignment.strip(), heading.strip()
+
+
 def new_file(text: str) -> Path:
     """A file that can be written, or written over."""
     path = Path(text)

@@ -27,7 +27,7 @@ def read_class(root: Path, assignment: str) -> Class:
     config = configuration(root)
     config.CourseDirectory.assignment_id = assignment
     folders = Folders(config, assignment)
-    rows = Rows(folders.course.db_url, folders.course.course_id, assignment, penalty=None)
+    rows = Rows(folders.course.db_url, folders.course.course_id, assignment)
     try:
         standings, most = rows.standings(), sum(rows.points.values())
     finally:

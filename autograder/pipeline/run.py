@@ -202,6 +202,8 @@ class _Run:
         counts = [f"{count} {state}" for state, count in Counter(states).items()]
         if standing.to_read:
             counts.append(f"{standing.to_read} to be read")
+        if standing.late:
+            counts.append(standing.late)
         self._lines[student] = Line(
             student,
             standing.score,

@@ -1,0 +1,189 @@
+"""The commands around a term: hand-ins in, marks out, and a student who leaves."""
+
+import argparse
+import sys
+from collections.abc import Callable
+from datetime import UTC
+from pathlib import Path
+
+from autograder import arguments as argument
+from autograder.terminal import say, shown_name, shown_note
+
+MOODLE, CANVAS, CSV = "moodle", "canvas", "csv"
+
+
+def add_to(commands) -> None:
+    """Add the commands to the parser's."""
+    collecting = commands.add_parser(
+        "collect-zip", help="take hand-ins out of the archives of Moodle or Canvas"
+    )
+    collecting.add_argument("assignment", type=argument.name, help="such as p3-pendulum")
+    collecting.add_argument(
+        "archives",
+        nargs="+",
+        type=argument.there,
+        metavar="ARCHIVE",
+        help="a zip archive, or a folder it was unpacked to; several in the order of their download",
+    )
+    collecting.add_argument(
+        "--sheet",
+        type=argument.there,
+        help="Moodle's grading worksheet of this assignment, for the times and for names that are not "
+        "unique; or Canvas's gradebook",
+    )
+    _add_roster(collecting)
+    collecting.add_argument(
+        "--latest", action="store_true", help="the last hand-in counts, though it is late"
+    )
+    exporting = commands.add_parser(
+        "export", help="put the marks into a sheet of Moodle or Canvas, or write a table"
+    )
+    exporting.add_argument(
+        "assignment",
+        nargs="*",
+        type=argument.name,
+        help="such as p3-pendulum (default: all that count); Moodle's sheet takes one",
+    )
+    exporting.add_argument("--for", dest="platform", choices=(MOODLE, CANVAS, CSV), default=CSV)
+    exporting.add_argument(
+        "--sheet", type=argument.there, help="the sheet that Moodle or Canvas gave out"
+    )
+    exporting.add_argument(
+        "--to",
+        type=argument.new_file,
+        metavar="FILE",
+        help="where to write (default: course/marks.csv, or course/marks-moodle.csv and the like)",
+    )
+    exporting.add_argument("--wide", action="store_true", help="one row a student")
+    exporting.add_argument(
+        "--count",
+        type=argument.answers,
+        metavar="A,B",
+        help="these alone count, as p1-inertia,p2-…",
+    )
+    exporting.add_argument(
+        "--leave-out", type=argument.answers, metavar="A,B", help="these do not count"
+    )
+    exporting.add_argument(
+        "--with-unread",
+        action="store_true",
+        help="give points also where a proof is not yet marked: those of the checks, and those suggested",
+    )
+    exporting.add_argument(
+        "--scale", action="store_true", help="to the points of the platform, where they are others"
+    )
+    exporting.add_argument(
+        "--grade-column",
+        metavar="HEADING",
+        help="where Moodle's sheet has the grades, if not found",
+    )
+    exporting.add_argument(
+        "--column",
+        action="append",
+        default=[],
+        type=argument.pair,
+        metavar="ASSIGNMENT=HEADING",
+        help="where Canvas's sheet has an assignment's marks, if not found by its title",
+    )
+    exporting.add_argument(
+        "--feedback",
+        type=argument.new_file,
+        metavar="ZIP",
+        help="write the feedback pages, too, as the archive that Moodle takes in",
+    )
+    _add_roster(exporting)
+
+
+def _add_roster(parser) -> None:
+    parser.add_argument(
+        "--roster", type=argument.there, help="the class list (default: course/class.csv)"
+    )
+
+
+def collect_zip(root: Path, given: argparse.Namespace) -> int:
+    """Put hand-ins into course/submitted/; the exit status is 1 if one of them needs a look."""
+    from autograder import lean, roster, term_calendar  # noqa: F401  before nbformat is imported
+    from autograder.lms.collect import collect
+    from autograder.nbgrader_glue.shelf import Submissions
+
+    path = given.roster or root / roster.FILE
+    if not path.is_file():
+        return _complain(
+            f"there is no class list: write {roster.FILE}, with the first line "
+            f"{','.join(roster.COLUMNS)} and a line for each student, or name one with --roster"
+        )
+    try:
+        people = roster.read(path)
+        calendar = term_calendar.read_if_there(root)
+        done = collect(
+            given.archives,
+            given.assignment,
+            people,
+            calendar,
+            Submissions(root, given.assignment),
+            given.sheet,
+            given.latest,
+        )
+    except (OSError, ValueError) as error:
+        return _complain(str(error))
+    zone = calendar.zone or UTC
+    for line in done.lines:
+        when = (
+            line.when.astimezone(zone).strftime("%Y-%m-%d %H:%M %Z")
+            if line.when
+            else "at no known time"
+        )
+        notes = "; ".join(line.notes)
+        said = (
+            f"{shown_name(line.student)}: {'taken' if line.changed else 'left'}, handed in {when}"
+        )
+        say(shown_note(f"{said}; {notes}" if notes else said))
+    taken = sum(line.changed for line in done.lines)
+    missing = len(people.people) - len(done.lines)
+    say(
+        f"\n{taken} taken, {len(done.lines) - taken} left as they were, {missing} of the class not there"
+    )
+    if done.faults:
+        say("\nTo be looked at:")
+        for fault in done.faults:
+            say(f"  {shown_note(fault)}")
+    return 1 if done.faults else 0
+
+
+def export(root: Path, given: argparse.Namespace) -> int:
+    """Write the marks; the exit status is 1 if somebody's could not be."""
+    from autograder import lean, roster, term_calendar  # noqa: F401  before nbformat is imported
+    from autograder.files import put_in_place
+    from autograder.lms import export as exporting
+    from autograder.nbgrader_glue.marks import pages_of, read_marks
+
+    if why := exporting.refusal(given):
+        return _complain(why)
+    try:
+        calendar = term_calendar.read_if_there(root)
+        people = roster.read(given.roster) if given.roster else roster.read_if_there(root)
+        marks, lines = read_marks(root, people)
+        chosen, left_out = exporting.chosen(marks, calendar, given)
+        written = exporting.written(chosen, given, lambda: pages_of(root, given.assignment[0]))
+        for path, content in written.files.items():
+            put_in_place(path if path.is_absolute() else root / path, content)
+    except (OSError, ValueError) as error:
+        return _complain(str(error))
+    for line in [*lines, *left_out, *written.lines]:
+        say(shown_note(line))
+    if written.faults:
+        say("\nTo be looked at:")
+        for fault in written.faults:
+            say(f"  {shown_note(fault)}")
+    return 1 if written.faults else 0
+
+
+COMMANDS: dict[str, Callable[[Path, argparse.Namespace], int]] = {
+    "collect-zip": collect_zip,
+    "export": export,
+}
+
+
+def _complain(what: str, status: int = 2) -> int:
+    say(f"autograder: {what}", sys.stderr)
+    return status
