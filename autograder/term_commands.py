@@ -67,7 +67,7 @@ def add_to(commands) -> None:
     exporting.add_argument(
         "--with-unread",
         action="store_true",
-        help="give points also where a proof is not yet marked: those of the checks, and those suggested",
+        help="give points also where a proof is not yet marked: the checks', and those suggested",
     )
     exporting.add_argument(
         "--scale", action="store_true", help="to the points of the platform, where they are others"
@@ -92,6 +92,11 @@ def add_to(commands) -> None:
         help="write the feedback pages, too, as the archive that Moodle takes in",
     )
     _add_roster(exporting)
+    forgetting = commands.add_parser(
+        "forget", help="remove all that the course keeps about a student who has left it"
+    )
+    forgetting.add_argument("student", metavar="ID", help="the name of the student's folder")
+    forgetting.add_argument("--yes", action="store_true", help="do not ask first")
 
 
 def _add_roster(parser) -> None:
@@ -139,10 +144,8 @@ def collect_zip(root: Path, given: argparse.Namespace) -> int:
         )
         say(shown_note(f"{said}; {notes}" if notes else said))
     taken = sum(line.changed for line in done.lines)
-    missing = len(people.people) - len(done.lines)
-    say(
-        f"\n{taken} taken, {len(done.lines) - taken} left as they were, {missing} of the class not there"
-    )
+    left, missing = len(done.lines) - taken, len(people.people) - len(done.lines)
+    say(f"\n{taken} taken, {left} left as they were, {missing} of the class not there")
     if done.faults:
         say("\nTo be looked at:")
         for fault in done.faults:
@@ -178,9 +181,46 @@ def export(root: Path, given: argparse.Namespace) -> int:
     return 1 if written.faults else 0
 
 
+def forget(root: Path, given: argparse.Namespace) -> int:
+    """Remove a student from the course, after asking; the exit status is 1 if nothing was removed."""
+    from autograder import lean, roster  # noqa: F401  before nbformat is imported
+    from autograder.nbgrader_glue.forget import traces
+    from autograder.pipeline import run as pipeline
+    from autograder.pipeline.lock import locked
+
+    student = given.student
+    if roster.UNFIT_ID.search(student) or not student.strip():
+        return _complain(f"{student[:60]!r} is no student's id")
+    shown = shown_name(student)
+    try:
+        with locked(root / pipeline.LOCK, f"`autograder grade` is running in {root}"):
+            found = traces(root, student, pipeline.kept_about(root, student))
+            if not found:
+                return _complain(f"the course keeps nothing about {shown}", 1)
+            say(f"Kept about {shown}:")
+            for trace in found:
+                say(f"  {shown_note(trace.what)}")
+            if not given.yes and not _agreed("Remove all of it? It cannot be undone. [y/N] "):
+                return _complain("nothing was removed", 1)
+            for trace in found:
+                trace.remove()
+    except (OSError, ValueError) as error:
+        return _complain(str(error))
+    say("Removed. Copies that you made elsewhere, and what the student fetched, are still there.")
+    return 0
+
+
+def _agreed(question: str) -> bool:
+    try:
+        return input(question).strip().casefold() in ("y", "yes")
+    except EOFError:
+        return False
+
+
 COMMANDS: dict[str, Callable[[Path, argparse.Namespace], int]] = {
     "collect-zip": collect_zip,
     "export": export,
+    "forget": forget,
 }
 
 

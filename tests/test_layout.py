@@ -159,8 +159,8 @@ MAY_IMPORT = {
         *("roster", "term_calendar", "lms"),
     ),
     "term_commands": (
-        *("arguments", "files", "lean", "lms", "nbgrader_glue", "roster", "term_calendar"),
-        "terminal",
+        *("arguments", "files", "lean", "lms", "nbgrader_glue", "pipeline", "roster"),
+        *("term_calendar", "terminal"),
     ),
     "arguments": ("worked_answers",),
     "lab": (),

@@ -77,12 +77,13 @@ def chosen(marks: Marks, calendar: Calendar, given: Namespace) -> tuple[Marks, l
 
 
 def written(marks: Marks, given: Namespace, pages: Callable[[], dict[str, list[Path]]]) -> Written:
-    """What goes into which file. pages: the feedback pages by student. SheetError, OSError, ValueError."""
+    """What goes into which file. pages: the feedback pages by student. ValueError, OSError."""
     to, done = given.to or _default(given.platform), Written()
     if given.platform == CSV:
         make = wide_table if given.wide else long_table
         done.files[to] = "\ufeff" + make(marks, given.with_unread)  # so that Excel reads UTF-8
-        done.lines.append(f"{len(marks.people)} students, {len(marks.columns)} assignments: {to}")
+        names = ", ".join(one.assignment for one in marks.columns)
+        done.lines.append(f"{len(marks.people)} students; {names or 'no assignment'}: {to}")
         return done
     people = Roster({one.id: one for one in marks.people})
     how = given.with_unread, given.scale

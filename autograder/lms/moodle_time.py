@@ -66,16 +66,17 @@ def _days(text: str, clock: re.Match, year: re.Match) -> set[date]:
     if len(numbers) != 1:
         return set()
     words = set(WORD.findall(rest)) - AFTER_NOON - BEFORE_NOON
-    days, certain = set(), set()
-    for months, weekdays in _languages():
-        said = {weekdays[word] for word in words if word in weekdays}
-        for month in {months[word] for word in words if word in months}:
-            for day in _dates(int(year[0]), month, numbers[0]):
-                if day.weekday() in said:
-                    certain.add(day)
-                elif not said:
-                    days.add(day)
-    return certain or days
+    known = [(months, weekdays, len(words & (months.keys() | weekdays.keys())))
+             for months, weekdays in _languages()]  # fmt: skip
+    most = max(count for *_, count in known)
+    found = set()
+    for months, weekdays, count in known:
+        if count == most:  # one that knows less is not the language of the text
+            said = {weekdays[word] for word in words if word in weekdays}
+            for month in {months[word] for word in words if word in months}:
+                days = _dates(int(year[0]), month, numbers[0])
+                found |= {day for day in days if not said or day.weekday() in said}
+    return found
 
 
 def _dates(year: int, month: int, day: int) -> set[date]:

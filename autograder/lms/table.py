@@ -30,7 +30,7 @@ def wide_table(marks: Marks, unread: bool = False) -> str:
     """A row a student: points and status of each assignment, and the sum of the marks that there are."""
     names = [one.assignment for one in marks.columns]
     heads = [part for name in names for part in (name, f"{name} status")]
-    head = [*ABOUT, *heads, "total", "most", "without_a_mark"]
+    head = [*ABOUT, *heads, "total", "most", "still_to_be_marked"]
     rows = []
     for person in marks.people:
         found = [column.of(person.id) for column in marks.columns]

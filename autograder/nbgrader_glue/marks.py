@@ -1,6 +1,7 @@
 """Reads a class's marks from the gradebook, and why somebody has none from the course's folders."""
 
 import glob
+from datetime import datetime
 from pathlib import Path
 
 from nbgrader import api
@@ -13,6 +14,7 @@ from autograder.nbgrader_glue import names
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.late import settle
 from autograder.nbgrader_glue.release import configuration
+from autograder.nbgrader_glue.submitted import RefusedError, timestamp
 from autograder.roster import Person, Roster
 from autograder.terminal import shown_name
 
@@ -66,8 +68,16 @@ def _column(db, course: CourseDirectory, assignment) -> Column:
     for folder, student in folders.items():
         if student not in marks:
             readable = any(Path(folder).glob("*.ipynb"))
-            marks[student] = Mark(UNGRADED if readable else UNREADABLE)
+            state = UNGRADED if readable else UNREADABLE
+            marks[student] = Mark(state, handed_in=_time(course, Path(folder)))
     return Column(assignment.name, assignment.max_score, assignment.duedate, marks)
+
+
+def _time(course: CourseDirectory, folder: Path) -> datetime | None:
+    try:
+        return timestamp(course, folder)
+    except RefusedError:
+        return None
 
 
 def _mark(course: CourseDirectory, assignment: str, notebooks: list[str], submission) -> Mark:
