@@ -205,6 +205,8 @@ def _read(
         if why := hand_in.unfit(name, sizes):
             raise ArchiveError(f"{one_line(name, 80)}: {why}")
         taken[name] = data
+    if not taken:
+        raise ArchiveError(f"text was typed into {files[0][0].platform}, and no file handed in")
     arranged, more = hand_in.arranged(taken, assignment)
     called = files[0][0]
     if people.differs(person, called.name):

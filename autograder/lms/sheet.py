@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,10 +32,8 @@ class Sheet:
 
     def text(self) -> str:
         """The table as CSV; no cell of it starts a formula in a spreadsheet."""
-        table = io.StringIO(newline="")
-        writer = csv.writer(table, delimiter=self.delimiter, lineterminator=self.end)
-        writer.writerows([kept(cell) for cell in row] for row in [self.head, *self.rows])
-        return ("\ufeff" if self.bom else "") + table.getvalue()
+        rows = ([kept(cell) for cell in row] for row in [self.head, *self.rows])
+        return ("\ufeff" if self.bom else "") + as_csv(rows, self.delimiter, self.end)
 
     def column(self, heading: str) -> int:
         """Where a heading stands. SheetError if it is there not once."""
@@ -83,6 +82,16 @@ def read(path: Path) -> Sheet:
 
 def _reader(text: str, delimiter: str):
     return csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
+
+
+def as_csv(rows: Iterable[Iterable[str]], delimiter: str = ",", end: str = "\n") -> str:
+    """The rows as CSV. Python's writer quotes a line break only if it is the one that ends its rows."""
+    table = io.StringIO(newline="")
+    for row in rows:
+        line = io.StringIO(newline="")
+        csv.writer(line, delimiter=delimiter, lineterminator="\r\n").writerow(row)
+        table.write(line.getvalue().removesuffix("\r\n") + end)
+    return table.getvalue()
 
 
 def harmless(text: str) -> str:

@@ -1,7 +1,5 @@
 """A class's marks as a table of our own: a row a student and assignment, or a row a student."""
 
-import csv
-import io
 from datetime import datetime
 
 from autograder.lms.marks import NOTHING, Marks

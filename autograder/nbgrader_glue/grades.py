@@ -1,14 +1,13 @@
 """Writes a course's scores as a table that is safe in a spreadsheet: `nbgrader export`."""
 
-import csv
-import io
+from collections.abc import Sequence
 from pathlib import Path
 
 from nbgrader.api import Gradebook, MissingEntry
 from nbgrader.plugins import CsvExportPlugin
 
 from autograder.files import put_in_place
-from autograder.lms.sheet import harmless
+from autograder.lms.sheet import as_csv, harmless
 from autograder.nbgrader_glue.late import settle
 from autograder.terminal import plain
 
@@ -36,15 +35,13 @@ class GradesExporter(CsvExportPlugin):
             for line in settle(Path(self.parent.coursedir.root), gradebook):
                 self.log.warning(plain(line))
         self.log.info("Exporting grades to %s", to)
-        table = io.StringIO(newline="")
-        writer = csv.writer(table, lineterminator="\n")
-        writer.writerow(COLUMNS)
+        rows: list[Sequence[str]] = [COLUMNS]
         for assignment in gradebook.assignments:
             if self._wanted(assignment.name, self.assignment):
                 for student in gradebook.students:
                     if self._wanted(student.id, self.student):
-                        writer.writerow(_row(gradebook, assignment, student))
-        put_in_place(to, table.getvalue())
+                        rows.append(_row(gradebook, assignment, student))
+        put_in_place(to, as_csv(rows))
 
     @staticmethod
     def _wanted(name: str, names: list) -> bool:

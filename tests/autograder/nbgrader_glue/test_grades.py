@@ -17,7 +17,7 @@ from tests.autograder.courses import P3
 
 STRANGE = {
     "=HYPERLINK(\"http://x\")": {"last_name": "Gauß, C. F.", "first_name": 'the "prince"'},
-    "-1+1": {"last_name": "two\nlines", "first_name": "\t=1"},
+    "-1+1": {"last_name": "two\nlines", "first_name": "\t=1", "email": "a\rb"},
     "'=1": {"email": "@sum(a1)"},
 }  # fmt: skip
 
