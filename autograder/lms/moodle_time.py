@@ -69,14 +69,14 @@ def _days(text: str, clock: re.Match, year: re.Match) -> set[date]:
     known = [(months, weekdays, len(words & (months.keys() | weekdays.keys())))
              for months, weekdays in _languages()]  # fmt: skip
     most = max(count for *_, count in known)
-    found = set()
+    meant: set[date] = set()
     for months, weekdays, count in known:
         if count == most:  # one that knows less is not the language of the text
             said = {weekdays[word] for word in words if word in weekdays}
             for month in {months[word] for word in words if word in months}:
                 days = _dates(int(year[0]), month, numbers[0])
-                found |= {day for day in days if not said or day.weekday() in said}
-    return found
+                meant |= {day for day in days if not said or day.weekday() in said}
+    return meant
 
 
 def _dates(year: int, month: int, day: int) -> set[date]:

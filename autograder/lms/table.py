@@ -3,7 +3,7 @@
 from datetime import datetime
 
 from autograder.lms.marks import NOTHING, Marks
-from autograder.lms.sheet import harmless, written
+from autograder.lms.sheet import as_csv, harmless, written
 from autograder.roster import Person
 
 ABOUT = ("student", "last_name", "first_name", "email")
@@ -57,8 +57,4 @@ def _time(when: datetime | None) -> str:
 
 
 def _text(rows) -> str:
-    table = io.StringIO(newline="")
-    csv.writer(table, lineterminator="\n").writerows(
-        [harmless(cell) for cell in row] for row in rows
-    )
-    return table.getvalue()
+    return as_csv([harmless(cell) for cell in row] for row in rows)

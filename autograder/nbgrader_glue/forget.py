@@ -40,7 +40,7 @@ def traces(root: Path, student: str, results: list[Path]) -> list[Trace]:
     found = [*_folders(root, course, student), *_exchange(root, config, course, student)]
     if results:
         what = f"{_shown(root, results[0].parents[2])}: {len(results)} files"
-        found.append(Trace(what, lambda: [_remove(path) for path in results]))
+        found.append(Trace(what, partial(_remove_all, results)))
     found += _gradebook(course, student)
     found += _files_of_the_class(root, student)
     return found
@@ -123,6 +123,11 @@ def _remove(path: Path) -> None:
         shutil.rmtree(path)
     else:
         path.unlink()
+
+
+def _remove_all(paths: list[Path]) -> None:
+    for path in paths:
+        _remove(path)
 
 
 def _shown(root: Path, path: Path) -> str:
