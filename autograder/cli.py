@@ -302,7 +302,7 @@ def report(root: Path, assignment: str | None) -> int:
             of = read_class(root, name)
             if not of.students:
                 return _complain(f"nobody has handed in {name}")
-            said, written = summary(of.most, of.students), page(name, of.most, of.students)
+            said, written = summary(of), page(of)
         to = root / "course" / "report" / f"{name}.html"
         to.parent.mkdir(exist_ok=True)
         put_in_place(to, written)

@@ -262,6 +262,10 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     (course / "course" / "calendar.toml").write_text(CALENDAR + 'bob = "2026-11-30"\n')
     assert main(["export"]) == 0
     assert main(["report", P3]) == 0
+    page = (course / "course" / "report" / f"{P3}.html").read_text()
+    assert "1 of the class handed in nothing" in page
+    assert "Nil Nihil" in page
+    assert "late, −3" in page
     others = courses.rows(courses.database(course))["grade"]
     monkeypatch.setattr("builtins.input", lambda question: "n")
     assert main(["forget", "bob"]) == 1
