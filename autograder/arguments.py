@@ -3,6 +3,7 @@
 Each function reads an argument's text, and raises ArgumentTypeError with what is wrong, and an example.
 """
 
+import os
 import re
 from argparse import ArgumentTypeError
 from datetime import datetime
@@ -63,10 +64,9 @@ def answers(text: str) -> list[str]:
 
 def there(text: str) -> Path:
     """A file or a folder that is there."""
-    path = Path(text)
-    if not text or not path.exists():
+    if not os.path.exists(text):
         raise ArgumentTypeError(f"there is no file {text[:LONGEST_NAME]!r}")
-    return path
+    return Path(text)
 
 
 def pair(text: str) -> tuple[str, str]:
