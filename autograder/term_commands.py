@@ -169,7 +169,7 @@ def export(root: Path, given: argparse.Namespace) -> int:
         chosen, left_out = exporting.chosen(marks, calendar, given)
         written = exporting.written(chosen, given, lambda: pages_of(root, given.assignment[0]))
         for path, content in written.files.items():
-            put_in_place(path if path.is_absolute() else root / path, content)
+            put_in_place(path if path.is_absolute() else root / path, content, 0o600)
     except (OSError, ValueError) as error:
         return _complain(str(error))
     for line in [*lines, *left_out, *written.lines]:
@@ -184,7 +184,7 @@ def export(root: Path, given: argparse.Namespace) -> int:
 def forget(root: Path, given: argparse.Namespace) -> int:
     """Remove a student from the course, after asking; the exit status is 1 if nothing was removed."""
     from autograder import lean, roster  # noqa: F401  before nbformat is imported
-    from autograder.nbgrader_glue.forget import traces
+    from autograder.nbgrader_glue.forget import mentions, traces
     from autograder.pipeline import run as pipeline
     from autograder.pipeline.lock import locked
 
@@ -200,6 +200,8 @@ def forget(root: Path, given: argparse.Namespace) -> int:
             say(f"Kept about {shown}:")
             for trace in found:
                 say(f"  {shown_note(trace.what)}")
+            for path in mentions(root, student):
+                say(f"  {path.relative_to(root)} names the student, too, and will be left as it is")
             if not given.yes and not _agreed("Remove all of it? It cannot be undone. [y/N] "):
                 return _complain("nothing was removed", 1)
             for trace in found:

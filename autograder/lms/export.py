@@ -54,6 +54,8 @@ def refusal(given: Namespace) -> str:
 def chosen(marks: Marks, calendar: Calendar, given: Namespace) -> tuple[Marks, list[str]]:
     """The columns that count, and a line on those that do not. ValueError for one that is not there."""
     known = [one.assignment for one in marks.columns]
+    if not known:
+        raise ValueError("the gradebook is empty: run `nbgrader generate_assignment` first")
     named = [Path(one).name for one in given.assignment] or given.count
     for name in [*(named or []), *(given.leave_out or [])]:
         if name not in known:

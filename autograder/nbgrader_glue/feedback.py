@@ -7,6 +7,7 @@ from pathlib import Path
 
 from nbconvert.exporters import HTMLExporter
 
+from autograder.nbgrader_glue.late import settle_before
 from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.nbgrader_glue.start import can_start
 from autograder.nbgrader_glue.worked import with_answers
@@ -40,6 +41,8 @@ class FeedbackExporter(HTMLExporter):
         super().__init__(config=config, **kw)
         leave_out_unfit(self.parent)
         can_start(self.parent)
+        if self.parent is not None:
+            settle_before(self.parent)
 
     def from_notebook_node(self, nb, resources=None, **kw):
         """nbconvert's page, with the worked answers that are open to the student, fit for a phone.

@@ -19,7 +19,7 @@ from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.shelf import REPLACED
 
 # What commands write about the whole class, and can write again without the student.
-WRITTEN = ("course/report/*.html", "course/*.csv")
+WRITTEN = ("course/report/*.html", "course/grades.csv", "course/marks*.csv")
 
 
 @dataclass(frozen=True)
@@ -110,12 +110,22 @@ def _files_of_the_class(root: Path, student: str) -> Iterator[Trace]:
         if count:
             what = f"{count} extensions in {term_calendar.FILE}"
             yield Trace(what, partial(put_in_place, calendar, rest))
+    for path in _naming(root, student, WRITTEN):
+        what = f"{_shown(root, path)}, which names the student: write it again"
+        yield Trace(what, partial(_remove, path))
+
+
+def mentions(root: Path, student: str) -> list[Path]:
+    """Tables in the course's folder that name a student, and that no command of ours wrote."""
+    ours = _naming(root, student, WRITTEN)
+    return [path for path in _naming(root, student, ("*.csv", "course/*.csv"))
+            if path not in ours and path != root / roster.FILE]  # fmt: skip
+
+
+def _naming(root: Path, student: str, patterns: tuple[str, ...]) -> list[Path]:
     named = re.compile(rf"(?<![\w.@-]){re.escape(student)}(?![\w@-])")
-    for pattern in WRITTEN:
-        for path in sorted(root.glob(pattern)):
-            if path != listed and named.search(path.read_text("utf-8", errors="replace")):
-                what = f"{_shown(root, path)}, which names the student: write it again"
-                yield Trace(what, partial(_remove, path))
+    files = (path for pattern in patterns for path in sorted(root.glob(pattern)) if path.is_file())
+    return [path for path in files if named.search(path.read_text("utf-8", errors="replace"))]
 
 
 def _remove(path: Path) -> None:

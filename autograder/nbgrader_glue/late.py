@@ -20,7 +20,7 @@ from autograder import term_calendar
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.release import configuration
 from autograder.term_calendar import Assignment, in_utc
-from autograder.terminal import shown_name, shown_points
+from autograder.terminal import plain, shown_name, shown_points
 
 
 class Lateness:
@@ -67,6 +67,14 @@ def settle(root: Path, gradebook: api.Gradebook) -> list[str]:
         lines += settle_one(gradebook.db, assignment, lateness)
     gradebook.db.commit()
     return lines
+
+
+def settle_before(converter) -> None:
+    """For nbgrader's command that writes pages: settle what these will show."""
+    course = converter.coursedir
+    with api.Gradebook(course.db_url, course.course_id) as gradebook:
+        for line in settle(Path(course.root), gradebook):
+            converter.log.warning(plain(line))
 
 
 def settle_one(db, assignment, lateness: Lateness) -> Iterator[str]:

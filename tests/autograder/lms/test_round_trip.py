@@ -144,6 +144,7 @@ def test_moodles_sheet_is_the_ledger(course, capsys):
     for left in ("1, could not be read", "1, nothing handed in", "1, proof not yet marked"):
         assert f"left as they were: {left}" in said
     assert not (course / "course" / "marks-moodle.csv").exists()  # --to is obeyed
+    assert (course / "out.csv").stat().st_mode & 0o077 == 0  # marks are nobody else's business
 
 
 def test_the_tables_are_the_ledger_and_tell_a_zero_from_nothing(course):
@@ -225,6 +226,7 @@ def test_nbgraders_own_export_and_penalties_are_right_too(course):
 
 def test_feedback_for_moodle(course, capsys):
     courses.run(course, "nbgrader", "generate_feedback", P3, "--student", "fay")
+    assert penalty(course, "dan") == 3.0  # as the pages must say
     pages = course / "course" / "feedback" / "fay" / P3
     command = ["export", P3, "--for", "moodle", "--sheet", "sheet.csv", "--to", "out.csv"]
     assert main([*command, "--feedback", "pages.zip"]) == 0
@@ -273,8 +275,11 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     assert main(["forget", "bob"]) == 1
     assert submitted.exists()
     capsys.readouterr()
+    written(course / "course" / "notes.csv", "bob;a talk on Monday\n")
     assert main(["forget", "bob", "--yes"]) == 0
     said = capsys.readouterr().out
+    assert "course/notes.csv names the student, too, and will be left as it is" in said
+    (course / "course" / "notes.csv").unlink()
     for what in (
         *("submitted/bob", "autograded/bob", "replaced/bob", "inbound/bob+", "armdyn/feedback/"),
         *("cache-of-results", "the gradebook", "the line in course/class.csv", "1 extensions in"),
