@@ -16,11 +16,13 @@ from sqlalchemy import select
 from sqlalchemy.orm import selectinload
 from traitlets.config import Config
 
-from autograder import term_calendar
+from autograder import roster, term_calendar
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.release import configuration
 from autograder.term_calendar import Assignment, in_utc
 from autograder.terminal import plain, shown_name, shown_points
+
+MOST_LINES = 10  # for each assignment
 
 
 class Lateness:
@@ -52,19 +54,30 @@ class Lateness:
 
 
 def settle(root: Path, gradebook: api.Gradebook) -> list[str]:
-    """Set all due dates, extensions and late penalties in the gradebook; what has changed, in lines.
+    """Set all due dates, extensions and late penalties in the gradebook, and students' names as the class
+    list has them; what has changed of the former, in lines.
 
     CalendarError if the calendar is wrong, RosterError if the class list is.
     """
-    calendar = term_calendar.read_if_there(root)
+    calendar, people = term_calendar.read_if_there(root), roster.read_if_there(root)
     lines: list[str] = []
+    listed = people.people if people else {}
+    for student in gradebook.students:
+        if one := listed.get(student.id):
+            student.last_name, student.first_name = one.last_name, one.first_name
+            student.email, student.lms_user_id = one.email, one.lms_id
     for assignment in gradebook.assignments:
         config = configuration(root)
         config.CourseDirectory.assignment_id = assignment.name
         course = CourseDirectory(config=config, log=QUIET)
         converter = Autograde(coursedir=course, config=config, log=QUIET)
         lateness = Lateness(calendar.of(assignment.name), config, converter)
-        lines += settle_one(gradebook.db, assignment, lateness)
+        changed = list(settle_one(gradebook.db, assignment, lateness))
+        lines += changed[:MOST_LINES]
+        if len(changed) > MOST_LINES:
+            lines.append(
+                f"{assignment.name}: {len(changed) - MOST_LINES} more changes of this kind"
+            )
     gradebook.db.commit()
     return lines
 

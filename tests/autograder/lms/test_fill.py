@@ -151,7 +151,7 @@ BOOK = [
 
 @pytest.mark.parametrize(("sign", "bom"), [(",", False), (";", True)])
 def test_canvas_takes_marks_and_keeps_the_rest(tmp_path, sign, bom):
-    titles = {"P1 Inertia (500)": "15.00", "P3 Pendulum (501)": "15.00", "P3 Extra (502)": "5"}
+    titles = {"P1 (500)": "15.00", "P3 Pendulum (501)": "15.00", "P3 Pendulum, extra (502)": "5"}
     path = canvas_sheet(tmp_path / "b.csv", BOOK, titles, sign, bom)
     before = table(path.read_text(encoding="utf-8"), sign)
     held = canvas.read(path)

@@ -79,5 +79,8 @@ def test_an_outer_folder_and_typed_text_and_what_is_neithers():
     assert origin(("Ada_3_assignsubmission_onlinetext", "onlinetext.html")).typed
     assert origin(("lovelaceada_98_text.html",)).typed
     assert origin(("ada", "p3-pendulum.ipynb")) is None
+    assert (
+        origin(("ada", "work", "run_98_7654_data.csv")) is None
+    )  # of a student, and not of Canvas
     assert is_anonymous(("anon_x9Yz1_7654_p3-pendulum.ipynb",))
     assert is_anonymous(("LATE_anon_x9Yz1_7654_p3-pendulum.ipynb",))

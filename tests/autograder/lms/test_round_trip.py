@@ -222,6 +222,7 @@ def test_nbgraders_own_export_and_penalties_are_right_too(course):
     rows = {row["student_id"]: row for row in table(course / "theirs.csv")}
     assert (rows["dan"]["raw_score"], rows["dan"]["score"]) == ("15.0", "0.0")
     assert rows["eve"]["score"] == "6.5"
+    assert (rows["bob"]["last_name"], rows["bob"]["email"]) == ("Doe, Jr.", "bob@x.org")
 
 
 def test_feedback_for_moodle(course, capsys):
