@@ -139,6 +139,12 @@ def _handed_in(
         return []
     done.faults += left_out
     sent = _by_sender(path, entries, done)
+    called = {files[0][0].name for files in sent.values()}
+    if (
+        len(sent) > 1 and len(called) == 1 and not roster.named(*called)
+    ):  # Moodle's word for anybody
+        done.faults.append(f"{path.name}: it names nobody: show the names, and download it again")
+        return []
     if not sent and not left_out:
         done.faults.append(f"{path.name}: it holds no hand-in of Moodle's or Canvas's")
     found: dict[str, list[tuple[Origin, HandIn]]] = {}

@@ -70,7 +70,12 @@ def read(path: Path, grade: str | None = None) -> Worksheet:
     at = held.column(grade) if grade else _grade(held, identifier)
     greatest = {row[at + 1].strip() for row in held.rows} if at + 1 < len(held.head) else set()
     only = greatest.pop() if len(greatest) == 1 else ""
-    return Worksheet(held, identifier, at, sheet.number(only), "," in only)
+    made = Worksheet(held, identifier, at, sheet.number(only), "," in only)
+    if not any(map(made.name, held.rows)):
+        raise SheetError(
+            f"{path.name}: it names nobody: reveal the students' names in Moodle first"
+        )
+    return made
 
 
 def _identifier(held: Sheet) -> int:

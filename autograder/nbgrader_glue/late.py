@@ -54,8 +54,8 @@ class Lateness:
 
 
 def settle(root: Path, gradebook: api.Gradebook) -> list[str]:
-    """Set all due dates, extensions and late penalties in the gradebook, and students' names as the class
-    list has them; what has changed of the former, in lines.
+    """Set due dates, extensions and late penalties in the gradebook, and the names of the class list;
+    what has changed but for names, in lines.
 
     CalendarError if the calendar is wrong, RosterError if the class list is.
     """

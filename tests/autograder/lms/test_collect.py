@@ -157,6 +157,15 @@ def test_two_students_of_one_name_need_the_sheet(course, capsys):
     assert submitted(course, "lee2") == {NOTEBOOK: notebook("1")}
 
 
+@pytest.mark.parametrize("give", ["Participant_1_assignsubmission_file/{}", "anon_a1_90_{}"])
+def test_an_archive_that_names_nobody_is_one_line(course, capsys, give):
+    files = {give.format(NOTEBOOK).replace("1", number): notebook(number) for number in "123"}
+    said = collect(capsys, zipped(course / "a.zip", files), status=1)
+    listed = said.partition("To be looked at:\n")[2].splitlines()
+    assert listed[0] == "  a.zip: it names nobody: show the names, and download it again"
+    assert len(listed) <= 2
+
+
 def test_two_hand_ins_that_would_be_one_students_are_neither(course, capsys):
     """One of the class, and one of the same name who is not in the list."""
     files = {f"{moodle_folder('Ada Lovelace', n)}/{NOTEBOOK}": notebook(str(n)) for n in (1, 2)}

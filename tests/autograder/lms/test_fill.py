@@ -187,6 +187,7 @@ def test_a_column_that_no_title_tells_is_asked_for(tmp_path):
         (b"a,b\nx,y\n", "no column tells the participants"),
         (b"Name\xfc,b\nx,y\n", "it is not UTF-8"),
         (b"ID,x,Grade,Max\nP 1,a,,15\nP 1,b,,15\n", "two rows are about number 1"),
+        (b"ID,Status,Grade,Max\nP 1,,,15\nP 2,,,15\n", "it names nobody: reveal the students'"),
     ],
 )
 def test_what_is_no_sheet_is_refused_in_a_sentence(tmp_path, data, said):
