@@ -5,6 +5,7 @@ each notebook; here, a submission is one transaction of a few statements.
 """
 
 import sys
+from collections.abc import Set
 from dataclasses import dataclass
 from datetime import datetime
 from types import SimpleNamespace
@@ -97,8 +98,13 @@ class Rows:
             submission.extension = self._lateness.extension(student)
         return submission, notebook, grades, comments
 
-    def record(self, student: str, timestamp: datetime | None, graded: NotebookNode) -> Standing:
-        """Enter a submission and its scores, and commit them."""
+    def record(
+        self, student: str, timestamp: datetime | None, graded: NotebookNode, unchanged: Set[str]
+    ) -> Standing:
+        """Enter a submission and its scores, and commit them.
+
+        unchanged: the cells whose answers have not changed since they were last graded.
+        """
         submission, notebook, grades, comments = self.enter(student, timestamp)
         grade_of = {self._names[grade.cell_id]: grade for grade in grades}
         comment_of = {self._names[comment.cell_id]: comment for comment in comments}
@@ -108,10 +114,15 @@ class Rows:
                 grade = _found(grade_of, cell)
                 score = utils.determine_grade(cell, QUIET)[0]
                 grade.auto_score = None if score is None else float(score)
-                # A person should look at a manual score again, as the answer may have changed.
-                grade.needs_manual_grade = grade.manual_score is not None or score is None
                 if suggestion:
-                    grade.auto_score, grade.needs_manual_grade = suggestion.points, True
+                    grade.auto_score = suggestion.points
+                # A person should look at a manual score again if the answer has changed.
+                if (
+                    grade.manual_score is None
+                    or cell.metadata.nbgrader["grade_id"] not in unchanged
+                ):
+                    by_hand = grade.manual_score is not None or score is None
+                    grade.needs_manual_grade = by_hand or suggestion is not None
             if utils.is_solution(cell) or utils.is_task(cell):
                 same = cell.metadata.nbgrader.get("checksum") == utils.compute_checksum(cell)
                 empty = same and not utils.is_task(cell)

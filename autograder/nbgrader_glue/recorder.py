@@ -13,6 +13,7 @@ from traitlets import import_item
 from traitlets.config import Config
 
 from autograder.nbgrader_glue import names
+from autograder.nbgrader_glue.decided import same_answers
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
 from autograder.nbgrader_glue.late import Lateness
@@ -124,8 +125,10 @@ class Recorder:
             notebook, _ = step(notebook, {})
         text = nbformat.v4.writes(notebook).encode() + b"\n"
         self._may_enter(student)
+        marked = self._folders.graded_before(student)
+        same = same_answers(marked, notebook) if marked else set()
         with self._folders.written(student, text):
-            return self._rows.record(student, self._folders.timestamp(student), notebook)
+            return self._rows.record(student, self._folders.timestamp(student), notebook, same)
 
     def refuse(self, student: str) -> None:
         """Enter a submission that cannot be graded, and remove the notebook of an earlier one.

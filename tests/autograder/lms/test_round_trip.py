@@ -214,6 +214,38 @@ def test_a_changed_calendar_changes_marks_without_judging(course, capsys):
     assert (penalty(course, "bob"), penalty(course, "dan")) == (6.5, 15)  # nothing of dan's is kept
 
 
+def test_a_marked_proof_is_read_again_only_if_its_text_has_changed(course, tmp_path, monkeypatch):
+    def to_read(root) -> bool:
+        with Gradebook(courses.database(root)) as gradebook:
+            return gradebook.find_grade("p3-derivation", P3, P3, "dan").needs_manual_grade
+
+    assert main(["grade", P3, "--jobs", "1", "--force"]) == 1
+    assert not to_read(course)
+    moved = tmp_path / "moved"  # its path is part of the settings, and all is recorded anew
+    shutil.copytree(course, moved)
+    monkeypatch.chdir(moved)
+    path = moved / "course" / "submitted" / "dan" / P3 / NOTEBOOK
+    notebook = json.loads(path.read_text())
+    next(cell for cell in notebook["cells"] if "def M(" in cell["source"])["source"] += "\n# M"
+    path.write_text(json.dumps(notebook))
+    assert main(["grade", P3, "--jobs", "1"]) == 1
+    assert not to_read(moved)
+    (proof,) = (cell for cell in notebook["cells"]
+                if cell["metadata"].get("nbgrader", {}).get("grade_id") == "p3-derivation")  # fmt: skip
+    proof["source"] += "\nAnd so on."
+    path.write_text(json.dumps(notebook))
+    assert main(["grade", P3, "--jobs", "1"]) == 1
+    assert to_read(moved)
+    with Gradebook(courses.database(moved)) as gradebook:
+        grade = gradebook.find_grade("p3-derivation", P3, P3, "dan")
+        assert grade.manual_score == 5
+        grade.needs_manual_grade = False
+        gradebook.db.commit()
+    (path.parent / "photo.png").write_bytes(b"another page")
+    assert main(["grade", P3, "--jobs", "1"]) == 1
+    assert to_read(moved)
+
+
 def test_nbgraders_own_export_and_penalties_are_right_too(course):
     (course / "course" / "calendar.toml").write_text(CALENDAR.replace("penalty", "# penalty"))
     with (course / "nbgrader_config.py").open("a") as config:
