@@ -9,8 +9,6 @@ from pathlib import Path
 from autograder import arguments as argument
 from autograder.terminal import say, shown_name, shown_note
 
-MOODLE, CANVAS, CSV = "moodle", "canvas", "csv"
-
 
 def add_to(commands) -> None:
     """Add the commands to the parser's."""
@@ -44,7 +42,9 @@ def add_to(commands) -> None:
         type=argument.name,
         help="such as p3-pendulum (default: all that count); Moodle's sheet takes one",
     )
-    exporting.add_argument("--for", dest="platform", choices=(MOODLE, CANVAS, CSV), default=CSV)
+    exporting.add_argument(
+        "--for", dest="platform", choices=("moodle", "canvas", "csv"), default="csv"
+    )
     exporting.add_argument(
         "--sheet", type=argument.there, help="the sheet that Moodle or Canvas gave out"
     )
@@ -110,6 +110,8 @@ def collect_zip(root: Path, given: argparse.Namespace) -> int:
     from autograder import lean, roster, term_calendar  # noqa: F401  before nbformat is imported
     from autograder.lms.collect import collect
     from autograder.nbgrader_glue.shelf import Submissions
+    from autograder.pipeline import run as pipeline
+    from autograder.pipeline.lock import locked
 
     path = given.roster or root / roster.FILE
     if not path.is_file():
@@ -120,37 +122,25 @@ def collect_zip(root: Path, given: argparse.Namespace) -> int:
     try:
         people = roster.read(path)
         calendar = term_calendar.read_if_there(root)
-        done = collect(
-            given.archives,
-            given.assignment,
-            people,
-            calendar,
-            Submissions(root, given.assignment),
-            given.sheet,
-            given.latest,
-        )
+        shelf = Submissions(root, given.assignment)
+        with locked(root / pipeline.LOCK, f"`autograder grade` is running in {root}"):
+            done = collect(
+                given.archives, given.assignment, people, calendar, shelf, given.sheet, given.latest
+            )
     except (OSError, ValueError) as error:
         return _complain(str(error))
     zone = calendar.zone or UTC
     for line in done.lines:
+        what = "taken" if line.changed else "left"
         when = (
-            line.when.astimezone(zone).strftime("%Y-%m-%d %H:%M %Z")
-            if line.when
-            else "at no known time"
+            f"{line.when.astimezone(zone):%Y-%m-%d %H:%M %Z}" if line.when else "at no known time"
         )
-        notes = "; ".join(line.notes)
-        said = (
-            f"{shown_name(line.student)}: {'taken' if line.changed else 'left'}, handed in {when}"
-        )
-        say(shown_note(f"{said}; {notes}" if notes else said))
+        said = [f"{shown_name(line.student)}: {what}, handed in {when}", *line.notes]
+        say(shown_note("; ".join(said)))
     taken = sum(line.changed for line in done.lines)
     left, missing = len(done.lines) - taken, len(people.people) - len(done.lines)
     say(f"\n{taken} taken, {left} left as they were, {missing} of the class not there")
-    if done.faults:
-        say("\nTo be looked at:")
-        for fault in done.faults:
-            say(f"  {shown_note(fault)}")
-    return 1 if done.faults else 0
+    return _list(done.faults)
 
 
 def export(root: Path, given: argparse.Namespace) -> int:
@@ -174,11 +164,16 @@ def export(root: Path, given: argparse.Namespace) -> int:
         return _complain(str(error))
     for line in [*lines, *left_out, *written.lines]:
         say(shown_note(line))
-    if written.faults:
+    return _list(written.faults)
+
+
+def _list(faults: list[str]) -> int:
+    """Say what needs a look; the exit status."""
+    if faults:
         say("\nTo be looked at:")
-        for fault in written.faults:
-            say(f"  {shown_note(fault)}")
-    return 1 if written.faults else 0
+    for fault in faults:
+        say(f"  {shown_note(fault)}")
+    return 1 if faults else 0
 
 
 def forget(root: Path, given: argparse.Namespace) -> int:

@@ -57,7 +57,8 @@ class Gradebook:
                 return found[0]
         raise SheetError(
             f"{self.sheet.path.name}: it is not clear which column is {assignment}'s: name it with "
-            f"--column '{assignment}=…'; {one_line(self.sheet.headings, 500)}"
+            f"--column '{assignment}=…', or name only the assignments that it has; "
+            f"{one_line(self.sheet.headings, 500)}"
         )
 
 

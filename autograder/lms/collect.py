@@ -9,7 +9,7 @@ from typing import Protocol
 
 from autograder.lms import archive, hand_in, people, registered
 from autograder.lms.archive import ArchiveError, Entry
-from autograder.lms.file_names import Origin, is_anonymous, origin
+from autograder.lms.file_names import CANVAS, Origin, is_anonymous, origin
 from autograder.lms.hand_in import HandIn
 from autograder.lms.people import UnknownError
 from autograder.lms.registered import Registered
@@ -152,9 +152,7 @@ def _handed_in(
         first = files[0][0]
         try:
             row = known.get((platform, number), Registered([]))
-            person = people.who(
-                roster, first.name, row.cells, number if platform == "Canvas" else ""
-            )
+            person = people.who(roster, first.name, row.cells, number if platform == CANVAS else "")
             new = _read(path, assignment, person, files, row.when)
             new = _timed(new, first, of)
             found.setdefault(person.id, []).append((first, new))
