@@ -3,6 +3,7 @@
 Each function reads an argument's text, and raises ArgumentTypeError with what is wrong, and an example.
 """
 
+import os
 import re
 from argparse import ArgumentTypeError
 from datetime import datetime
@@ -59,6 +60,21 @@ def answers(text: str) -> list[str]:
     if not all(found):
         raise ArgumentTypeError(f"{text!r} has no name before or behind a comma; write it as M,C")
     return found
+
+
+def there(text: str) -> Path:
+    """A file or a folder that is there."""
+    if not os.path.exists(text):
+        raise ArgumentTypeError(f"there is no file {text[:LONGEST_NAME]!r}")
+    return Path(text)
+
+
+def pair(text: str) -> tuple[str, str]:
+    """An assignment and a heading, as "p3-pendulum=Homework 3 (123)"."""
+    assignment, equals, heading = text.partition("=")
+    if not (assignment.strip() and equals and heading.strip()):
+        raise ArgumentTypeError(f"{text[:LONGEST_NAME]!r} is no ASSIGNMENT=HEADING")
+    return assignment.strip(), heading.strip()
 
 
 def new_file(text: str) -> Path:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from autograder import arguments as argument
+from autograder import term_commands
 from autograder.terminal import say
 
 if TYPE_CHECKING:
@@ -123,6 +124,7 @@ def main(arguments: list[str] | None = None) -> int:
         help="what students write, in this order, with commas between (default: "
         "potential_energy,M,g_vec,C, less what is 0 for every motion)",
     )
+    term_commands.add_to(commands)
     if arguments[:1] == ["lab"]:
         from autograder.lab import lab  # imports Jupyter, which takes a second
 
@@ -136,6 +138,8 @@ def main(arguments: list[str] | None = None) -> int:
             f"{root} is not the course's folder: it has no nbgrader_config.py; "
             "change to the folder that holds solutions/ and try again"
         )
+    if given.command in term_commands.COMMANDS:
+        return run_of_a_term(root, given)
     if given.command == "grade":
         return grade(root, given.assignment, given.jobs, given.scheduler, given.force)
     if given.command == "report":
@@ -145,6 +149,19 @@ def main(arguments: list[str] | None = None) -> int:
     if given.command == "new-problem":
         return new_problem(root, given.mechanism, given.asks)
     return problems(root)
+
+
+def run_of_a_term(root: Path, given: argparse.Namespace) -> int:
+    """Run a command of `term_commands`; where it names assignments, they must be there."""
+    named = getattr(given, "assignment", [])
+    for name in [named] if isinstance(named, str) else named:
+        if why := _unknown(root, _name_of(name)):
+            return _complain(why)
+    if isinstance(named, str):
+        given.assignment = _name_of(named)
+    else:
+        given.assignment = [_name_of(name) for name in named]
+    return term_commands.COMMANDS[given.command](root, given)
 
 
 def grade(root: Path, assignment: str, jobs: int, scheduler: str | None, force: bool) -> int:
@@ -285,7 +302,7 @@ def report(root: Path, assignment: str | None) -> int:
             of = read_class(root, name)
             if not of.students:
                 return _complain(f"nobody has handed in {name}")
-            said, written = summary(of.most, of.students), page(name, of.most, of.students)
+            said, written = summary(of), page(of)
         to = root / "course" / "report" / f"{name}.html"
         to.parent.mkdir(exist_ok=True)
         put_in_place(to, written)

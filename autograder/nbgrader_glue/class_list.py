@@ -1,5 +1,6 @@
 """Reads a class from the gradebook and the submissions, for its report."""
 
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
@@ -7,7 +8,7 @@ import nbformat
 from nbformat import NotebookNode
 from nbgrader import api
 
-from autograder import hints_seen
+from autograder import hints_seen, roster
 from autograder.nbgrader_glue import names
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
@@ -16,27 +17,34 @@ from autograder.nbgrader_glue.submitted import RefusedError
 from autograder.notebook.own_arm import drawn_for
 from autograder.problems import families
 from autograder.report import Class, Student, read_graded
+from autograder.roster import Roster
+from autograder.term_calendar import read_if_there
 from autograder.terminal import shown_name
 
 
 def read_class(root: Path, assignment: str) -> Class:
     """An assignment's students, in order of their names.
 
-    root: the course's folder. ValueError if the gradebook does not know the assignment.
+    root: the course's folder. ValueError if the gradebook does not know the assignment, or if the class
+    list or the calendar is wrong.
     """
+    people, calendar = roster.read_if_there(root), read_if_there(root)
     config = configuration(root)
     config.CourseDirectory.assignment_id = assignment
     folders = Folders(config, assignment)
-    rows = Rows(folders.course.db_url, folders.course.course_id, assignment, penalty=None)
+    rows = Rows(folders.course.db_url, folders.course.course_id, assignment)
     try:
         standings, most = rows.standings(), sum(rows.points.values())
     finally:
         rows.close()
     source = _source(folders, assignment)
     students = [
-        _student(name, folders, standings.get(name), source) for name in folders.submissions()
+        _called(_student(name, folders, standings.get(name), source), people)
+        for name in folders.submissions()
     ]
-    return Class(assignment, most, students)
+    there = {one.name for one in students}
+    missing = [one.name for id, one in people.people.items() if id not in there] if people else []
+    return Class(assignment, most, students, tuple(missing), calendar.counts(assignment))
 
 
 def read_term(root: Path) -> tuple[list[Class], list[str]]:
@@ -66,6 +74,12 @@ def _source(folders: Folders, assignment: str) -> NotebookNode | None:
     return nbformat.read(path, as_version=4) if path.is_file() else None
 
 
+def _called(one: Student, people: Roster | None) -> Student:
+    """With the full name, if the class list has one."""
+    person = people.people.get(one.name) if people else None
+    return replace(one, called=person.name) if person else one
+
+
 def _student(
     name: str, folders: Folders, standing: Standing | None, source: NotebookNode | None
 ) -> Student:
@@ -89,6 +103,7 @@ def _student(
         hints=_hints(folders.submitted(name) / hints_seen.FILE, [*verdicts, *derivations]),
         derivations=derivations,
         arms=_arms(source, name, list(verdicts)),
+        late=standing.late,
     )
 
 

@@ -12,6 +12,7 @@ from nbformat import NotebookNode
 from pygments.formatters import HtmlFormatter
 
 from autograder.nbgrader_glue.items import arranged, number, title_of
+from autograder.nbgrader_glue.late import settle_before
 from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.nbgrader_glue.renewal import Renewal
 from autograder.nbgrader_glue.start import can_start
@@ -34,6 +35,7 @@ class FeedbackExporter(HTMLExporter):
         if self.parent is not None:
             leave_out_unfit(self.parent)
             can_start(self.parent)
+            settle_before(self.parent)
             self._renewal = Renewal(self.parent)
 
     def from_notebook_node(self, nb, resources=None, **kw):

@@ -1,5 +1,6 @@
 """Finds and writes an assignment's folders in a course, where nbgrader has them."""
 
+import filecmp
 import glob
 import logging
 import os
@@ -14,12 +15,15 @@ from nbgrader.converters import Autograde
 from nbgrader.coursedir import CourseDirectory
 from traitlets.config import Config
 
+from autograder import hints_seen
 from autograder.digest import digest
 from autograder.nbgrader_glue import handed_in, names, submitted
 from autograder.notebook.beside import Beside
 
 QUIET = logging.getLogger("autograder.nbgrader")
 QUIET.setLevel(logging.CRITICAL)  # the summary table says what was put right
+
+ABOUT_IT = {*handed_in.OF_THE_EXCHANGE, hints_seen.FILE}  # files that are no part of an answer
 
 Files = dict[str, tuple[int, int]]  # path in its folder → size, time in ns
 
@@ -79,6 +83,20 @@ class Folders:
     def beside(self, student: str) -> Files:
         """A submission's files that are not notebooks."""
         return self._files(self.submitted(student))
+
+    def graded_before(self, student: str) -> bytes:
+        """The graded notebook that is there; b"" if there is none, or if other files lie beside the
+        submission now, which may be part of an answer.
+        """
+        path = self.autograded(student)
+        ours = self.beside_source.keys() - self._not_copied
+        handed_in = self.beside(student).keys() - ours - ABOUT_IT
+        there = self._files(path.parent).keys() - ours - ABOUT_IT
+        if not path.is_file() or handed_in != there:
+            return b""
+        folder = self.submitted(student)
+        same = all(filecmp.cmp(folder / name, path.parent / name, shallow=False) for name in there)
+        return path.read_bytes() if same else b""
 
     @contextmanager
     def written(self, student: str, notebook: bytes) -> Iterator[None]:

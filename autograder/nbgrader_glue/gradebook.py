@@ -4,6 +4,8 @@ Tables, scores and late penalties are nbgrader's own. But nbgrader opens its dat
 each notebook; here, a submission is one transaction of a few statements.
 """
 
+import sys
+from collections.abc import Set
 from dataclasses import dataclass
 from datetime import datetime
 from types import SimpleNamespace
@@ -12,31 +14,38 @@ from nbformat import NotebookNode
 from nbgrader import api, utils
 from sqlalchemy import select
 
+from autograder.lms.marks import lateness as lateness_in_words
 from autograder.nbgrader_glue.folders import QUIET
+from autograder.nbgrader_glue.late import Lateness, seconds_late, settle_one
 from autograder.notebook.suggestion import suggestion_of
+from autograder.terminal import say
 
 COPIED = ("name", "cell_type", "locked", "source", "checksum")
 
 
 @dataclass(frozen=True)
 class Standing:
-    """A submission in the gradebook: its automatic rows as text, its points, its cells to be read."""
+    """A submission in the gradebook: its automatic rows as text, its points, its cells to be read, and
+    how late it is, in words.
+    """
 
     rows: str
     score: float
     to_read: int
+    late: str = ""
 
 
 class Rows:
     """One assignment's rows. ValueError if it is not there, or has not exactly one notebook of its name.
 
-    penalty: (student, score, seconds late) → the late penalty, or None.
+    lateness: what being late costs; with it, the due date, extensions and penalties in the gradebook are
+    brought up to date. None for one who only reads.
     """
 
-    def __init__(self, url: str, course: str, assignment: str, penalty):
+    def __init__(self, url: str, course: str, assignment: str, lateness: Lateness | None = None):
         self._gradebook = api.Gradebook(url, course)
         self._db = self._gradebook.db
-        self._penalty = penalty
+        self._lateness = lateness
         try:
             self._read_cells(assignment)
         except BaseException:
@@ -85,10 +94,17 @@ class Rows:
             db.add_all([submission, notebook, *grades, *comments])
         if timestamp:
             submission.timestamp = timestamp
+        if self._lateness and self._lateness.due is not None:
+            submission.extension = self._lateness.extension(student)
         return submission, notebook, grades, comments
 
-    def record(self, student: str, timestamp: datetime | None, graded: NotebookNode) -> Standing:
-        """Enter a submission and its scores, and commit them."""
+    def record(
+        self, student: str, timestamp: datetime | None, graded: NotebookNode, unchanged: Set[str]
+    ) -> Standing:
+        """Enter a submission and its scores, and commit them.
+
+        unchanged: the cells whose answers have not changed since they were last graded.
+        """
         submission, notebook, grades, comments = self.enter(student, timestamp)
         grade_of = {self._names[grade.cell_id]: grade for grade in grades}
         comment_of = {self._names[comment.cell_id]: comment for comment in comments}
@@ -98,10 +114,15 @@ class Rows:
                 grade = _found(grade_of, cell)
                 score = utils.determine_grade(cell, QUIET)[0]
                 grade.auto_score = None if score is None else float(score)
-                # A person should look at a manual score again, as the answer may have changed.
-                grade.needs_manual_grade = grade.manual_score is not None or score is None
                 if suggestion:
-                    grade.auto_score, grade.needs_manual_grade = suggestion.points, True
+                    grade.auto_score = suggestion.points
+                # A person should look at a manual score again if the answer has changed.
+                if (
+                    grade.manual_score is None
+                    or cell.metadata.nbgrader["grade_id"] not in unchanged
+                ):
+                    by_hand = grade.manual_score is not None or score is None
+                    grade.needs_manual_grade = by_hand or suggestion is not None
             if utils.is_solution(cell) or utils.is_task(cell):
                 same = cell.metadata.nbgrader.get("checksum") == utils.compute_checksum(cell)
                 empty = same and not utils.is_task(cell)
@@ -155,25 +176,28 @@ class Rows:
         automatic = sorted((self._names[row.cell_id], row.auto_score) for row in grades)
         texts = sorted((self._names[row.cell_id], row.auto_comment) for row in comments)
         penalty = notebook.late_submission_penalty
-        when = (self._due, submission.extension, submission.timestamp, penalty)
+        late = self._seconds_late(submission) > 0
         return Standing(
-            repr((*when, automatic, texts)),
+            # Without the penalty, which changes with the points that a person gives.
+            repr((submission.timestamp, automatic, texts)),
             sum(map(_points, grades)) - (penalty or 0.0),
             sum(bool(row.needs_manual_grade) for row in grades),
+            lateness_in_words(penalty or 0.0) if late else "",
         )
 
     def _late_penalty(self, student: str, submission, notebook: str) -> float | None:
-        due = self._due
-        if due is not None and submission.extension is not None:
-            due += submission.extension
-        if due is None or submission.timestamp is None or submission.timestamp <= due:
+        seconds = self._seconds_late(submission)
+        if seconds <= 0 or self._lateness is None:
             return None
         self._db.flush()
         # The database adds up, as it does for nbgrader, so that not even the rounding differs.
         score = self._db.scalar(
             select(api.SubmittedNotebook.score).where(api.SubmittedNotebook.id == notebook)
         )
-        return self._penalty(student, score, (submission.timestamp - due).total_seconds())
+        return self._lateness.penalty(student, score, seconds)
+
+    def _seconds_late(self, submission) -> float:
+        return seconds_late(self._due, submission)
 
     def _of_submission(self):
         return api.SubmittedNotebook, (
@@ -193,6 +217,10 @@ class Rows:
                 f"{name} must have one notebook, {name}.ipynb, but it has "
                 f"{', '.join(names) or 'none'}: use `nbgrader autograde`, or {command}"
             )
+        if self._lateness:
+            for line in settle_one(self._db, assignment, self._lateness):
+                say(line, sys.stderr)
+            self._db.commit()
         notebook = assignment.notebooks[0]
         self._assignment, self._notebook, self._due = assignment.id, notebook.id, assignment.duedate
         self.source_cells = {

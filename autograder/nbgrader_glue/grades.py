@@ -1,14 +1,15 @@
 """Writes a course's scores as a table that is safe in a spreadsheet: `nbgrader export`."""
 
-import csv
-import io
-import re
+from collections.abc import Sequence
 from pathlib import Path
 
 from nbgrader.api import Gradebook, MissingEntry
 from nbgrader.plugins import CsvExportPlugin
 
 from autograder.files import put_in_place
+from autograder.lms.sheet import as_csv, harmless
+from autograder.nbgrader_glue.late import settle
+from autograder.terminal import plain
 
 COLUMNS = (
     "assignment",
@@ -23,8 +24,6 @@ COLUMNS = (
     "score",
     "max_score",
 )
-# A spreadsheet may take a text for a formula if it starts so, also after spaces or in wide forms.
-FORMULA = re.compile(r"[\s']*[=+\-@\uff1d\uff0b\uff0d\uff20]|'*[\t\r\n]")
 
 
 class GradesExporter(CsvExportPlugin):
@@ -32,16 +31,17 @@ class GradesExporter(CsvExportPlugin):
 
     def export(self, gradebook: Gradebook) -> None:
         to = Path(self.to or "grades.csv")
+        if self.parent is not None:  # nbgrader's command, started in the course's folder
+            for line in settle(Path(self.parent.coursedir.root), gradebook):
+                self.log.warning(plain(line))
         self.log.info("Exporting grades to %s", to)
-        table = io.StringIO(newline="")
-        writer = csv.writer(table, lineterminator="\n")
-        writer.writerow(COLUMNS)
+        rows: list[Sequence[str]] = [COLUMNS]
         for assignment in gradebook.assignments:
             if self._wanted(assignment.name, self.assignment):
                 for student in gradebook.students:
                     if self._wanted(student.id, self.student):
-                        writer.writerow(_row(gradebook, assignment, student))
-        put_in_place(to, table.getvalue())
+                        rows.append(_row(gradebook, assignment, student))
+        put_in_place(to, as_csv(rows))
 
     @staticmethod
     def _wanted(name: str, names: list) -> bool:
@@ -65,11 +65,3 @@ def _row(gradebook: Gradebook, assignment, student) -> list[str]:
 
 def _text(value) -> str:
     return "" if value is None else str(value)
-
-
-def harmless(text: str) -> str:
-    """The text, with an apostrophe before it if a spreadsheet would take it for a formula.
-
-    Different texts stay different: without the apostrophe, each is what it was.
-    """
-    return f"'{text}" if FORMULA.match(text) else text

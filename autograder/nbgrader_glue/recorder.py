@@ -9,19 +9,21 @@ import nbformat
 from nbformat import NotebookNode
 from nbgrader import utils
 from nbgrader.nbgraderformat import MetadataValidator
-from nbgrader.preprocessors import AssignLatePenalties
 from traitlets import import_item
 from traitlets.config import Config
 
 from autograder.nbgrader_glue import names
+from autograder.nbgrader_glue.decided import same_answers
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
+from autograder.nbgrader_glue.late import Lateness
 from autograder.nbgrader_glue.preprocessors import Judge, secret_of, seed_of
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.steps import autograde_preprocessors, sanitize_preprocessors
 from autograder.nbgrader_glue.submitted import RefusedError
 from autograder.notebook.beside import Beside
 from autograder.notebook.recognise import grade_id
+from autograder.term_calendar import read_if_there
 
 # This module or `repair` does the work of these steps, whatever their settings.
 REPLACED = (
@@ -54,12 +56,11 @@ class Recorder:
         _refuse_other_steps(config, self._converter)
         steps = [import_item(name) for name in autograde_preprocessors()]
         self._steps = [step(parent=self._converter) for step in steps if step.__name__ in RUN]
-        self._late = AssignLatePenalties(parent=self._converter)
-        self._late.init_plugin()
+        lateness = Lateness(read_if_there(root).of(assignment), config, self._converter)
         course = self._folders.course
         self._secret = secret_of(Path(course.root) / Judge(parent=self._converter).seed_file)
         self.source = (self._folders.source / f"{assignment}.ipynb").read_text(encoding="utf-8")
-        self._rows = Rows(course.db_url, course.course_id, assignment, self._penalty)
+        self._rows = Rows(course.db_url, course.course_id, assignment, lateness)
         try:
             self._agree_with_source()
         except BaseException:
@@ -124,8 +125,10 @@ class Recorder:
             notebook, _ = step(notebook, {})
         text = nbformat.v4.writes(notebook).encode() + b"\n"
         self._may_enter(student)
+        marked = self._folders.graded_before(student)
+        same = same_answers(marked, notebook) if marked else set()
         with self._folders.written(student, text):
-            return self._rows.record(student, self._folders.timestamp(student), notebook)
+            return self._rows.record(student, self._folders.timestamp(student), notebook, same)
 
     def refuse(self, student: str) -> None:
         """Enter a submission that cannot be graded, and remove the notebook of an earlier one.
@@ -154,13 +157,6 @@ class Recorder:
             raise ValueError(
                 f"the gradebook does not know {student}, and nbgrader_config.py forbids new students"
             )
-
-    def _penalty(self, student: str, score: float, seconds: float) -> float | None:
-        """The course's late penalty, between 0 and the score; None if there is none."""
-        if not self._late.enabled:
-            return None
-        penalty = self._late.plugin_inst.late_submission_penalty(student, score, seconds)
-        return None if penalty is None else min(max(penalty, 0), score)
 
     def _agree_with_source(self) -> None:
         """Check once what nbgrader would check in each repaired submission."""

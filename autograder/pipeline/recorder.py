@@ -9,7 +9,7 @@ from autograder.notebook.beside import Beside
 
 class Standing(Protocol):
     """What is recorded about one student: points, the number of cells that a person still has to read,
-    and the rows as text.
+    the rows as text, and in words how late the submission is.
     """
 
     @property
@@ -18,6 +18,8 @@ class Standing(Protocol):
     def to_read(self) -> int: ...
     @property
     def rows(self) -> str: ...
+    @property
+    def late(self) -> str: ...
 
 
 class Recorder(Protocol):

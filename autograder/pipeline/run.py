@@ -4,6 +4,7 @@
 is in the cache before it is recorded, so that a killed run can go on where it was.
 """
 
+import json
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
@@ -202,6 +203,8 @@ class _Run:
         counts = [f"{count} {state}" for state, count in Counter(states).items()]
         if standing.to_read:
             counts.append(f"{standing.to_read} to be read")
+        if standing.late:
+            counts.append(standing.late)
         self._lines[student] = Line(
             student,
             standing.score,
@@ -210,6 +213,19 @@ class _Run:
             tuple(notes),
             **more,
         )
+
+
+def kept_about(root: Path, student: str) -> list[Path]:
+    """The files of the cache about a student, and all results that are nobody else's."""
+    folder = root / CACHE
+    mine = sorted(folder.glob(f"recorded/*/{digest(student)}.json"))
+    others = {
+        str(json.loads(done.read_text(encoding="utf-8")).get("key"))
+        for done in folder.glob("recorded/*/*.json")
+        if done not in mine
+    }
+    results = sorted(folder.glob("results/*/*.json")) if mine else []
+    return [*mine, *(path for path in results if path.stem not in others)]
 
 
 def table(lines: list[Line]) -> str:

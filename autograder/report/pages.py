@@ -18,9 +18,9 @@ MOST_LINES = 10  # mistakes in the terminal; the page has all of them
 MOST_MADE = 3  # with an example
 
 
-def page(assignment: str, most: float, students: list[Student]) -> str:
-    """The report on an assignment as an HTML page. most: its points."""
-    of = Class(assignment, most, students)
+def page(of: Class) -> str:
+    """The report on an assignment as an HTML page."""
+    students = of.students
     counts = {
         check: Counter(
             student.verdicts[check]["state"] for student in students if check in student.verdicts
@@ -60,9 +60,12 @@ def term_page(classes: list[Class]) -> str:
     )
 
 
-def summary(most: float, students: list[Student]) -> str:
+def summary(of: Class) -> str:
     """The report on an assignment in a few lines, for the terminal."""
-    lines = [_how_many(Class("", most, students))]
+    students = of.students
+    lines = [_how_many(of)]
+    if of.missing:
+        lines.append(f"nothing handed in: {len(of.missing)} of the class")
     for one in mistakes_made(students)[:MOST_LINES]:
         lines.append(
             f"{len(one.students):4d} × {shown_note(f'{one.check}: {one.name or one.sentence}')}"
@@ -96,6 +99,8 @@ def _of_class(of: Class) -> dict:
         "assignment": of.assignment,
         "most": of.most,
         "students": of.students,
+        "missing": of.missing,
+        "counts": of.counts,
         "checks": of.checks,
         "graded": len(of.scores),
         "mean": mean(of.scores) if of.scores else 0.0,

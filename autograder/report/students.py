@@ -21,7 +21,8 @@ class Student:
     still has to read. verdicts: by check. note: why there are none. answers: the code cell that defines
     each check's function, by check. handed_in: in UTC, None where that is not known. hints: how many
     were seen, by check or derivation; None where that is not known. derivations: the marks, by id. arms:
-    which arm an answer is about, in words, by check, where arms differ from student to student.
+    which arm an answer is about, in words, by check, where arms differ from student to student. called:
+    the full name, "" where no class list tells it. late: as "late, −1.5", "" for one in time.
     """
 
     name: str
@@ -34,15 +35,22 @@ class Student:
     hints: dict[str, int] | None = None
     derivations: dict[str, dict] = field(default_factory=dict)
     arms: dict[str, str] = field(default_factory=dict)
+    called: str = ""
+    late: str = ""
 
 
 @dataclass(frozen=True)
 class Class:
-    """The students who handed in an assignment, which gives `most` points."""
+    """The students who handed in an assignment, which gives `most` points.
+
+    missing: who of the class list did not. counts: whether it is part of the totals.
+    """
 
     assignment: str
     most: float
     students: list[Student]
+    missing: tuple[str, ...] = ()
+    counts: bool = True
 
     @property
     def checks(self) -> list[str]:

@@ -29,9 +29,10 @@ class Step:
 
 @dataclass(frozen=True)
 class Standing:
-    """One student. points: in all, of `most` points of the assignments that are graded. missing: what
-    the student has not handed in, and most others have. fell: by how much of an assignment's points
-    the latest one lies below the earlier ones, each against the mean of the class.
+    """One student. points: in all, of `most` points of the assignments that count and are graded.
+    missing: what the student has not handed in, and most others have. fell: by how much of an
+    assignment's points the latest one lies below the earlier ones, each against the mean of the class.
+    called: the full name, if it is known.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Standing:
     most: float
     missing: tuple[str, ...]
     fell: float
+    called: str = ""
 
     @property
     def is_behind(self) -> bool:
@@ -78,6 +80,7 @@ def standings(classes: list[Class]) -> list[Standing]:
     scores = [
         {one.name: one.points for one in of.students if one.points is not None} for of in classes
     ]
+    called = {one.name: one.called for of in classes for one in of.students}
     found = []
     for name in names:
         graded = [(of, score) for of, score in zip(classes, scores, strict=True) if name in score]
@@ -90,10 +93,11 @@ def standings(classes: list[Class]) -> list[Standing]:
         found.append(
             Standing(
                 name,
-                sum(score[name] for _, score in graded),
-                sum(of.most for of, _ in graded),
+                sum(score[name] for of, score in graded if of.counts),
+                sum(of.most for of, _ in graded if of.counts),
                 tuple(missing),
                 _fall([_against_the_class(of, score, name) for of, score in graded]),
+                called[name],
             )
         )
     return found

@@ -26,6 +26,13 @@ REFUSED = {
         ".": "is no name of a file",
         "": "is no name of a file",
     },
+    ("collect-zip", "--roster"): dict.fromkeys(("nowhere.zip", ""), "there is no file "),
+    ("export", "--sheet"): dict.fromkeys(("nowhere.csv", "", LONG), "there is no file "),
+    ("export", "--column"): dict.fromkeys(
+        ("p3-pendulum", "=x", "p3=", "", LONG), "is no ASSIGNMENT=HEADING"
+    ),
+    ("export", "--count"): dict.fromkeys(("", "p1,,p2"), "write it as M,C"),
+    ("export", "--to"): {"/nowhere/at/all": "there is no folder /nowhere/at to put all in"},
     ("try",): {"": "name a mechanism, such as cart-pole", LONG: "more than 100 characters"},
     ("new-problem",): {" ": "name a mechanism, such as cart-pole", LONG: "more than 100 characters"},
     **{(command,): {LONG: "more than 100 characters"}

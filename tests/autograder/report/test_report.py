@@ -9,7 +9,7 @@ from autograder.cli import main
 from autograder.judging.verdict import State
 from autograder.notebook.grade import grade
 from autograder.problems import CHECKS
-from autograder.report import Student
+from autograder.report import Class, Student
 from tests.autograder import courses
 from tests.autograder.courses import P3
 from tests.submissions import p3_pendulum
@@ -62,7 +62,7 @@ def test_mistakes_are_counted_the_most_frequent_first():
 
 
 def test_the_page_says_it_all():
-    text = str(Text(report.page("p3-pendulum", 15.0, CLASS)))
+    text = str(Text(report.page(Class("p3-pendulum", 15.0, CLASS))))
     assert "4 of 5 submissions graded; mean 4, median 2.5 of 15 points" in text
     assert (
         "A person still has to read 1 answer; until then, points that marked lines suggest count."
@@ -75,12 +75,12 @@ def test_the_page_says_it_all():
 
 
 def test_nothing_of_a_student_becomes_markup():
-    tags = Text(report.page("p3-pendulum", 15.0, CLASS)).tags
+    tags = Text(report.page(Class("p3-pendulum", 15.0, CLASS))).tags
     assert not {"b", "i", "script"} & set(tags)
 
 
 def test_the_terminal_gets_the_same_counts():
-    lines = report.summary(15.0, CLASS).splitlines()
+    lines = report.summary(Class("", 15.0, CLASS)).splitlines()
     assert lines[0] == "4 of 5 graded, mean 4, median 2.5 of 15 points"
     once = {M[0].sentence: M[0].name, UNKNOWN: UNKNOWN}
     assert lines[1:] == [
@@ -93,12 +93,12 @@ def test_a_mistake_that_follows_from_a_mechanism_is_told_as_the_student_read_it(
     (made,) = CHECKS["p3-M"].known_mistakes[:1]
     told = {"check": "p3-M", "state": "incorrect", "credit": 0.0, "diagnosis": [made.sentence]}
     one = [Student("bob", 0.0, 0, {"p3-M": told})]
-    assert report.summary(15.0, one).splitlines()[1] == f"   1 × p3-M: {made.sentence}"
+    assert report.summary(Class("", 15.0, one)).splitlines()[1] == f"   1 × p3-M: {made.sentence}"
 
 
 def test_an_empty_class_has_a_page_too():
-    assert "0 of 0 submissions graded." in str(Text(report.page("p3-pendulum", 15.0, [])))
-    assert report.summary(15.0, []) == "0 of 0 graded"
+    assert "0 of 0 submissions graded." in str(Text(report.page(Class("p3-pendulum", 15.0, []))))
+    assert report.summary(Class("", 15.0, [])) == "0 of 0 graded"
 
 
 def test_a_damaged_notebook_is_refused_by_name(tmp_path):
@@ -132,3 +132,14 @@ def test_an_unknown_assignment_is_refused_by_name(tmp_path, monkeypatch, capsys)
     monkeypatch.chdir(courses.new_course(tmp_path / "course"))
     assert main(["report", "p9-flying"]) == 2
     assert "there is no solutions/p9-flying/p9-flying.ipynb" in capsys.readouterr().err
+
+
+def test_names_who_handed_in_nothing_and_who_was_late():
+    student = Student("ada", 10.0, called="Ada <b>", late="late, −1.5")
+    of = Class(P3, 15.0, [student], missing=("Nil Nihil", "<i>Bo</i>"))
+    page = Text(report.page(of))
+    assert "2 of the class handed in nothing Nil Nihil, <i>Bo</i>" in str(page)
+    assert "ada Ada <b>" in str(page)
+    assert "late, −1.5" in str(page)
+    assert not {"i", "b"} & set(page.tags)
+    assert report.summary(of).splitlines()[1] == "nothing handed in: 2 of the class"

@@ -89,14 +89,23 @@ def test_an_example_says_whose_arm_it_is_about():
     assert mistakes.example_of(made, [told]).arm == arms["p1-M"]
     said = f"One of these answers, without comments. In this student's arm, {arms['p1-M']}:"
     for page in (
-        report.page("p1-inertia", 15.0, [told]),
+        report.page(Class("p1-inertia", 15.0, [told])),
         report.term_page([Class("p1", 15.0, [told])]),
     ):
         assert said in str(Text(page))
     alone = replace(told, arms={})
-    assert "without comments:" in str(Text(report.page("p1-inertia", 15.0, [alone])))
+    assert "without comments:" in str(Text(report.page(Class("p1-inertia", 15.0, [alone]))))
 
 
 def test_a_problem_without_a_family_has_no_arms():
     assert _arms(problem("p3-pendulum").source, "bob", ["p3-M"]) == {}
     assert _arms(None, "bob", ["p1-M"]) == {}
+
+
+def test_what_does_not_count_is_shown_and_not_added_up():
+    challenge = replace(of_class("c6", 12, {"ada": 9.0}), counts=False)
+    found = standings([*TERM, challenge])
+    assert (found["ada"].points, found["ada"].most) == (24.0, 30.0)
+    page = str(Text(report.term_page([*TERM, challenge])))
+    assert "c6 (10, not counted)" in page
+    assert "p1 (10)" in page

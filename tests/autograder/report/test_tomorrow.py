@@ -66,7 +66,7 @@ def test_three_mistakes_are_shown_with_the_shortest_answer_as_text():
         for name, code in made.items()
     ]  # fmt: skip
     told.append(student("dee", {"p3-lagrangian": "The half."}))
-    page = report.page(P3, 15.0, told)
+    page = report.page(Class(P3, 15.0, told))
     text = str(Text(page))
     assert "4 of 4 students, p3-lagrangian. The half." in text
     assert "<script>alert(1)</script>" in text
@@ -84,10 +84,10 @@ def test_criteria_that_nobody_met():
     ]
     never = figures.never_met(told)
     assert never == [figures.NeverMet("p3-lagrangian", "potential <i>part", 2)]
-    page = report.page(P3, 15.0, told)
+    page = report.page(Class(P3, 15.0, told))
     assert "p3-lagrangian: potential <i>part (2 answers tried)" in str(Text(page))
     assert "i" not in Text(page).tags
-    assert "nobody met: p3-lagrangian: potential <i>part" in report.summary(15.0, told)
+    assert "nobody met: p3-lagrangian: potential <i>part" in report.summary(Class("", 15.0, told))
 
 
 def test_of_a_check_that_stopped_every_answer_nobody_met_a_criterion():
@@ -110,7 +110,7 @@ def test_verdicts_of_an_earlier_version_have_no_criteria_and_are_read():
     old = {key: value for key, value in verdict("p3-M", "One.").items() if key != "rows"}
     told = [Student("ada", 1.0, 0, {"p3-M": old})]
     assert figures.never_met(told) == []
-    assert "One." in report.page(P3, 15.0, told)
+    assert "One." in report.page(Class(P3, 15.0, told))
 
 
 def class_of(size: int, pairs: int, first: int, second: int) -> list[Student]:
@@ -153,7 +153,7 @@ def test_students_who_share_more_than_two_stand_in_one_line():
     assert one.students == ("dee", "eva", "finn")
     assert {made.check for made in one.wrong} == many.keys()
     assert one.expected == pytest.approx(30 * 5 / 30 * (3 / 30) ** 3)
-    text = str(Text(report.page(P3, 15.0, told)))
+    text = str(Text(report.page(Class(P3, 15.0, told))))
     assert "p3-M (5 students): One." in text
     assert "who dee, eva, finn" in text
 
@@ -179,7 +179,7 @@ def test_hints_and_times():
     times = figures.handed_in(told)
     assert (times.first, times.middle, times.last) == (at(20, 8), at(27, 23), at(28, 8))
     assert (times.in_last_day, times.known) == (2, 3)
-    text = str(Text(report.page(P3, 15.0, told)))
+    text = str(Text(report.page(Class(P3, 15.0, told))))
     assert "p3-M: 2 of 3 students saw a hint, 2 each" in text
     assert "to 2026-11-28 08:00 UTC, half of them by 2026-11-27 23:00; 2 of 3 in the last" in text
     assert figures.handed_in([]) is None
@@ -203,11 +203,11 @@ def test_how_far_derivations_came():
         "p3-L: 1 complete, 3 begun, 1 not attempted. 2 students read of the first line that does not "
         "hold: The <i>sign."
     )
-    for page in (report.page(P3, 15.0, told), report.term_page([of])):
+    for page in (report.page(Class(P3, 15.0, told)), report.term_page([of])):
         assert said in str(Text(page))
         assert "p3-L: 1 of 1 students saw a hint, 2 each" in str(Text(page))
         assert "i" not in Text(page).tags
-    assert "Derivations" not in report.page(P3, 15.0, [student("ada", {"p3-M": "One."})])
+    assert "Derivations" not in report.page(Class(P3, 15.0, [student("ada", {"p3-M": "One."})]))
 
 
 def test_the_term_adds_up_assignments_and_names_each_student_once():
