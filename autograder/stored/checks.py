@@ -1,9 +1,10 @@
 """The checks of a student's package, each with its numbers."""
 
 from functools import cache
+from typing import cast
 
 from autograder.judging.check import Check
-from autograder.judging.models import Beside
+from autograder.judging.models import Beside, Model
 from autograder.stored import files
 from autograder.stored.left_out import LeftOut
 from autograder.stored.numbers import Later, Numbers, Stored, StoredCatalogue, mistake_of
@@ -31,13 +32,15 @@ def _made(said: dict):
     numbers = Numbers(said["numbers"])
 
     def beside(place: int) -> Beside:
-        return Beside(Later(numbers, "beside", place))
+        return Beside(cast(Model, Later(numbers, "beside", place)))
 
     asked = {name: restored(part, beside) for name, part in said["asked"].items()}
     if said["left_out"]:
-        return LeftOut(reference=Stored({}), calls=numbers.calls, why=said["left_out"], **asked)
+        return LeftOut(
+            reference=cast(Model, Stored({})), calls=numbers.calls, why=said["left_out"], **asked
+        )
     return Check(
-        reference=Later(numbers, "reference"),
+        reference=cast(Model, Later(numbers, "reference")),
         calls=numbers.calls,
         mistakes=tuple(
             mistake_of(own, Later(numbers, "of_mistake", place))

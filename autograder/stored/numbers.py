@@ -3,11 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 
 from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
+from autograder.judging.models import Model
 from autograder.judging.terms import Term
 from autograder.protocol import Call
 from autograder.stored import files
@@ -55,7 +57,8 @@ class Numbers:
     def terms(self) -> tuple[Term, ...]:
         """The parts of the right answer."""
         return tuple(
-            Term(name, Stored(self._in_order(values))) for name, values in self._all["terms"]
+            Term(name, cast(Model, Stored(self._in_order(values))))
+            for name, values in self._all["terms"]
         )
 
     def generated(self) -> list[tuple[Mistake, Sequence | np.ndarray]]:
