@@ -70,6 +70,8 @@ def _make(top: Path) -> None:
     (site / "packages.pth").write_text(sysconfig.get_paths()["purelib"])
     install = ["-m", "pip", "--python", top / "env" / "bin" / "python", "install", "--quiet"]
     subprocess.run(
-        [sys.executable, *install, "--no-deps", "--no-index", wheel], check=True, capture_output=True
+        [sys.executable, *install, "--no-deps", "--no-index", wheel],
+        check=True,
+        capture_output=True,
     )
     shutil.rmtree(top / "env" / "lib64", ignore_errors=True)

@@ -3,6 +3,8 @@
 As a program it reads tasks in JSON from stdin, and writes what was found to stdout.
 """
 
+import contextlib
+import io
 import json
 import sys
 
@@ -26,7 +28,8 @@ def judged(task: dict) -> list[str]:
     """The verdict and its card, as text and as HTML. task: id, code, and the name of an arm or ""."""
     id, problem = task["id"], task["id"].partition("-")[0]
     namespace: dict = {"__name__": "__main__", "np": np, "sp": sp, "scipy": scipy}
-    exec(task["code"], namespace)
+    with contextlib.redirect_stdout(io.StringIO()):
+        exec(task["code"], namespace)
     own_arm._drawn.pop(problem, None)
     if task["arm"]:
         own_arm._drawn[problem] = ARMS[task["arm"]]

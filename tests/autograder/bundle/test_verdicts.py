@@ -43,8 +43,9 @@ def of_lessons():
     for number in numbers():
         for id, answers in table(number).items():
             typed = [*answers.right, *answers.wrong.values(), *answers.other, "..."]
+            first = next(cell for cell in lesson(number).cells if cell.cell_type == "code").source
             source = cell_of(lesson(number), id).source.split("\ncheck(")[0]
-            found += [task(id, filled(source, one)) for one in typed]
+            found += [task(id, f"{first}\n{filled(source, one)}") for one in typed]
     return found
 
 
@@ -104,7 +105,9 @@ def test_what_is_left_to_the_grader_says_so(installed):
     """Each of them, and no other check."""
     tasks = [task(id, function_of(id, "None")) for id in CHECKS]
     done = installed.run(CHILD, input=json.dumps(tasks))
-    said = {one["id"]: shown for one, (_, shown, _) in zip(tasks, json.loads(done.stdout), strict=True)}
+    said = {
+        one["id"]: shown for one, (_, shown, _) in zip(tasks, json.loads(done.stdout), strict=True)
+    }
     left = {id for id, shown in said.items() if "judged when you hand it in" in shown}
     assert left == LEFT_OUT == {*WHY, "c8-gravity_compensation", "c8-slotine_li"}
     for id in left:
