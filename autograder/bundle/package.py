@@ -133,7 +133,7 @@ def _in_parts(describing: Describing) -> Iterator[tuple[str, bytes]]:
         while package != AUTOGRADER:
             inside = (package / "__init__.py").relative_to(AUTOGRADER).as_posix()
             if not _has(f"autograder.{inside[:-12].replace('/', '.')}"):
-                yield f"autograder/{inside}", (package / "__init__.py").read_bytes()
+                yield f"autograder/{inside}", b""  # it may import what holds answers
             package = package.parent
 
 
