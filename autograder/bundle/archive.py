@@ -115,7 +115,7 @@ def _checks_of_mechanisms(
 def _beside(root: Path, wheel: str) -> Iterable[tuple[str, bytes]]:
     for path in sorted(HERE.iterdir()):
         if path.is_file():
-            yield path.name, path.read_text(encoding="utf-8").replace("WHEEL", wheel).encode()
+            yield path.name, path.read_text(encoding="utf-8").replace("{wheel}", wheel).encode()
     for name in ("LICENSE", "constraints.txt"):
         if (root / name).is_file():
             yield name, (root / name).read_bytes()
