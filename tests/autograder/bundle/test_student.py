@@ -1,5 +1,6 @@
 """A student has the archive alone: unpacks it, opens it, answers, and hands in."""
 
+import json
 import re
 import shutil
 import socket
@@ -11,6 +12,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from autograder.lab_server import course_of
 from autograder.notebook.version import other_version, version_of
 from tests.autograder.bundle import sitting
 from tests.autograder.course_problems import NAMES, problem, without_plots
@@ -126,4 +128,7 @@ def test_the_command_opens_the_course_where_there_is_none(installed, tmp_path):
     course = tmp_path / "armdyn"
     assert f"Your course is in {course}" in (tmp_path / "log").read_text()
     assert (course / "lessons" / "00-start-here.ipynb").is_file()
+    page = json.loads((course / ".lab" / "lab" / "settings" / "page_config.json").read_text())
+    assert "@jupyter/nbgrader:assignment-list" in page["disabledExtensions"]
+    assert course_of(course / "problems") == course
     assert not (course / "solutions").exists()
