@@ -122,7 +122,7 @@ def _in_parts(describing: Describing) -> Iterator[tuple[str, bytes]]:
         f"autograder.lesson_checks.lesson_{number}": f"lesson_{number}"
         for number in lesson_checks.numbers()
     }
-    for module in {*shaking.modules, *of_checks}:
+    for module in sorted({*shaking.modules, *of_checks}):
         source = f'"""What judging needs of {module}, which holds answers too."""\n'
         if module in shaking.modules:
             source += f"{shaking.source(module)}\n\n\n{describing.makers.written(module)}"
