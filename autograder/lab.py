@@ -9,13 +9,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import urljoin
 
+from autograder.files import put_in_place
+
 if TYPE_CHECKING:
     from jupyter_server.serverapp import ServerApp
 
 FIRST_LESSON = "lessons/00-start-here.ipynb"
+# A student's package brings its lessons and problems.
+HANDED_OUT = Path(__file__).parent / "handed_out"
 FIRST_PROBLEM = "problems/p3-pendulum/p3-pendulum.ipynb"
 # The logs of the libraries under the server, which each write a part of one error.
 OTHERS_LOGS = ("asyncio", "tornado.access", "tornado.application", "tornado.general")
+# It needs an exchange.
+ASSIGNMENT_LIST = "@jupyter/nbgrader:assignment-list"
 INSTRUCTORS_EXTENSIONS = (
     "@jupyter/nbgrader:course-list",
     "@jupyter/nbgrader:create-assignment",
@@ -33,7 +39,14 @@ def lab(arguments: list[str]) -> int:
     """
     root = Path.cwd()
     if not (root / "lessons").is_dir():
-        return _fail(f"there is no lessons/ in {root}; change to the course's folder and try again")
+        if not HANDED_OUT.is_dir():
+            return _fail(
+                f"there is no lessons/ in {root}; change to the course's folder and try again"
+            )
+        try:
+            root = _written_out(root / "armdyn")
+        except OSError as error:
+            return _fail(f"the course cannot be written to {root / 'armdyn'}: {error}")
     try:
         port = _port(arguments)
     except ValueError as error:
@@ -50,8 +63,10 @@ def lab(arguments: list[str]) -> int:
     arguments = [argument for argument in arguments if argument != "--instructor"]
     # JupyterLab's state lives beside the environment, so that this course and a student's other
     # projects do not open each other's notebooks.
-    state = root / ".venv" / ("lab" if student else "lab-of-instructor")
-    _write_settings(state / "settings", student)
+    has_exchange = (root / "nbgrader_config.py").is_file()
+    keeps = root / (".venv" if has_exchange else ".lab")
+    state = keeps / ("lab" if student else "lab-of-instructor")
+    _write_settings(state / "settings", student, has_exchange)
     opens = "/lab"
     first = [path for path in (FIRST_LESSON, FIRST_PROBLEM) if (root / path).exists()]
     if student and first and not any((state / "workspaces").glob("*")):
@@ -71,6 +86,17 @@ def lab(arguments: list[str]) -> int:
     return 0
 
 
+def _written_out(folder: Path) -> Path:
+    """The course of a student's package, written into the folder; files that are there stay."""
+    for path in sorted(HANDED_OUT.rglob("*")):
+        target = folder / path.relative_to(HANDED_OUT)
+        if path.is_file() and not target.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            put_in_place(target, path.read_bytes())
+    print(f"\n    Your course is in {folder}", flush=True)
+    return folder
+
+
 def _is_an_error(record: logging.LogRecord) -> bool:
     """False if a page was closed or loaded again in the browser while the server wrote to it."""
     from tornado.iostream import StreamClosedError
@@ -80,7 +106,7 @@ def _is_an_error(record: logging.LogRecord) -> bool:
     return not (record.exc_info and isinstance(record.exc_info[1], closed))
 
 
-def _write_settings(folder: Path, student: bool) -> None:
+def _write_settings(folder: Path, student: bool, has_exchange: bool) -> None:
     """Write JupyterLab's own settings: which of its parts are there, and what they ask for."""
     # Without this, it would first ask a student whether to fetch Jupyter's news.
     overrides = {
@@ -89,7 +115,9 @@ def _write_settings(folder: Path, student: bool) -> None:
         # section of a long lesson ends beside it.
         "@jupyterlab/notebook-extension:tracker": {"windowingMode": "defer"},
     }
-    page = {"disabledExtensions": list(INSTRUCTORS_EXTENSIONS) if student else []}
+    disabled = [*INSTRUCTORS_EXTENSIONS] if student else []
+    disabled += [] if has_exchange else [ASSIGNMENT_LIST]
+    page = {"disabledExtensions": disabled}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "overrides.json").write_text(json.dumps(overrides), encoding="utf-8")
     (folder / "page_config.json").write_text(json.dumps(page), encoding="utf-8")

@@ -14,6 +14,7 @@ import numpy as np
 from autograder.judging.check import Check
 from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
+from autograder.judging.models import Beside
 from autograder.judging.quantities import each
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r
@@ -78,9 +79,9 @@ def on(own: Convention, check: Check) -> Check:
         case "p2-C":
             first, power, skew = check.criteria
             said = replace(skew, otherwise=not_skew("the products of velocities"))
-            return replace(changed, quantities=steps(own.C), criteria=(first, power, said))
+            return replace(changed, quantities=steps(Beside(own.C)), criteria=(first, power, said))
         case "p2-C_other":
-            return replace(changed, quantities=partial(other, own.C))
+            return replace(changed, quantities=partial(other, Beside(own.C)))
         case "p4-potential_energy":
             elbow, shoulder = check.criteria
             elbow = replace(elbow, text="change of P as link 2 turns from the line of link 1")

@@ -11,7 +11,7 @@ from autograder.judging.partial import is_finite
 from autograder.judging.passages import failing
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
-from autograder.protocol import FaultKind, Reply, answer, calls
+from autograder.protocol import FaultKind, Reply, answer, calls, limits
 from tests.autograder.problems.tables import gathered
 from tests.autograder.verdicts import function_of, judged, namespace_of, verdict_of
 
@@ -82,7 +82,7 @@ def test_a_call_that_never_returns_is_shown_and_no_other_is_made(monkeypatch):
     source = function_of("p3-g_vec", "made.append(q)\nwhile len(made) > 1: pass\nreturn 1.0")
     exec(source, namespace)
     monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
-    monkeypatch.setattr(calls, "PATIENCE", 1000.0)
+    monkeypatch.setattr(limits, "PATIENCE", 1000.0)
     verdict = CHECKS["p3-g_vec"].run(
         lambda asked: calls.answer_all(asked, namespace), np.random.default_rng(0), VISIBLE_CASES
     )

@@ -25,6 +25,7 @@ from autograder.protocol import (
     Symbol,
     arguments,
     calls,
+    limits,
     readings,
     words,
 )
@@ -394,7 +395,7 @@ def test_calls_stop_at_a_fault_that_others_share(monkeypatch):
     body = "raise NotImplementedError"
     assert answered(body) == ([FaultKind.NOT_IMPLEMENTED], [0.0])
     monkeypatch.setattr(calls, "CALL_SECONDS", 0.1)
-    monkeypatch.setattr(calls, "PATIENCE", 1000.0)
+    monkeypatch.setattr(limits, "PATIENCE", 1000.0)
     kinds, made = answered("while x == 1: pass\n    return x")
     assert (kinds, made) == ([None, FaultKind.TIMED_OUT], [0.0, 1.0])
 
@@ -416,7 +417,7 @@ def test_faulty_calls_together_take_no_longer_than_one_may(monkeypatch):
 )
 def test_the_time_limit_ends_a_loop_that_swallows_errors(monkeypatch, body):
     monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
-    monkeypatch.setattr(calls, "PATIENCE", 1000.0)  # a busy machine must not end it first
+    monkeypatch.setattr(limits, "PATIENCE", 1000.0)  # a busy machine must not end it first
     before = [signal.getsignal(number) for number in (signal.SIGALRM, signal.SIGPROF)]
     assert ask(f"def f():\n    {body}").fault == Fault(FaultKind.TIMED_OUT, "0.2 s")
     assert [signal.getsignal(number) for number in (signal.SIGALRM, signal.SIGPROF)] == before
@@ -435,7 +436,7 @@ def test_an_alarm_in_a_destructor_is_not_reported_and_the_next_one_ends_the_call
     monkeypatch, capsys
 ):
     monkeypatch.setattr(calls, "CALL_SECONDS", 0.1)
-    monkeypatch.setattr(calls, "PATIENCE", 1000.0)
+    monkeypatch.setattr(limits, "PATIENCE", 1000.0)
     hook = sys.unraisablehook
     slow = "class Slow:\n    def __del__(self):\n        while True: pass\n"
     assert ask(f"{slow}def f():\n    Slow()\n    while True: pass").fault == Fault(
@@ -447,7 +448,7 @@ def test_an_alarm_in_a_destructor_is_not_reported_and_the_next_one_ends_the_call
 
 def test_no_except_exception_sees_the_time_limit(monkeypatch):
     monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
-    monkeypatch.setattr(calls, "PATIENCE", 1000.0)
+    monkeypatch.setattr(limits, "PATIENCE", 1000.0)
     namespace = {"__name__": "__main__", "seen": []}
     exec(
         "def f():\n    try:\n        while True: sum(())\n    except Exception: seen.append(1)",
