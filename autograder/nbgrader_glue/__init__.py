@@ -3,8 +3,10 @@
 Importing this package does not import nbgrader, which takes seconds; its modules do.
 """
 
+from autograder.nbgrader_glue.private import make_private
 from autograder.nbgrader_glue.release import write_problem
 from autograder.nbgrader_glue.steps import (
+    EXCHANGE,
     FEEDBACK_EXPORTER,
     GRADES_EXPORTER,
     LOG_FORMATTER,
@@ -19,6 +21,7 @@ from autograder.notebook.released import CODE_STUB, TEXT_STUB
 
 __all__ = [
     "CODE_STUB",
+    "EXCHANGE",
     "FEEDBACK_EXPORTER",
     "GRADES_EXPORTER",
     "LOG_FORMATTER",
@@ -28,6 +31,7 @@ __all__ = [
     "autograde_preprocessors",
     "feedback_preprocessors",
     "generate_preprocessors",
+    "make_private",
     "sanitize_preprocessors",
     "write_problem",
 ]

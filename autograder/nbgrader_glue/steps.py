@@ -14,6 +14,19 @@ GRADES_EXPORTER = "autograder.nbgrader_glue.grades.GradesExporter"
 LOG_FORMATTER = "autograder.nbgrader_glue.log.PlainFormatter"
 # For the formgrader and `generate_feedback`: what shows a student's text.
 PAGE_FILTERS = {"markdown2html": "autograder.nbgrader_glue.markdown.markdown2html"}
+# For `ExchangeFactory`, on a student's side and on the graders': nbgrader's exchange, closed.
+EXCHANGE = {
+    name: f"autograder.nbgrader_glue.exchange.{ours}"
+    for name, ours in {
+        "collect": "Collect",
+        "fetch_assignment": "FetchAssignment",
+        "fetch_feedback": "FetchFeedback",
+        "list": "List",
+        "release_assignment": "ReleaseAssignment",
+        "release_feedback": "ReleaseFeedback",
+        "submit": "Submit",
+    }.items()
+}
 
 
 def sanitize_preprocessors() -> list[str]:
