@@ -22,6 +22,7 @@ PROGRAMS = {
     "libeigen3-dev": ("/usr/include/eigen3/Eigen/Dense",),
     "libejml-java": ("/usr/share/java/ejml-simple.jar",),
     "octave": ("octave-cli",),
+    "openssl": ("openssl",),
     "make": ("make",),
     "postgresql": ("initdb", *sorted(map(str, SERVERS))),
     "python3-dev": (str(Path(sysconfig.get_path("include"), "Python.h")),),
