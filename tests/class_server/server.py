@@ -75,16 +75,17 @@ class ClassServer:
         lines = "".join(f"{OURS[name]}:{PASSWORD}\n" for name in accounts)
         subprocess.run(["chpasswd"], input=lines, text=True, check=True)
 
-    def start(self, section: int, number: int) -> None:
-        """Start the hub by its block, but on ports that are free."""
+    def start(self, section: int, number: int, *arguments: str) -> None:
+        """Start the hub by its block, but on ports that are free, and with these arguments."""
         account, script = self.blocks[section][number]
         self.done.add((section, number))
         assert account == "root"
-        ports = (
-            f" --JupyterHub.hub_port={free_port()}"
-            f" --ConfigurableHTTPProxy.api_url=http://127.0.0.1:{free_port()}"
+        added = (
+            f"--JupyterHub.hub_port={free_port()}",
+            f"--ConfigurableHTTPProxy.api_url=http://127.0.0.1:{free_port()}",
+            *arguments,
         )
-        script = self.here(script).rstrip() + ports
+        script = " ".join([self.here(script).rstrip(), *added])
         with (self.folder / "hub.log").open("wb") as log:
             self.hub = subprocess.Popen(
                 ["bash", "-euc", script],
@@ -120,8 +121,12 @@ class ClassServer:
             except subprocess.TimeoutExpired:
                 os.killpg(self.hub.pid, signal.SIGKILL)
         remove_accounts()
-        for name in ("nbgrader_config.py", "labconfig"):
-            left = self.place / "etc" / "jupyter" / name
+        for name in (
+            "etc/jupyter/nbgrader_config.py",
+            "etc/jupyter/labconfig",
+            "share/jupyter/lab/settings",
+        ):
+            left = self.place / name
             shutil.rmtree(left) if left.is_dir() else left.unlink(missing_ok=True)
 
 

@@ -39,31 +39,31 @@ def server(needs):
             "set ARMDYN_CLASS_SERVER to the folder of section 1 of docs/class-server.md to run its test"
         )
     needs("bubblewrap")
+    programs = Path(needs("postgresql")).resolve().parent
     remove_accounts()
     folder = Path(tempfile.mkdtemp(prefix="class-server-"))
     folder.chmod(0o755)
     server = ClassServer(Path(PLACE), folder)
     try:
-        for section, number in ((2, 0), (3, 0), (3, 1), (4, 0), (4, 1), (5, 0)):
-            server.run(section, number)
-        server.set_passwords("ada", "bob", "ines")
-        server.start(5, 1)
-        server.run(6, 0)
-        yield server
+        with running(programs, "postgres", "peer") as socket:
+            socket.chmod(0o711)
+            server.environment["PGHOST"] = str(socket)
+            for section, number in ((2, 0), (3, 0), (3, 1), (4, 0), (4, 1), (5, 0)):
+                server.run(section, number)
+            server.set_passwords("ada", "bob", "ines")
+            server.start(5, 1, f"--Spawner.environment=PGHOST={socket}")
+            server.run(6, 0)
+            yield server
     finally:
         server.stop()
         shutil.rmtree(folder)
 
 
 @pytest.fixture(scope="module")
-def postgresql(needs, server):
-    """The gradebook's server, which knows by the account who asks."""
-    with running(Path(needs("postgresql")).resolve().parent, "postgres", "peer") as folder:
-        folder.chmod(0o711)
-        server.environment["PGHOST"] = str(folder)
-        server.run(7, 0)
-        server.run(7, 1)
-        yield folder
+def postgresql(server):
+    """The gradebook is in a server that knows by the account who asks."""
+    server.run(7, 0)
+    server.run(7, 1)
 
 
 @pytest.fixture(scope="module")
@@ -141,6 +141,7 @@ def test_a_student_fetches_validates_and_submits_in_the_browser(server, ada, tmp
     listed.press("fetched", P3, "Submit")
     expect(listed.row("submitted", P3)).to_have_count(1)
     ada.screenshot(path=tmp_path / "submitted.png")
+    assert "news" not in ada.locator("body").inner_text()
     assert submitted_folder(server, "ada").owner() == OURS["ada"]
 
 
@@ -284,9 +285,11 @@ def test_another_course_has_its_own_class(server, bob):
             folders=[handed_in],
         )
         assert got == []
-    server.as_account("grader-statics", f"cd ~/statics; nbgrader collect {P4}")
-    collected = server.home("grader-statics") / "statics" / "course" / "submitted" / OURS["bob"]
-    assert (collected / P4 / f"{P4}.ipynb").is_file()
+    assert len(tried(server, "grader-statics", read=[handed_in / f"{P4}.ipynb"])) == 1
+
+
+def test_the_sandbox_starts_as_the_page_says(server):
+    assert server.run(10) == ""
 
 
 def test_each_command_of_the_page_has_been_run(server):
