@@ -14,13 +14,13 @@ from pathlib import Path
 
 import nbformat
 import pytest
-import requests
 from playwright.sync_api import expect, sync_playwright
 
 from tests.autograder.postgresql import running
 from tests.browser.conftest import CHROMIUM, PATIENCE
 from tests.browser.test_assignment_list import AssignmentList
 from tests.class_server import trespass
+from tests.class_server.document import PAGE
 from tests.class_server.server import OURS, PASSWORD, ClassServer, Person, remove_accounts
 from tests.submissions import p3_pendulum
 
@@ -303,4 +303,7 @@ def test_each_command_of_the_page_has_been_run(server):
         name for part in re.findall(r"packages\+?=\(([^)]*)\)", run) for name in part.split()
     }
     assert set(packages[3:]) <= installed
-    assert requests.get(f"http://{server.address}/hub/login", timeout=10).ok
+    folder, start = server.blocks[5][1].script.splitlines()
+    unit = re.search(r"^```ini\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.M | re.S)[1]
+    assert f"WorkingDirectory={folder.removeprefix('cd ')}\n" in unit
+    assert f"ExecStart=/opt/armdyn/bin/{start.partition('exec ')[2]}\n" in unit
