@@ -44,7 +44,13 @@ class List(_Entered, default.ExchangeList):
 
 
 class ReleaseFeedback(_Entered, default.ExchangeReleaseFeedback):
-    """As nbgrader's."""
+    """Also lets students read the pages where the graders' own files are closed."""
+
+    def copy_files(self) -> None:
+        super().copy_files()
+        for page in os.scandir(self.dest_path):
+            if page.stat().st_uid == os.geteuid():
+                os.chmod(page.path, 0o644)
 
 
 class ReleaseAssignment(_Entered, default.ExchangeReleaseAssignment):

@@ -196,6 +196,26 @@ def test_nor_open_each_others_jupyterlab(server, bob, ada):
     assert bob.hub("POST", f"users/{OURS[GRADER]}/server").status_code in (403, 404)
 
 
+def listening(user: int) -> int:
+    """On how many ports of this machine an account's programs listen."""
+    found = 0
+    for table in ("tcp", "tcp6"):
+        for line in Path("/proc/net", table).read_text().splitlines()[1:]:
+            _, _, _, state, _, _, _, owner, *_ = line.split()
+            found += state == "0A" and int(owner) == user
+    return found
+
+
+def test_nor_listen_to_each_others_kernels(server, bob):
+    """JupyterLab's own port asks who one is; a kernel's would tell everybody what it runs."""
+    user = server.home("bob").stat().st_uid
+    before = listening(user)
+    bob.start_kernel()
+    sockets = server.home("bob") / ".local" / "share" / "jupyter" / "runtime"
+    server.wait(lambda: list(sockets.glob("kernel-*-ipc-*")))
+    assert listening(user) == before > 0
+
+
 def test_a_hand_in_under_anothers_name_is_not_collected(server, bob, postgresql):
     real = submitted_folder(server, "ada")
     forged = real.parent / f"{OURS['ada']}+{P3}+2999-01-01 00:00:00.000000 UTC+x"

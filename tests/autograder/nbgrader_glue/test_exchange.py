@@ -58,7 +58,10 @@ class Course:
         config = Config()
         config.CourseDirectory.update(
             {"course_id": "armdyn", "root": str(home), "assignment_id": P3}
-            | {f"{step}_directory": f"course/{step}" for step in ("release", "submitted")}
+            | {
+                f"{name}_directory": f"course/{name}"
+                for name in ("release", "submitted", "feedback")
+            }
             | {"db_url": f"sqlite:///{home / 'gradebook.db'}"}
         )
         config.Exchange.update(
@@ -169,6 +172,26 @@ def test_graders_collect_it_and_can_remove_it(course):
     with acting_as(GRADER):
         shutil.rmtree(made)
     assert not made.exists()
+
+
+# nbgrader leaves a file open.
+@pytest.mark.filterwarnings("ignore:.*unclosed file:ResourceWarning")
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_feedback_reaches_the_student_where_the_graders_files_are_closed(course):
+    secret = (course.hand_in(ADA) / "submission_secret.txt").read_text()
+    with acting_as(GRADER):
+        page = course.home(GRADER) / "course" / "feedback" / ADA / P3 / f"{P3}.html"
+        page.parent.mkdir(parents=True)
+        page.write_text("well done")
+        page.chmod(0o600)
+        (page.parent / "timestamp.txt").write_text("2026-01-01 00:00:00 UTC")
+        (page.parent / "submission_secret.txt").write_text(secret)
+    course.do(GRADER, exchange.ReleaseFeedback)
+    course.do(ADA, exchange.FetchFeedback)
+    (got,) = (course.home(ADA) / P3 / "feedback").rglob("*.html")
+    assert got.read_text() == "well done"
+    with acting_as(BOB), pytest.raises(PermissionError):
+        os.listdir(course.exchange / "armdyn" / "feedback")
 
 
 def test_a_student_cannot_hand_in_for_another(course, caplog):
