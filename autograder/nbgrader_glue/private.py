@@ -3,6 +3,7 @@
 import os
 import stat
 import sys
+from functools import cache
 from pathlib import Path
 
 from autograder.terminal import say
@@ -17,11 +18,16 @@ def make_private(folder: Path) -> None:
         folder.mkdir(mode=0o700)
     except FileExistsError:
         if _open_to_others(folder):
-            say(
-                f"Everybody who has an account on this machine can enter {folder}, which holds your "
-                f"students' work and grades. To close it: chmod o-rwx {folder}",
-                sys.stderr,
-            )
+            _tell(folder)
+
+
+@cache  # nbgrader reads its settings three times a command
+def _tell(folder: Path) -> None:
+    say(
+        f"Everybody who has an account on this machine can enter {folder}, which holds your "
+        f"students' work and grades. To close it: chmod o-rwx {folder}",
+        sys.stderr,
+    )
 
 
 def _open_to_others(folder: Path) -> bool:
