@@ -207,13 +207,18 @@ def listening(user: int) -> int:
 
 
 def test_nor_listen_to_each_others_kernels(server, bob):
-    """JupyterLab's own port asks who one is; a kernel's would tell everybody what it runs."""
+    """A kernel tells all who can reach it what it runs and prints; on ports, these are all accounts."""
     user = server.home("bob").stat().st_uid
     before = listening(user)
     bob.start_kernel()
-    sockets = server.home("bob") / ".local" / "share" / "jupyter" / "runtime"
-    server.wait(lambda: list(sockets.glob("kernel-*-ipc-*")))
-    assert listening(user) == before > 0
+    folder = server.home("bob") / ".local" / "share" / "jupyter" / "runtime"
+    server.wait(lambda: list(folder.glob("kernel-*-ipc-*")))
+    (described,) = folder.glob("kernel-*.json")
+    assert json.loads(described.read_text())["transport"] == "ipc"
+    # ipykernel takes the output of its own child processes at a port, and says nothing there.
+    assert listening(user) <= before + 1
+    sockets = [described, *folder.glob("kernel-*-ipc-*")]
+    assert tried(server, "ada", read=[described], list=[folder], write=sockets) == []
 
 
 def test_a_hand_in_under_anothers_name_is_not_collected(server, bob, postgresql):
