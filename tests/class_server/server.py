@@ -1,7 +1,6 @@
 """A class server, set up on this machine by the commands of docs/class-server.md, and taken down."""
 
 import os
-import pwd
 import re
 import shutil
 import signal
@@ -69,6 +68,8 @@ class ClassServer:
         return ran.stdout + ran.stderr
 
     def home(self, account: str) -> Path:
+        import pwd  # not on Windows
+
         return Path(pwd.getpwnam(OURS[account]).pw_dir)
 
     def set_passwords(self, *accounts: str) -> None:
@@ -133,6 +134,8 @@ class ClassServer:
 
 def remove_accounts() -> None:
     """Remove what a run has made, also one that was killed; with the processes of these accounts."""
+    import pwd
+
     for name in ACCOUNTS:
         try:
             user = pwd.getpwnam(OURS[name]).pw_uid

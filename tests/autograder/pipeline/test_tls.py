@@ -20,6 +20,8 @@ from tests.submissions import p3_pendulum
 CERTIFICATES, SCHEDULER, WORKER, GRADE = (block.script for block in sections()[9])
 START_SECONDS = 60.0
 
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="the page is about Linux")
+
 
 class Cluster:
     """A scheduler and a worker, in a home of their own."""
