@@ -18,7 +18,8 @@ os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.envir
 root = Path(__file__).resolve().parent
 course = root / "course"
 problems = root / "problems"
-(course / "exchange").mkdir(parents=True, exist_ok=True)
+nbgrader_glue.make_private(course)
+(course / "exchange").mkdir(exist_ok=True)
 problems.mkdir(exist_ok=True)
 
 c = get_config()  # noqa: F821  (nbgrader defines it)
@@ -33,9 +34,10 @@ c.CourseDirectory.feedback_directory = "course/feedback"
 c.CourseDirectory.solution_directory = "course/solution"
 c.CourseDirectory.db_url = f"sqlite:///{course / 'gradebook.db'}"
 
-# The exchange is in course/ as well, so that one machine is enough to try everything. For a class,
-# point it at a folder that everybody can write to.
+# The exchange is in course/ as well, so that one account is enough to try everything. For students with
+# accounts of their own, it has to be elsewhere: docs/class-server.md.
 c.Exchange.root = str(course / "exchange")
+c.ExchangeFactory.update(nbgrader_glue.EXCHANGE)
 c.Exchange.cache = str(course / "cache")
 # Fetch writes into problems/, and only what is not there yet; Submit hands in from there. An absolute
 # path, because Assignment List works in that folder.

@@ -3,8 +3,10 @@
 Importing this package does not import nbgrader, which takes seconds; its modules do.
 """
 
+from autograder.nbgrader_glue.private import make_private
 from autograder.nbgrader_glue.release import write_problem
 from autograder.nbgrader_glue.steps import (
+    EXCHANGE,
     FEEDBACK_EXPORTER,
     GRADES_EXPORTER,
     LOG_FORMATTER,
@@ -21,6 +23,7 @@ from autograder.notebook.released import CODE_STUB, TEXT_STUB
 
 __all__ = [
     "CODE_STUB",
+    "EXCHANGE",
     "FEEDBACK_EXPORTER",
     "GRADES_EXPORTER",
     "LOG_FORMATTER",
@@ -30,6 +33,7 @@ __all__ = [
     "autograde_preprocessors",
     "feedback_preprocessors",
     "generate_preprocessors",
+    "make_private",
     "page_templates",
     "sanitize_preprocessors",
     "templates_of_nbgrader",

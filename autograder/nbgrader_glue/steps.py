@@ -21,6 +21,19 @@ PAGE_FILTERS = {
     "with_formulas": "autograder.nbgrader_glue.formulas.with_formulas",
     "pictures_beside": "autograder.nbgrader_glue.markdown.pictures_beside",
 }
+# For `ExchangeFactory`, on a student's side and on the graders': nbgrader's exchange, closed.
+EXCHANGE = {
+    name: f"autograder.nbgrader_glue.exchange.{ours}"
+    for name, ours in {
+        "collect": "Collect",
+        "fetch_assignment": "FetchAssignment",
+        "fetch_feedback": "FetchFeedback",
+        "list": "List",
+        "release_assignment": "ReleaseAssignment",
+        "release_feedback": "ReleaseFeedback",
+        "submit": "Submit",
+    }.items()
+}
 
 
 def page_templates() -> list[str]:

@@ -163,7 +163,13 @@ class Cluster:
             from distributed import Client
         except ImportError:
             raise ValueError("--scheduler needs Dask: pip install 'armdyn[cluster]'") from None
-        self._client = Client(address)
+        try:
+            self._client = Client(address)
+        except TypeError as error:  # what Dask raises where its settings name no certificate
+            raise ValueError(
+                f"{address} asks for a certificate, and Dask's settings name none; "
+                "docs/class-server.md says how to make one"
+            ) from error
         self._executor = self._client.get_executor(pure=False)
 
     def __enter__(self):

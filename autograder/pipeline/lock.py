@@ -21,7 +21,7 @@ else:
 @contextmanager
 def locked(path: Path, otherwise: str) -> Iterator[None]:
     """Hold the lock on a file, which stays; BlockingIOError(otherwise) if another process holds it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)  # not inherited by programs started here
     try:
         try:

@@ -14,7 +14,10 @@ from docs import reading_order
 
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
-GUIDES = ("instructors", "own-problem", "library", "course-map", "source-errata", "references")
+GUIDES = (
+    *("instructors", "class-server", "own-problem", "library", "course-map"),
+    *("source-errata", "references"),
+)
 PAGES = ("CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md")
 # Files that pages link to, and a reader may fetch. The tests of the autograder hold right answers.
 MAY_BE_FETCHED = ("LICENSE", "docs/", "tests/armdyn/", "tests/ports/", "tests/peers/", "lib/")

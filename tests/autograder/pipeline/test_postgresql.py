@@ -1,10 +1,7 @@
 """The gradebook in a PostgreSQL server holds what it holds in SQLite."""
 
-import os
 import shutil
 import subprocess
-import tempfile
-import time
 from pathlib import Path
 
 import pytest
@@ -12,42 +9,18 @@ import pytest
 from autograder.cli import main
 from tests.autograder import courses
 from tests.autograder.courses import P3, rows, submit
+from tests.autograder.postgresql import running
 from tests.submissions import p3_pendulum
-
-# The server refuses to run as root.
-USER = {"user": "postgres"} if os.name == "posix" and os.geteuid() == 0 else {}
-START_SECONDS = 30.0
 
 
 @pytest.fixture(scope="module")
 def server(needs):
     """The folder of a private server's socket; no other way leads to it."""
     programs = Path(needs("postgresql")).resolve().parent
-    folder = Path(tempfile.mkdtemp(prefix="postgresql-"))
-    if USER:
-        shutil.chown(folder, **USER)
-    data = folder / "data"
-    made = [programs / "initdb", "--username=grader", "--auth=trust", "--no-sync", data]
-    subprocess.run(made, check=True, capture_output=True, cwd=folder, **USER)
-    started = [programs / "postgres", "-D", data, "-k", folder, "-h", "", "-F"]
-    with (folder / "log").open("wb") as log:
-        process = subprocess.Popen(started, stdout=log, stderr=log, cwd=folder, **USER)
-    try:
-        wait_for(programs / "createdb", folder, process)
+    with running(programs, "grader", "trust") as folder:
+        made = [programs / "createdb", "--host", folder, "--username", "grader", "gradebook"]
+        subprocess.run(made, check=True)
         yield folder
-    finally:
-        process.terminate()
-        process.wait(START_SECONDS)
-        shutil.rmtree(folder)
-
-
-def wait_for(createdb: Path, folder: Path, process: subprocess.Popen) -> None:
-    deadline = time.monotonic() + START_SECONDS
-    command = [createdb, "--host", folder, "--username", "grader", "gradebook"]
-    while subprocess.run(command, capture_output=True).returncode:
-        assert process.poll() is None, (folder / "log").read_text()
-        assert time.monotonic() < deadline, (folder / "log").read_text()
-        time.sleep(0.1)
 
 
 def test_rows_are_those_of_sqlite(server, tmp_path, monkeypatch, capsys):

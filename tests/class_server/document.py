@@ -1,0 +1,34 @@
+"""The commands of docs/class-server.md, block by block; `python3 -m` prints those that install.
+
+`.ci/run` reads this with the system's Python, so it needs nothing else.
+"""
+
+import re
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+PAGE = Path(__file__).parents[2] / "docs" / "class-server.md"
+_SECTION = re.compile(r"^## (\d+)\. .*?$(.*?)(?=^## |\Z)", re.M | re.S)
+_BLOCK = re.compile(r"^```sh\n# as (\S+)\n(.*?)^```$", re.M | re.S)
+
+
+class Block(NamedTuple):
+    """Commands, and the account that runs them."""
+
+    account: str
+    script: str
+
+
+def sections() -> dict[int, list[Block]]:
+    """The blocks of each section, by its number."""
+    text = PAGE.read_text(encoding="utf-8")
+    return {
+        int(number): [Block(*found) for found in _BLOCK.findall(body)]
+        for number, body in _SECTION.findall(text)
+    }
+
+
+if __name__ == "__main__":
+    _, install = sections()[1]
+    print(install.script.replace("/opt/armdyn", sys.argv[1]))
