@@ -13,6 +13,8 @@ from autograder.protocol.words import described
 
 # A wrong number of 0 has no size of its own: it is one that is this share of the right one at most.
 ALMOST_NOTHING = 0.0005
+SIGN = "The size is right and the sign is not."
+DEGREES = "You counted in degrees. The unit of the answer has radians in it."
 
 
 @dataclass(frozen=True)
@@ -33,8 +35,9 @@ class Number:
 
     id: "05-sag" is answered in my_sag. text: what is asked for, as the card's row. unit: "" for none.
     right: within a share `tolerance` of it an answer is right. wrong: of several that fit the nearest
-    is named. otherwise: what to say of any other number. further: on the card of a right answer, why
-    it is right or what it leads to. hints: for `hint`.
+    is named. otherwise: what to say of any other number, unless its sign alone is wrong or it counts
+    in degrees. further: on the card of a right answer, why it is right or what it leads to. hints: for
+    `hint`.
 
     ValueError where right is 0 (ask for a Choice), two wrong numbers have one name, or numbers are so
     close that an answer could be both.
@@ -76,7 +79,7 @@ class Number:
             return typed.right(self.id, text, self.further)
         near = [one for one in self.wrong if self._same(number, one.number)]
         if not near:
-            return typed.wrong(self.id, text, self.otherwise)
+            return typed.wrong(self.id, text, self._unnamed(number))
         nearest = min(near, key=lambda one: abs(number - one.number))
         return typed.wrong(self.id, text, nearest.sentence)
 
@@ -92,7 +95,22 @@ class Number:
             if array.size == 1 and math.isfinite(array.item()):
                 return float(array.item())
             said = f"{array.size} numbers" if array.size != 1 else f"{array.item()}"
-        raise typed.NoAnswerError(f"{name} is {said}. Type one number, without its unit.")
+        how = "Type one number, without its unit."
+        if isinstance(given, str):
+            how = "Type one number, without quotes and without its unit."
+        elif isinstance(given, tuple):
+            how += " Its decimals come after a point: 3.5, not 3,5."
+        raise typed.NoAnswerError(f"{name} is {said}. {how}")
+
+    def _unnamed(self, number: float) -> str:
+        """What to say of a wrong number that is none of `wrong`."""
+        if self._same(-number, self.right):
+            return SIGN
+        if self.unit.startswith("rad") and self._same(math.radians(number), self.right):
+            return DEGREES
+        if self.unit.endswith("/rad") and self._same(math.degrees(number), self.right):
+            return DEGREES
+        return self.otherwise
 
     def _same(self, given: float, number: float) -> bool:
         return abs(given - number) <= self._room(number)

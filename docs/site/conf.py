@@ -20,7 +20,7 @@ html_theme = "sphinx_book_theme"
 html_title = "armdyn"
 html_static_path = [str(Path(__file__).with_name("static"))]
 html_css_files = ["course.css"]
-html_js_files = [("controls.js", {"defer": "defer"})]
+html_js_files = [("controls.js", {"defer": "defer"}), ("paper.js", {"defer": "defer"})]
 html_sourcelink_suffix = ""
 html_theme_options = {
     "use_download_button": True,

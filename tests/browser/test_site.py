@@ -274,6 +274,30 @@ def test_printed_a_lesson_stands_alone(tab, site):
     assert tab.get_by_role("heading", name="05 · Gravity").first.is_visible()
 
 
+def test_a_dark_page_is_printed_in_dark_letters(tab, site):
+    tab.emulate_media(color_scheme="dark")
+    tab.goto((site / "lessons" / "13-before-the-exam.html").as_uri())
+    inks = ("#sheet td p", "#sheet mjx-container", ".highlight pre", ".diagram .node text")
+    expect(tab.locator(", ".join(inks)).first).to_be_attached()
+
+    def brightness():
+        fill = ["fill" if "text" in ink else "color" for ink in inks]
+        return [
+            tab.locator(i).first.evaluate(BRIGHTNESS, [f]) for i, f in zip(inks, fill, strict=True)
+        ]
+
+    on_screen = brightness()
+    assert min(on_screen) > 0.6
+    # What the printer sees: the listener comes after the page's own.
+    tab.evaluate(f"""inks => addEventListener("beforeprint", () => {{
+      window.printed = inks.map(i => ({BRIGHTNESS})(
+        document.querySelector(i), [i.includes("text") ? "fill" : "color"]));
+    }})""", inks)  # fmt: skip
+    tab.pdf()
+    assert max(tab.evaluate("window.printed")) < 0.3
+    assert brightness() == on_screen
+
+
 def test_printed_the_formula_sheet_is_one_page(tab, site):
     tab.set_viewport_size(PAPER)
     tab.emulate_media(media="print")

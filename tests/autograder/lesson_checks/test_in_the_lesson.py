@@ -77,6 +77,16 @@ def test_each_goal_is_checked_here_or_in_a_problem(number):
     assert checks.keys() <= {id for ids in goals.values() for id in ids}
 
 
+def test_the_first_choice_says_how_to_type_a_letter(number):
+    """A letter without quotes is a NameError, which no card explains."""
+    choices = (id for id, asked in checks_of(number).items() if isinstance(asked, Choice))
+    if first := next(choices, None):
+        cells = lesson(number).cells
+        place = next(k for k, cell in enumerate(cells) if cell.id == first)
+        asks = next(c for c in reversed(cells[:place]) if OPTION.search(c.source))
+        assert 'in quotes, as in `"a"`' in asks.source, asks.id
+
+
 def test_checks_stand_in_the_notebook_in_their_order(number):
     calls = [
         (cell.id, id)

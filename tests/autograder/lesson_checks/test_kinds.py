@@ -1,6 +1,7 @@
 """Number and Choice: what they refuse to be made of, and whatever a student types."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import sympy as sp
 from autograder.judging.card import html_card
 from autograder.judging.verdict import State
 from autograder.lesson_checks.choice import Choice, Option
-from autograder.lesson_checks.number import Number, WrongNumber
+from autograder.lesson_checks.number import DEGREES, SIGN, Number, WrongNumber
 
 
 def number(*wrong: float, right: float = 10.0, names: str = "", tolerance: float = 0.01) -> Number:
@@ -41,6 +42,18 @@ def test_a_wrong_number_is_named_to_its_tolerance(typed, sentence):
     found = number(5.0, -10.0, 0.0).judge({"my_torque": float(typed)})
     assert (found.state, found.diagnosis) == (State.INCORRECT, (sentence,))
     assert found.rows[0].text == "a torque (N·m)"
+
+
+@pytest.mark.parametrize(
+    ("unit", "typed", "sentence"),
+    [("rad/s", -10.0, SIGN), ("rad/s", 573.0, DEGREES), ("rad/s", 0.1745, "No."),
+     ("N·m/rad", 0.1745, DEGREES), ("N·m/rad", 573.0, "No."), ("N·m", 573.0, "No."),
+     ("", 0.1745, "No."), ("rad/s", -573.0, "No.")],
+)  # fmt: skip
+def test_a_wrong_sign_and_degrees_are_named_in_every_check(unit, typed, sentence):
+    asked = replace(number(5.0), unit=unit)
+    found = asked.judge({"my_torque": typed})
+    assert (found.state, found.diagnosis) == (State.INCORRECT, (sentence,))
 
 
 def test_numbers_that_cannot_be_told_apart_are_refused():
@@ -75,11 +88,18 @@ class Hostile:
 
 
 NO_NUMBER = {
-    "a text": ("'28.3'", "my_torque is the text '28.3'. Type one number, without its unit."),
+    "a text": (
+        "'28.3'",
+        "my_torque is the text '28.3'. Type one number, without quotes and without its unit.",
+    ),
+    "a comma": (
+        "28,3",
+        "my_torque is 2 numbers. Type one number, without its unit. Its decimals come after a point",
+    ),
     "with a unit": ("'28.3 N·m'", "my_torque is the text '28.3 N·m'."),
     "nothing": ("None", "my_torque is None."),
     "a truth": ("True", "my_torque is True."),
-    "two": ("[1, 2]", "my_torque is 2 numbers."),
+    "two": ("[1, 2]", "my_torque is 2 numbers. Type one number, without its unit."),
     "no end": ("float('nan')", "my_torque is nan."),
     "infinite": ("np.inf", "my_torque is inf."),
     "complex": ("1j", "my_torque is the complex number 1j."),
