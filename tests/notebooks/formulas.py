@@ -2,6 +2,10 @@
 
 A formula's letters are given numbers; abbreviations (`h = ...`, `\\underbrace{...}_A`) get theirs from
 where they stand. What is no sum of products of letters, sines and cosines has no number.
+
+The parser of `autograder.proofs` cannot take the LaTeX's place: it reads one line of a student in known
+names and refuses the rest with a sentence. A lesson's formula has entries of matrices, alignments,
+braces, `\\dot q_1` and definitions of its own, and what of it has no number is passed over.
 """
 
 import ast
