@@ -123,6 +123,22 @@ def main(arguments: list[str] | None = None) -> int:
         help="what students write, in this order, with commas between (default: "
         "potential_energy,M,g_vec,C, less what is 0 for every motion)",
     )
+    bundling = commands.add_parser(
+        "bundle", help="write what a class is given: one archive, without answers"
+    )
+    bundling.add_argument(
+        "assignments",
+        nargs="*",
+        type=argument.name,
+        help="their names in solutions/, such as p1-inertia (default: all)",
+    )
+    bundling.add_argument(
+        "--to",
+        type=Path,
+        default=Path("build"),
+        metavar="FOLDER",
+        help="where to write it (default: build/)",
+    )
     if arguments[:1] == ["lab"]:
         from autograder.lab import lab  # imports Jupyter, which takes a second
 
@@ -142,6 +158,8 @@ def main(arguments: list[str] | None = None) -> int:
         return report(root, given.assignment)
     if given.command == "open-solution":
         return open_solution(root, given.assignment, given.on, given.full_marks)
+    if given.command == "bundle":
+        return bundle(root, given.assignments, given.to)
     if given.command == "new-problem":
         return new_problem(root, given.mechanism, given.asks)
     return problems(root)
@@ -259,6 +277,28 @@ def new_problem(root: Path, name: str, asks: list[str] | None) -> int:
     say("Read it, write the story at its top, and try it:")
     say(f"  autograder try {mechanism.name}")
     say(f"  nbgrader generate_assignment {mechanism.name}")
+    return 0
+
+
+def bundle(root: Path, assignments: list[str], to: Path) -> int:
+    """Write the archive of these assignments for a class; without any, of all."""
+    from autograder import lean  # noqa: F401  before nbformat is imported
+    from autograder.bundle.archive import BundleError, write_bundle
+    from autograder.bundle.describing import DescribingError
+    from autograder.bundle.shaking import ShakingError
+    from autograder.mechanisms.file import MechanismFileError
+    from autograder.nbgrader_glue import write_problem
+
+    names = [_name_of(assignment) for assignment in assignments]
+    for name in names:
+        if why := _unknown(root, name):
+            return _complain(why)
+    try:
+        made = write_bundle(root, names, root / to, write_problem)
+    except (BundleError, DescribingError, ShakingError, MechanismFileError, OSError) as error:
+        return _complain(str(error))
+    say(f"{made.path}: written, with {', '.join(made.assignments)}.")
+    say("Students unpack it and read START-HERE.txt. It holds no answers to these problems.")
     return 0
 
 

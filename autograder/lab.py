@@ -9,10 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import urljoin
 
+from autograder.files import put_in_place
+
 if TYPE_CHECKING:
     from jupyter_server.serverapp import ServerApp
 
 FIRST_LESSON = "lessons/00-start-here.ipynb"
+# A student's package brings its lessons and problems.
+HANDED_OUT = Path(__file__).parent / "handed_out"
 FIRST_PROBLEM = "problems/p3-pendulum/p3-pendulum.ipynb"
 # The logs of the libraries under the server, which each write a part of one error.
 OTHERS_LOGS = ("asyncio", "tornado.access", "tornado.application", "tornado.general")
@@ -33,7 +37,14 @@ def lab(arguments: list[str]) -> int:
     """
     root = Path.cwd()
     if not (root / "lessons").is_dir():
-        return _fail(f"there is no lessons/ in {root}; change to the course's folder and try again")
+        if not HANDED_OUT.is_dir():
+            return _fail(
+                f"there is no lessons/ in {root}; change to the course's folder and try again"
+            )
+        try:
+            root = _written_out(root / "armdyn")
+        except OSError as error:
+            return _fail(f"the course cannot be written to {root / 'armdyn'}: {error}")
     try:
         port = _port(arguments)
     except ValueError as error:
@@ -50,7 +61,8 @@ def lab(arguments: list[str]) -> int:
     arguments = [argument for argument in arguments if argument != "--instructor"]
     # JupyterLab's state lives beside the environment, so that this course and a student's other
     # projects do not open each other's notebooks.
-    state = root / ".venv" / ("lab" if student else "lab-of-instructor")
+    keeps = root / (".venv" if (root / "nbgrader_config.py").is_file() else ".lab")
+    state = keeps / ("lab" if student else "lab-of-instructor")
     _write_settings(state / "settings", student)
     opens = "/lab"
     first = [path for path in (FIRST_LESSON, FIRST_PROBLEM) if (root / path).exists()]
@@ -69,6 +81,17 @@ def lab(arguments: list[str]) -> int:
     server.identity_provider.token_generated = False
     server.start()
     return 0
+
+
+def _written_out(folder: Path) -> Path:
+    """The course of a student's package, written into the folder; files that are there stay."""
+    for path in sorted(HANDED_OUT.rglob("*")):
+        target = folder / path.relative_to(HANDED_OUT)
+        if path.is_file() and not target.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            put_in_place(target, path.read_bytes())
+    print(f"\n    Your course is in {folder}", flush=True)
+    return folder
 
 
 def _is_an_error(record: logging.LogRecord) -> bool:

@@ -134,6 +134,11 @@ MAY_IMPORT = {
     "proofs": ("protocol",),
     "problems": ("protocol", "judging", "mechanisms", "mutation"),
     "lesson_checks": ("protocol", "judging", "problems"),
+    "stored": ("digest", "protocol", "judging"),
+    "bundle": (
+        *("digest", "protocol", "judging", "stored", "problems", "lesson_checks", "notebook"),
+        *("mechanisms", "nbgrader_glue", "lab"),
+    ),
     "pictures": ("protocol", "judging", "mechanisms", "mutation", "problems"),
     "student": (
         *("hints_seen", "worked_answers", "protocol", "judging", "pictures", "problems", "proofs"),
@@ -155,13 +160,14 @@ MAY_IMPORT = {
         "report",
     ),
     "arguments": ("worked_answers",),
-    "lab": (),
+    "lab": ("files",),
     "lab_server": (),
     "lean": (),
     "__init__": ("protocol", "student"),
     "cli": (
         "arguments",
         "authoring",
+        "bundle",
         "files",
         "lab",
         "lab_server",

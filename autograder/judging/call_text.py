@@ -9,6 +9,7 @@ import numpy as np
 from autograder.protocol import Call, Expressions, Function, Symbol
 
 LONGEST_ARRAY = 12  # entries; a longer one stands in a call by its name
+FEW = (3, 4)  # significant digits of a call, tried in turn before SHORT
 SHORT, EXACT = 6, 17  # significant digits: of numbers to be read, and of numbers to the last bit
 
 

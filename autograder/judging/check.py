@@ -33,6 +33,8 @@ from autograder.judging.wrong_numbers import wrong_numbers
 from autograder.protocol import Call, FaultKind, Reply
 
 VISIBLE_CASES = 6
+# A visible check tries the same cases each time, so that a student sees how an error changes.
+VISIBLE_SEED = 20260101
 HIDDEN_CASES = 24
 # An answer that took longer, s, is not called again to find out more about it.
 SLOW = 2.0

@@ -34,6 +34,20 @@ class AtPoints:
         return [np.array([self.of(call, at) for at in call.at], dtype=float) for call in calls]
 
 
+@dataclass(frozen=True)
+class Beside:
+    """A right model, with the student's arguments, that quantities need beside the answer.
+
+    It marks what must not stay a formula where a check is stored in numbers.
+    """
+
+    model: "Model"
+
+    def of(self, call: Call):
+        """Its numbers for one call, as `evaluated` gives them."""
+        return evaluated(self.model, [call])[0]
+
+
 # Typed loosely: but for the few that stand for symbolic ones, each is a function.
 Model = Callable
 

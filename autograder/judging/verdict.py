@@ -12,7 +12,9 @@ AS_ABOVE = "For the same reason as above."
 
 
 class State(StrEnum):
-    """Where an answer stands. In the last state the check failed; the student is not to blame."""
+    """Where an answer stands. In the last two states it is not judged, and the student is not to blame:
+    the check failed, or needs what only the grader has.
+    """
 
     CORRECT = "correct"
     PARTLY_CORRECT = "partly correct"
@@ -20,6 +22,7 @@ class State(StrEnum):
     ERROR = "error in your code"
     NOT_ATTEMPTED = "not attempted"
     CHECK_FAILED = "the check itself failed"
+    NOT_HERE = "judged when you hand it in"
 
 
 @dataclass(frozen=True)

@@ -72,6 +72,11 @@ def beside(folder: Path, source: Path, ignore: list[str], kept: list[str]) -> Be
     return replace(chosen, left_out=left_out, mechanisms=mechanisms)
 
 
+def mechanisms_beside(folder: Path) -> dict[str, str]:
+    """The mechanisms of the course that stand beside a problem's source, by the names of their files."""
+    return _mechanisms({path.name: path for path in folder.glob("*.py")})
+
+
 def _mechanisms(files: dict[str, Path]) -> dict[str, str]:
     """The texts of those Python files that define a mechanism, by their names."""
     texts = {

@@ -8,9 +8,10 @@ from pathlib import Path
 import nbformat
 from nbconvert.exporters import NotebookExporter
 
-from autograder.nbgrader_glue.handed_in import counted
+from autograder.nbgrader_glue.handed_in import counted, mechanisms_beside
 from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.nbgrader_glue.start import can_start
+from autograder.notebook.version import other_version
 from autograder.protocol import one_line
 from autograder.sandbox.room import Room
 
@@ -129,6 +130,11 @@ class SubmissionExporter(NotebookExporter):
 
     def from_file(self, file_stream, resources=None, **kw):
         text = file_stream.read().removeprefix("\ufeff")  # Windows editors write it
-        return self.from_notebook_node(
-            nbformat.reads(text, as_version=4), resources=resources, **kw
-        )
+        notebook = nbformat.reads(text, as_version=4)
+        name = self._course.assignment_id
+        source = self._source(name)
+        if source.is_file():
+            present = nbformat.read(source, as_version=4)
+            if why := other_version(notebook, present, mechanisms_beside(source.parent)):
+                raise RefusedError(f"the notebook {why}")
+        return self.from_notebook_node(notebook, resources=resources, **kw)

@@ -10,12 +10,17 @@ from autograder.judging.verdict import State
 from autograder.notebook.beside import Beside
 from autograder.notebook.grade import NOTHING, grade
 from autograder.notebook.scores import with_verdicts
+from autograder.notebook.version import other_version
 from autograder.pipeline.cache import code_version
 from autograder.sandbox.room import Room
 
 
 class NoNotebookError(ValueError):
     """What was handed in under a notebook's name is something else."""
+
+
+class OtherVersionError(ValueError):
+    """A notebook has other questions than the course; the message says which."""
 
 
 def judge(
@@ -37,6 +42,8 @@ def judge(
             return _judged(content, source, seed, beside, said, student) | {"code": code_version()}
     except (UnicodeDecodeError, nbformat.reader.NotJSONError):
         refused = "is not valid JSON: ask the student for it again"
+    except OtherVersionError as error:
+        refused = str(error)
     except NoNotebookError:
         refused = "is not a notebook: ask the student for it again"
     except OSError:
@@ -57,6 +64,8 @@ def _judged(
     content: bytes, source: str, seed: str, beside: Beside, said: tuple, student: str | None
 ) -> dict:
     notebook, notes = _read(content.decode("utf-8-sig"))
+    if why := other_version(notebook, _source(source), beside.mechanisms):
+        raise OtherVersionError(why)
     graded = grade(notebook, _source(source), seed, beside, said, student)
     notebook = with_verdicts(graded)
     nbformat.validate(notebook, relax_add_props=True)

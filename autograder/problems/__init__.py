@@ -3,7 +3,6 @@
 import difflib
 import re
 from collections.abc import Mapping
-from functools import lru_cache
 from types import MappingProxyType
 
 from autograder.judging.check import Check
@@ -12,7 +11,7 @@ from autograder.problems.c6_regressor import checks as c6_regressor
 from autograder.problems.c7_recursive import checks as c7_recursive
 from autograder.problems.c8_control import checks as c8_control
 from autograder.problems.material.conventions import Convention
-from autograder.problems.own_mechanisms import check_of_file, files_here
+from autograder.problems.own_mechanisms import check_of_file, check_of_kit, files_here
 from autograder.problems.p1_inertia import checks as p1_inertia
 from autograder.problems.p2_energy_skew import checks as p2_energy_skew
 from autograder.problems.p3_pendulum import checks as p3_pendulum
@@ -59,22 +58,7 @@ def check_for(
     """
     if id in CHECKS:
         return CHECKS[id] if own is None else families.on(own, CHECKS[id])
-    if check := check_of_file(id, files):
-        return check
-    if re.fullmatch(
-        r"[a-z0-9-]+-(M|M_dot|C|g_vec|potential_energy|lagrangian|f|energy_drift|regressor)", id
-    ):
-        return _of_mechanism(id)
-    return None
-
-
-@lru_cache(maxsize=64)
-def _of_mechanism(id: str) -> Check | None:
-    from autograder.mechanisms import MECHANISMS  # derives with SymPy, which takes a second
-    from autograder.mutation.checks import check_of
-
-    name, _, answer = id.rpartition("-")
-    return check_of(MECHANISMS[name], answer) if name in MECHANISMS else None
+    return check_of_file(id, files) or check_of_kit(id)
 
 
 class UnknownCheckError(ValueError):

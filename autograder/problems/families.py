@@ -14,10 +14,12 @@ import numpy as np
 from autograder.judging.check import Check
 from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
+from autograder.judging.models import Beside
 from autograder.judging.quantities import each
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r
 from autograder.problems.material.conventions import BOOK, Convention, nearest_first
+from autograder.problems.material.described import pose
 from autograder.problems.material.family_equilibria import (
     askew,
     mistaken,
@@ -67,7 +69,7 @@ def on(own: Convention, check: Check) -> Check:
         terms=made.terms if made else (),
         hints=HINTS.get(check.id, check.hints),
         # The card draws where angles start as in the book.
-        pose=partial(_pose, own) if check.pose and own == Convention(slope=own.slope) else None,
+        pose=partial(pose, own) if check.pose and own == Convention(slope=own.slope) else None,
     )
     match check.id:
         case "p1-singular_arm":
@@ -78,9 +80,9 @@ def on(own: Convention, check: Check) -> Check:
         case "p2-C":
             first, power, skew = check.criteria
             said = replace(skew, otherwise=not_skew("the products of velocities"))
-            return replace(changed, quantities=steps(own.C), criteria=(first, power, said))
+            return replace(changed, quantities=steps(Beside(own.C)), criteria=(first, power, said))
         case "p2-C_other":
-            return replace(changed, quantities=partial(other, own.C))
+            return replace(changed, quantities=partial(other, Beside(own.C)))
         case "p4-potential_energy":
             elbow, shoulder = check.criteria
             elbow = replace(elbow, text="change of P as link 2 turns from the line of link 1")
@@ -193,10 +195,6 @@ def _moved(own: Convention, call: Call) -> Call:
     first = call.args[0].copy()  # q, x = [q; q̇], or rows of x
     first[..., :2] = own.angles_at(BOOK.directions(first[..., :2]))
     return replace(call, args=(first, *call.args[1:]))
-
-
-def _pose(own: Convention, call: Call) -> list:
-    return own.joints(call.args[0][:2], call.args[-1])
 
 
 def _described(own: Convention, answer):

@@ -1,9 +1,17 @@
-"""Checks of mechanisms that stand in a file beside the problem's notebook: `gantry-M` of gantry.py."""
+"""Checks of mechanisms: `cart-pole-M` of the kit, and `gantry-M` of gantry.py beside the notebook."""
 
+import re
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 
 from autograder.judging.check import Check
+
+# What a mechanism may be asked for, as `mutation.answers` has it, which loads SymPy.
+ANSWERED = (
+    *("M", "M_dot", "C", "g_vec", "potential_energy", "lagrangian", "f", "energy_drift"),
+    "regressor",
+)
 
 
 def check_of_file(id: str, files: Mapping[str, str]) -> Check | None:
@@ -20,6 +28,22 @@ def check_of_file(id: str, files: Mapping[str, str]) -> Check | None:
     from autograder.mutation.checks import check_of
 
     return check_of(mechanism_of(text, f"{name}.py", name), answer) if answer in ANSWERS else None
+
+
+def check_of_kit(id: str) -> Check | None:
+    """The check of this id of a mechanism that comes with the kit; None for any other id."""
+    name, _, answer = id.rpartition("-")
+    return (
+        _of_kit(name, answer) if re.fullmatch("[a-z0-9-]+", name) and answer in ANSWERED else None
+    )
+
+
+@lru_cache(maxsize=64)
+def _of_kit(name: str, answer: str) -> Check | None:
+    from autograder.mechanisms import MECHANISMS  # derives with SymPy, which takes a second
+    from autograder.mutation.checks import check_of
+
+    return check_of(MECHANISMS[name], answer) if name in MECHANISMS else None
 
 
 def files_here(id: str) -> dict[str, str]:

@@ -7,21 +7,9 @@ because it has another name in the sandbox.
 """
 
 from .arguments import Expressions, Function, Symbol, numbers_at, real
-from .calls import (
-    CALL_SECONDS,
-    PATIENCE,
-    Call,
-    Fault,
-    Reply,
-    TimeLimitError,
-    answer,
-    answer_all,
-    kind_of,
-    message_of,
-    read,
-    time_limit,
-)
+from .calls import CALL_SECONDS, Call, Fault, Reply, answer, answer_all, kind_of, message_of, read
 from .causes import Cause
+from .limits import PATIENCE, TimeLimitError, no_limit, time_limit
 from .looks import Look
 from .own_arm import OwnArm
 from .proofs import HandedIn, decode_handed_in, encode_handed_in, handed_in
@@ -61,6 +49,7 @@ __all__ = [
     "is_finite",
     "kind_of",
     "message_of",
+    "no_limit",
     "numbers_at",
     "one_line",
     "other_cell",

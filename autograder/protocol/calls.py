@@ -1,21 +1,17 @@
 """Calls a student's function, and writes calls and replies as messages."""
 
 import difflib
-import os
-import signal
-import sys
-import threading
 import time
 import traceback
 import warnings
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from . import causes, riddles
 from .arguments import changed, real
+from .limits import PATIENCE, TimeLimitError, time_limit
 from .own_code import line_of
 from .readings import (
     MOST_NUMBERS,
@@ -29,9 +25,6 @@ from .readings import (
 from .words import shortened
 
 CALL_SECONDS = 2.0  # of the processor's time
-# Code that sleeps for ever uses no processor time, and on a busy machine honest code gets little. So
-# each limit holds on the clock as well, where it is this many times as long.
-PATIENCE = 5.0
 # A reply with two answers must fit where the largest answer does; this is more than any answer has.
 MOST_TWICE = MOST_NUMBERS // 10
 MOST_CHANGES = 50
@@ -88,17 +81,6 @@ class Reply:
     again: "Reply | None" = None
     caret: bool = False
     cause: causes.Cause | None = None
-
-
-class TimeLimitError(BaseException):
-    """Raised in the student's code at its time limit; no `except Exception` swallows it.
-
-    seconds: the limit. starved: whether it is the clock's limit, as the code used little processor time.
-    """
-
-    def __init__(self, seconds: float, starved: bool):
-        super().__init__(seconds, starved)
-        self.seconds, self.starved = seconds, starved
 
 
 def answer(call: Call, namespace: Mapping) -> Reply:
@@ -235,42 +217,3 @@ def message_of(error: BaseException) -> str:
         return str(error)
     except Exception:
         return "(a message that cannot be read)"
-
-
-@contextmanager
-def time_limit(seconds: float) -> Iterator[None]:
-    """Raise TimeLimitError in the block at its time limit; on Windows there is none.
-
-    The limit is `seconds` of this process's processor time, or PATIENCE times as long on the clock.
-    """
-    if os.name != "posix" or threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    begin = time.process_time()
-
-    def stop(signum, frame):
-        # Code that swallowed the processor's limit may still run at the clock's.
-        if signum == signal.SIGPROF or time.process_time() - begin >= seconds:
-            raise TimeLimitError(seconds, starved=False)
-        raise TimeLimitError(PATIENCE * seconds, starved=True)
-
-    def unraisable(hooked):
-        # It fell into a destructor, which lets none out; the next one comes in half a second.
-        if not isinstance(hooked.exc_value, TimeLimitError):
-            of_destructors(hooked)
-
-    of_destructors, sys.unraisablehook = sys.unraisablehook, unraisable
-    of_processor = signal.signal(signal.SIGPROF, stop)
-    of_clock = signal.signal(signal.SIGALRM, stop)
-    # Again every half second: student code may catch the first one.
-    signal.setitimer(signal.ITIMER_PROF, seconds, 0.5)
-    signal.setitimer(signal.ITIMER_REAL, PATIENCE * seconds, 0.5)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGPROF, of_processor)
-        signal.signal(signal.SIGALRM, of_clock)
-        sys.unraisablehook = of_destructors

@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from types import TracebackType
 
-from .calls import TimeLimitError, message_of, time_limit
+from .calls import message_of
+from .limits import TimeLimitError, time_limit
 from .riddles import of_error, sentence
 from .words import one_line
 

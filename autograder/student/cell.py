@@ -5,25 +5,24 @@ import sys
 import time
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
 from autograder.judging import card
-from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES
+from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES, VISIBLE_SEED
 from autograder.judging.verdict import State, Verdict
 from autograder.lesson_checks import known as known_in_lesson
 from autograder.pictures.offers import offer
 from autograder.problems import CHECKS, UnknownCheckError, known_check
 from autograder.proofs import derivation_of
-from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all
+from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all, no_limit
 from autograder.student import below, failing, lesson, progress, worst_case
 from autograder.student.definitions import watched
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for, reminder
 from autograder.student.pasted import as_pasted
 
-# A visible check tries the same cases each time, so that a student sees how an error changes.
-VISIBLE_SEED = 20260101
 _definitions = watched({check.name for check in CHECKS.values()})
 
 
@@ -65,9 +64,10 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     pictured = offer(verdict, known_check(id), namespace)
     shown = card.mimebundle(verdict, below.lines(verdict, pictured), below.points(verdict))
     show(shown)
+    _tell_of_no_limit()
     if said := reminder(id):
         print(said)
-    if verdict.state is not State.CORRECT:
+    if verdict.state not in (State.CORRECT, State.NOT_HERE):
         raise NotCorrectError(verdict, shown["text/plain"])
 
 
@@ -91,6 +91,12 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
     verdict = judged.run(ask, rng, count)
     quick = time.monotonic() - started < SLOW
     return as_pasted(verdict, judged, ask, asked, namespace) if quick else verdict
+
+
+@cache  # once in a kernel
+def _tell_of_no_limit() -> None:
+    if said := no_limit():
+        print(said)
 
 
 def _naming_an_old_function(verdict: Verdict) -> Verdict:

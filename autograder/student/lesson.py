@@ -8,7 +8,7 @@ import numpy as np
 
 from autograder.judging import card
 from autograder.judging.card import Line
-from autograder.judging.check import VISIBLE_CASES, Check
+from autograder.judging.check import VISIBLE_CASES, VISIBLE_SEED, Check
 from autograder.judging.verdict import State, Verdict
 from autograder.lesson_checks import LessonCheck
 from autograder.lesson_checks.typed import CHANGE_IT, TYPE_IT
@@ -16,7 +16,6 @@ from autograder.protocol import answer_all
 from autograder.student import failing, worst_case
 from autograder.student.display import show
 
-SEED = 20260101  # the same cases each time, so that a student sees how an error changes
 # A function's cell is the check's own cell, so both are run at once.
 NEXT_STEPS = {
     State.NOT_ATTEMPTED: TYPE_IT,
@@ -40,7 +39,7 @@ def verdict_on(check: LessonCheck, namespace: Mapping) -> Verdict:
     """The verdict on what the namespace has for this check."""
     if not isinstance(check, Check):
         return check.judge(namespace)
-    rng = np.random.default_rng(SEED)
+    rng = np.random.default_rng(VISIBLE_SEED)
     verdict = check.run(lambda calls: answer_all(calls, namespace), rng, VISIBLE_CASES)
     return replace(verdict, next_step=NEXT_STEPS.get(verdict.state, verdict.next_step))
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from autograder.judging.call_text import (
     EXACT,
+    FEW,
     SHORT,
     arguments,
     by_name,
@@ -24,7 +25,6 @@ from autograder.judging.quantities import each
 from autograder.judging.verdict import Failed, Verdict, Witness
 from autograder.protocol import Call, Fault
 
-FEW = (3, 4)  # significant digits of a call, tried in turn before SHORT
 SHOWN = 4  # of a number that came back
 NOISE = 1e-9  # less than this share of the largest number is rounding
 

@@ -11,6 +11,7 @@ WHY_NONE = {
     State.CORRECT: "its last verdict is correct",
     State.NOT_ATTEMPTED: "its function is not written yet",
     State.CHECK_FAILED: "the check itself failed",
+    State.NOT_HERE: "it is judged when you hand it in",
 }
 
 

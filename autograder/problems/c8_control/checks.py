@@ -14,6 +14,7 @@ import numpy as np
 from autograder.judging.check import Check, Criterion
 from autograder.judging.criterion import Answered, Said
 from autograder.judging.loops import Loop
+from autograder.judging.models import Beside
 from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.section import Section
 from autograder.problems.c8_control import law, loops, mistakes
@@ -160,12 +161,14 @@ def _rate_calls(rng, count):
     return calls
 
 
-@each
-def _rates(call, value):
+def _rates(christoffel: Beside, call, value):
     (number,) = one_number.parts(call, value)
-    q, qd, _, C_used, _, arm = call.args
-    is_christoffel = np.allclose(C_used, planar_2r.C(q, qd, arm))
+    is_christoffel = np.allclose(call.args[3], christoffel.of(call))
     return (number, NOTHING) if is_christoffel else (NOTHING, number)
+
+
+def _christoffel(q, qd, s, C_used, gains, arm):
+    return planar_2r.C(q, qd, arm)
 
 
 CHECKS = (
@@ -324,7 +327,7 @@ CHECKS = (
         signature="V_dot(q, qd, s, C_used, gains, arm)",
         reference=law.rate_of_V,
         calls=_rate_calls,
-        quantities=_rates,
+        quantities=each(partial(_rates, Beside(_christoffel))),
         criteria=(
             Criterion("V̇ with the Christoffel C", "W", 0.4),
             Criterion("V̇ with a valid C that is not skew", "W", 0.6),

@@ -11,6 +11,7 @@ import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.criterion import TOLERANCE, Said, relative_errors
+from autograder.judging.models import Beside
 from autograder.judging.quantities import array, each
 from autograder.judging.section import Section
 from autograder.mutation.generated import Generated
@@ -59,11 +60,11 @@ def _matrix(value, n, right):
 
 
 def _of_arm(right, call, value):
-    return _matrix(value, 2, lambda: (right(*call.args), call.args[1]))
+    return _matrix(value, 2, lambda: (right.of(call), call.args[1]))
 
 
-def steps(right):
-    """C q̇; q̇ᵀC q̇; C + Cᵀ. right(q, qd, arm): the Christoffel C of the arm."""
+def steps(right: Beside) -> each:
+    """C q̇; q̇ᵀC q̇; C + Cᵀ. right: the Christoffel C of the arm."""
 
     @each
     def parts(call, value):
@@ -73,14 +74,14 @@ def steps(right):
     return parts
 
 
-def other(christoffel, calls, values):
+def other(christoffel: Beside, calls, values):
     """C q̇, and how far Ṁ − 2C is from skew-symmetric, up to where that is clear.
 
     One clear case is enough: what fails somewhere is no property. Where C q̇ is not right, no distance
-    counts, and it is put below zero. christoffel(q, qd, arm): the Christoffel C of the arm.
+    counts, and it is put below zero. christoffel: the Christoffel C of the arm.
     """
     given = [_of_arm(christoffel, call, value) for call, value in zip(calls, values, strict=True)]
-    right = [christoffel(*call.args) for call in calls]
+    right = [christoffel.of(call) for call in calls]
     velocities = [call.args[1] for call in calls]
     torques = [C @ qd for C, qd in zip(given, velocities, strict=True)]
     enough = np.array([CLEARLY * np.max(np.abs(C)) for C in right])
@@ -134,12 +135,11 @@ def _symbolic_calls(rng, count):
 _christoffel = mistakes.at_points(lambda numbers: numbers.C)
 
 
-@each
-def _symbolic(call, value):
+def _symbolic(christoffel: Beside, call, value):
     """C q̇, and C."""
     (point,), n = call.at, len(call.args[1])
     qd = np.array([point[symbol.name] for symbol in call.args[2]])
-    C = _matrix(value[0], n, lambda: (_christoffel.of(call, point), qd))
+    C = _matrix(value[0], n, lambda: (christoffel.of(call)[0], qd))
     return C @ qd, C
 
 
@@ -190,7 +190,7 @@ CHECKS = (
         signature="C(q, qd, arm)",
         reference=planar_2r.C,
         calls=_calls("C"),
-        quantities=steps(planar_2r.C),
+        quantities=steps(Beside(planar_2r.C)),
         criteria=(
             Criterion("vector C q̇", "N·m", 0.5),
             Criterion(
@@ -235,7 +235,7 @@ CHECKS = (
             planar_2r.C(q, qd, arm) + np.array([[-qd[1], qd[0]], [0.0, 0.0]])
         ),
         calls=_calls("C_other"),
-        quantities=partial(other, planar_2r.C),
+        quantities=partial(other, Beside(planar_2r.C)),
         criteria=(
             Criterion(
                 "vector C_other q̇",
@@ -282,7 +282,7 @@ CHECKS = (
         returns="C",
         reference=_christoffel,
         calls=_symbolic_calls,
-        quantities=_symbolic,
+        quantities=each(partial(_symbolic, Beside(_christoffel))),
         criteria=(
             Criterion("vector C q̇", "N·m", 0.4),
             Criterion(

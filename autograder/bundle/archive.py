@@ -1,0 +1,143 @@
+"""Writes the archive for a class: lessons, released problems, the student's package, a start file."""
+
+import tempfile
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+import nbformat
+from nbformat import NotebookNode
+
+from autograder.bundle.package import package
+from autograder.bundle.wheel import write_wheel, zipped
+from autograder.digest import digest
+from autograder.judging.check import Check
+from autograder.nbgrader_glue.handed_in import mechanisms_beside
+from autograder.notebook.beside import DEFINES
+from autograder.notebook.version import stamp, version_of
+from autograder.problems import MODULES, check_for
+
+TOP = "armdyn"
+HERE = Path(__file__).parent / "to_start"
+COMMANDS = "[console_scripts]\nautograder = autograder.cli:main\n"
+# Without an exchange there is nothing for nbgrader to fetch or to hand in.
+NOT_FOR_STUDENTS = ("nbgrader",)
+
+
+class BundleError(ValueError):
+    """No archive can be made; the message says why."""
+
+
+@dataclass(frozen=True)
+class Bundle:
+    """What was written: the archive, its version, and the names of its assignments."""
+
+    path: Path
+    version: str
+    assignments: tuple[str, ...]
+
+
+def write_bundle(
+    root: Path,
+    assignments: Iterable[str],
+    to: Path,
+    release: Callable[[Path, str, Path], None],
+) -> Bundle:
+    """Write the archive of these assignments; without any, of all in solutions/.
+
+    root: the course's folder. to: the folder for the archive, which is made. release(root, assignment,
+    folder): writes the student version of an assignment into the folder. BundleError, DescribingError,
+    ShakingError or OSError where it cannot be made.
+    """
+    names = tuple(assignments) or tuple(
+        path.parent.name
+        for path in sorted((root / "solutions").glob("*/*.ipynb"))
+        if path.stem == path.parent.name
+    )
+    if not names:
+        raise BundleError(f"there is no assignment in {root / 'solutions'}")
+    with tempfile.TemporaryDirectory(prefix="bundle-") as folder:
+        course = dict(_lessons(root))
+        own: list[Check] = []
+        for name in names:
+            release(root, name, Path(folder) / name)
+            source = nbformat.read(root / "solutions" / name / f"{name}.ipynb", as_version=4)
+            mechanisms = mechanisms_beside(root / "solutions" / name)
+            own += _checks_of_mechanisms(name, source, mechanisms)
+            course |= _problem(name, Path(folder) / name, version_of(source, mechanisms))
+        files = package([name.replace("-", "_") for name in names], own)
+        files |= {f"autograder/handed_out/{path}": data for path, data in course.items()}
+        number = digest(*(part for path in sorted(files) for part in (path, files[path])))[:8]
+        version = f"{metadata.version('armdyn')}+{number}"
+        to.mkdir(parents=True, exist_ok=True)
+        wheel = write_wheel(Path(folder), "armdyn", version, _metadata(version), COMMANDS, files)
+        every = {**course, wheel.name: wheel.read_bytes()} | dict(_beside(root, wheel.name))
+        path = to / f"armdyn-{number}.zip"
+        path.write_bytes(zipped({f"{TOP}/{name}": data for name, data in every.items()}))
+    return Bundle(path, version, names)
+
+
+def _lessons(root: Path) -> Iterable[tuple[str, bytes]]:
+    for path in sorted((root / "lessons").rglob("*")):
+        parts = path.relative_to(root).parts
+        if path.is_file() and not any(part.startswith((".", "_")) for part in parts):
+            yield "/".join(parts), path.read_bytes()
+
+
+def _problem(name: str, released: Path, version: str) -> dict[str, bytes]:
+    """The files of a released problem; its notebook says of which version it is."""
+    found = {}
+    for path in sorted(path for path in released.rglob("*") if path.is_file()):
+        data = path.read_bytes()
+        if path.suffix == ".py" and DEFINES.search(data.decode(errors="replace")):
+            continue  # its energies lead to every answer
+        if path.name == f"{name}.ipynb":
+            notebook = nbformat.reads(data.decode(), as_version=4)
+            stamp(notebook, version)
+            data = f"{nbformat.writes(notebook)}\n".encode()
+        found[f"problems/{name}/{path.relative_to(released).as_posix()}"] = data
+    return found
+
+
+def _checks_of_mechanisms(
+    name: str, source: NotebookNode, mechanisms: Mapping[str, str]
+) -> Iterable[Check]:
+    """Those of a problem that is about a mechanism; none of the course's own problems."""
+    if name.replace("-", "_") in {module.__name__.split(".")[-2] for module in MODULES}:
+        return
+    for cell in source.cells:
+        id = (cell.metadata.get("nbgrader") or {}).get("grade_id", "")
+        if check := check_for(id, None, mechanisms):
+            yield check
+
+
+def _beside(root: Path, wheel: str) -> Iterable[tuple[str, bytes]]:
+    for path in sorted(HERE.iterdir()):
+        if path.is_file():
+            yield path.name, path.read_text(encoding="utf-8").replace("WHEEL", wheel).encode()
+    for name in ("LICENSE", "constraints.txt"):
+        if (root / name).is_file():
+            yield name, (root / name).read_bytes()
+
+
+def _metadata(version: str) -> str:
+    """METADATA: what the package needs, as this installation says it."""
+    kept = []
+    for said in metadata.requires("armdyn") or []:
+        what, _, when = said.partition(";")
+        if "extra ==" not in when or (
+            'extra == "lab"' in when and not what.startswith(NOT_FOR_STUDENTS)
+        ):
+            kept.append(f"Requires-Dist: {said}")
+    lines = [
+        "Metadata-Version: 2.4",
+        "Name: armdyn",
+        f"Version: {version}",
+        f"Summary: {metadata.metadata('armdyn')['Summary']}",
+        f"License-Expression: {metadata.metadata('armdyn')['License-Expression']}",
+        f"Requires-Python: {metadata.metadata('armdyn')['Requires-Python']}",
+        "Provides-Extra: lab",
+        *kept,
+    ]
+    return "\n".join(lines) + "\n"

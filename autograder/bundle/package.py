@@ -1,0 +1,150 @@
+"""The files of a student's package: the library, what judges, and checks in numbers.
+
+A module is in the package as it is, or in parts (`shaking`), or another one stands in its place
+(`stand_ins`). Everything else is left out, so that a new module of the graders' is, too.
+"""
+
+import json
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import autograder
+from autograder import lesson_checks
+from autograder.bundle.describing import Describing
+from autograder.bundle.makers import Makers
+from autograder.bundle.shaking import Shaking, path_of
+from autograder.bundle.storing import in_numbers
+from autograder.judging.check import Check
+from autograder.problems import MODULES, families
+from autograder.problems.material import given
+from autograder.problems.material.conventions import FAMILY
+
+AUTOGRADER = Path(autograder.__file__).parent
+STAND_INS = Path(__file__).parent / "stand_ins"
+# Folders and files of `autograder` that a student's package has as they are.
+WHOLE = (
+    *("judging", "protocol", "proofs", "stored", "student"),
+    *("__init__", "digest", "files", "hints_seen", "lab", "lab_server", "lean", "terminal"),
+    *("worked_answers", "pictures/__init__", "lesson_checks/__init__", "lesson_checks/choice"),
+    *("lesson_checks/number", "lesson_checks/typed", "problems/__init__", "problems/arm_card"),
+    *("problems/material/__init__", "problems/material/described"),
+)
+IN_PARTS = (
+    "autograder.problems.",
+    "autograder.lesson_checks.lesson_",
+    "autograder.mutation.answers.",
+)
+CHECKS = '\nfrom autograder.stored.checks import checks\n\nCHECKS = checks("{name}")\n'
+START = "start_here"  # lesson 00 has its check
+
+
+def package(problems: Iterable[str], mechanisms: Iterable[Check] = ()) -> dict[str, bytes]:
+    """By its path in the wheel: each file.
+
+    problems: names of the problems' folders, as "p3_pendulum", whose checks can be asked. mechanisms:
+    the checks of problems about mechanisms. DescribingError, ShakingError where something of a check
+    cannot be stored.
+    """
+    files = dict(_whole())
+    describing = Describing(Makers())
+    data = dict(_stored({START, *problems}, mechanisms, describing))
+    files |= {
+        f"autograder/stored/data/{name}.json": json.dumps(of).encode() for name, of in data.items()
+    }
+    return files | dict(_in_parts(describing))
+
+
+def _whole() -> Iterator[tuple[str, bytes]]:
+    armdyn = path_of("armdyn").parent
+    for path in _files(armdyn):
+        yield f"armdyn/{path.relative_to(armdyn).as_posix()}", path.read_bytes()
+    for name in WHOLE:
+        module = AUTOGRADER / f"{name}.py"
+        for path in [module] if module.is_file() else _files(AUTOGRADER / name):
+            yield f"autograder/{path.relative_to(AUTOGRADER).as_posix()}", path.read_bytes()
+    for path in _files(STAND_INS):
+        yield f"autograder/{path.relative_to(STAND_INS).as_posix()}", path.read_bytes()
+
+
+def _files(folder: Path) -> list[Path]:
+    """Those that are part of the code: no caches, and nothing hidden."""
+    found = sorted(path for path in folder.rglob("*") if path.is_file())
+    return [path for path in found if path.suffix != ".pyc" and not path.name.startswith(".")]
+
+
+def _stored(
+    problems: set[str], mechanisms: Iterable[Check], describing: Describing
+) -> Iterator[tuple[str, dict]]:
+    """By their names: the files of the checks and of their numbers."""
+
+    def stored(checks: Iterable, to: str) -> Iterator[tuple[str, dict]]:
+        said = []
+        for check in checks:
+            if not isinstance(check, Check):
+                said.append(describing.of(check))
+                continue
+            name = f"{check.id}{to[to.find('@') :] if '@' in to else ''}"
+            made = in_numbers(check, name, describing)
+            said.append(made.asked)
+            yield f"numbers-{name}", made.numbers
+        yield f"checks-{to}", {"checks": said}
+
+    asked = [module for module in MODULES if _folder(module) in problems]
+    for module in asked:
+        yield from stored(module.CHECKS, _folder(module))
+        for check in module.CHECKS:
+            for own in FAMILY if check.id in families.OF_THE_ARM else ():
+                yield from stored([families.on(own, check)], f"{check.id}@{own.name}")
+    for number in lesson_checks.numbers():
+        yield from stored(lesson_checks.of_lesson(number).CHECKS, f"lesson_{number}")
+    yield from stored(mechanisms, "mechanisms")
+    short = {_folder(module).partition("_")[0] for module in asked}
+    yield (
+        "given",
+        {
+            problem: {own.name: given.code(own, problem) for own in FAMILY}
+            for problem in sorted(short.intersection(given.GIVEN))
+        },
+    )
+
+
+def _folder(module) -> str:
+    return module.__name__.split(".")[-2]
+
+
+def _in_parts(describing: Describing) -> Iterator[tuple[str, bytes]]:
+    shaking = Shaking(lambda module: module.startswith(IN_PARTS), _has)
+    for name in sorted(describing.names):
+        shaking.need(*name.split(":"))
+    for module in describing.makers.sources:
+        shaking.need_source(module, describing.makers.written(module))
+    of_checks = {module.__name__: _folder(module) for module in MODULES} | {
+        f"autograder.lesson_checks.lesson_{number}": f"lesson_{number}"
+        for number in lesson_checks.numbers()
+    }
+    for module in {*shaking.modules, *of_checks}:
+        source = f'"""What judging needs of {module}, which holds answers too."""\n'
+        if module in shaking.modules:
+            source += f"{shaking.source(module)}\n\n\n{describing.makers.written(module)}"
+        source += CHECKS.format(name=of_checks[module]) if module in of_checks else ""
+        path = path_of(module)
+        yield f"autograder/{path.relative_to(AUTOGRADER).as_posix()}", source.encode()
+        package = path.parent
+        while package != AUTOGRADER:
+            inside = (package / "__init__.py").relative_to(AUTOGRADER).as_posix()
+            if not _has(f"autograder.{inside[:-12].replace('/', '.')}"):
+                yield f"autograder/{inside}", (package / "__init__.py").read_bytes()
+            package = package.parent
+
+
+def _has(module: str) -> bool:
+    """Whether the package has this module as it is, or another one in its place."""
+    if not module.startswith("autograder."):
+        return module == "autograder"
+    path = module.removeprefix("autograder.").replace(".", "/")
+    stands = (STAND_INS / f"{path}.py").is_file()
+    return (
+        stands
+        or any(f"{path}/".startswith(f"{own}/") for own in WHOLE)
+        or (f"{path}/__init__" in WHOLE)
+    )
