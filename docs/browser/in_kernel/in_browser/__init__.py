@@ -1,0 +1,10 @@
+"""What a browser's Python needs before a notebook runs in it. The kernel calls `start` when it starts."""
+
+
+def start() -> None:
+    """Mend what is different in a browser."""
+    from in_browser import linear_algebra, packages, streams
+
+    streams.mend()
+    linear_algebra.mend()
+    packages.mend()
