@@ -53,6 +53,9 @@ class Course:
                 notebook = nbformat.reads(data.decode(), as_version=4)
                 notes.add(notebook, path.stem)
                 data = nbformat.writes(notebook).encode()
+            elif path.suffix == ".svg":
+                # JupyterLite shows no picture with letters beyond Latin-1.
+                data = data.decode().encode("ascii", "xmlcharrefreplace")
             path.write_bytes(data)
 
     def write_numbers(self, to: Path) -> None:

@@ -8,14 +8,13 @@ import zipfile
 from importlib import metadata
 from pathlib import Path
 
-import jupyterlite_pyodide_kernel
-
 from docs.browser.course import Course
 from docs.browser.installed import wheel_of
 from docs.browser.pyodide import LOCK, START, Pyodide, Wheel
 
 KERNEL = "@jupyterlite/pyodide-kernel-extension"
 WIDGETS = "@jupyter-widgets/jupyterlab-manager"
+EXTENSIONS = Path(sys.prefix) / "share" / "jupyter" / "labextensions"
 PLACE = "static/pyodide"
 # The kernel's, which it would install one by one; and what each notebook imports.
 AT_ONCE = (
@@ -71,7 +70,6 @@ def build(course: Course, pyodide: Pyodide, to: Path) -> None:
 
 
 def _config(to: Path) -> dict:
-    extensions = Path(sys.prefix) / "share" / "jupyter" / "labextensions"
     return {
         "LiteBuildConfig": {
             "apps": ["lab"],
@@ -79,7 +77,7 @@ def _config(to: Path) -> dict:
             "output_dir": str(to.resolve()),
             # Not what else is installed beside the course, such as nbgrader's.
             "ignore_sys_prefix": ["federated_extensions"],
-            "federated_extensions": [str(extensions / name) for name in (KERNEL, WIDGETS)],
+            "federated_extensions": [str(EXTENSIONS / name) for name in (KERNEL, WIDGETS)],
             "no_sourcemaps": True,
             "no_unused_shared_packages": True,
         }
@@ -122,9 +120,8 @@ def _wheels(course: Course, pyodide: Pyodide, folder: Path) -> list[Wheel]:
 
 def _of_kernel() -> list[Wheel]:
     """The wheels that the kernel's extension brings; of two versions of one, the newer."""
-    folder = Path(jupyterlite_pyodide_kernel.__file__).parents[4] / "share/jupyter/labextensions"
     found = {}
-    for path in sorted((folder / KERNEL / WHEELS_OF_KERNEL).glob("*.whl")):
+    for path in sorted((EXTENSIONS / KERNEL / WHEELS_OF_KERNEL).glob("*.whl")):
         name, version = path.name.split("-")[:2]
         with zipfile.ZipFile(path) as wheel:
             tops = {part.partition("/")[0].removesuffix(".py") for part in wheel.namelist()}
