@@ -18,7 +18,8 @@ from docs.browser.pyodide import Wheel
 
 HERE = Path(__file__).parent
 HANDED_OUT = "autograder/handed_out/"
-NUMBERS = "autograder/stored/data/"
+DATA = "autograder/stored/data/"
+NUMBERS = f"{DATA}numbers-"
 STARTS = "etc/ipython/startup/00-armdyn.py"
 
 
@@ -36,7 +37,7 @@ class Course:
         with zipfile.ZipFile(io.BytesIO(every[self._wheel])) as wheel:
             self._package = {name: wheel.read(name) for name in wheel.namelist()}
         self.numbers = {
-            name.removeprefix(NUMBERS): data
+            name.removeprefix(DATA): data
             for name, data in self._package.items()
             if name.startswith(NUMBERS)
         }

@@ -1,11 +1,11 @@
-"""The files of stored checks, which the site serves: each is fetched when its check is first asked."""
+"""The files of stored checks. The site serves their numbers: each is fetched when its check is asked."""
 
 import json
 from functools import cache
 from pathlib import Path
 
-HERE = Path(__file__).parent
-WHERE = json.loads((HERE / "where.json").read_text(encoding="utf-8"))
+FOLDER = Path(__file__).parent / "data"
+WHERE = json.loads((FOLDER.parent / "where.json").read_text(encoding="utf-8"))
 # The kernel's program, which runs this Python, comes from below this folder of the site.
 OF_KERNEL = "/extensions/"
 
@@ -13,14 +13,15 @@ OF_KERNEL = "/extensions/"
 @cache
 def read(name: str) -> dict:
     """What a file holds; FileNotFoundError where there is none, OSError where it cannot be fetched."""
-    if not has(name):
-        raise FileNotFoundError(name)
-    path = HERE / "data" / f"{name}.json"
-    return json.loads(path.read_text(encoding="utf-8") if path.is_file() else _fetched(path.name))
+    file = FOLDER / f"{name}.json"
+    if not file.is_file() and file.name in WHERE["names"]:
+        return json.loads(_fetched(file.name))
+    return json.loads(file.read_text(encoding="utf-8"))
 
 
 def has(name: str) -> bool:
-    return f"{name}.json" in WHERE["names"]
+    file = FOLDER / f"{name}.json"
+    return file.is_file() or file.name in WHERE["names"]
 
 
 def _fetched(name: str) -> str:
