@@ -1,7 +1,7 @@
-"""python -m docs.browser FOLDER [ASSIGNMENT …]: writes the site into the folder, with these problems or all.
+"""python -m docs.browser FOLDER [ASSIGNMENT …]: writes the site, with these problems or all.
 
-ARMDYN_PYODIDE names a folder with Pyodide, to be copied into the site. Without it, the pages ask Pyodide's
-official address for it.
+ARMDYN_PYODIDE names a folder with Pyodide, to be copied into the site. Without it, the pages fetch it
+from Pyodide's official address.
 """
 
 import os

@@ -13,13 +13,14 @@ DOWNLOAD = (
     "downloaded file, where your instructor says. **Validate** and the Assignment List are not here."
 )
 INTERRUPT = "A cell that never ends cannot be interrupted: choose *Kernel → Restart Kernel*."
+NO_FILES = "Answers in other languages (`from_file`) need a compiler, and a browser has none."
 OF = {
-    "p1-inertia": "Answers in other languages (`from_file`) need a compiler, and a browser has none.",
-    "p2-energy-skew": "Answers in other languages (`from_file`) need a compiler, and a browser has none.",
+    "p1-inertia": NO_FILES,
+    "p2-energy-skew": NO_FILES,
     "08-from-symbols-to-fast-code": "A browser has no C compiler: cells that need one say so, and the "
     "printed times were measured elsewhere.",
-    "09-four-languages": "A browser runs no C++, Java, MATLAB or Wolfram: cells that need them say so, and "
-    "the printed results were computed elsewhere.",
+    "09-four-languages": "A browser runs no C++, Java, MATLAB or Wolfram: cells that need them say so, "
+    "and the printed results were computed elsewhere.",
 }
 
 

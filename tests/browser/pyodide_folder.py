@@ -1,7 +1,7 @@
 """A folder with Pyodide for the tests, from the one that ARMDYN_PYODIDE names.
 
-It may be the current one, as Pyodide's releases hold it. It may also hold only the packages of 0.27.7: then
-npm brings the core, and what the course needs of newer packages is put in.
+It may be the current one, as Pyodide's releases hold it. It may also hold only the packages of 0.27.7:
+then npm brings the core, and what the course needs of newer packages is put in.
 """
 
 import hashlib

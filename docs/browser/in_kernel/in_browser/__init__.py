@@ -1,4 +1,4 @@
-"""What a browser's Python needs before a notebook runs in it. The kernel calls `start` when it starts."""
+"""What a browser's Python needs before a notebook runs in it: the kernel calls `start` first."""
 
 
 def start() -> None:
