@@ -23,6 +23,8 @@ PROGRAMS = {
     "libejml-java": ("/usr/share/java/ejml-simple.jar",),
     "octave": ("octave-cli",),
     "make": ("make",),
+    "nodejs": ("node",),
+    "npm": ("npm",),
     "postgresql": ("initdb", *sorted(map(str, SERVERS))),
     "python3-dev": (str(Path(sysconfig.get_path("include"), "Python.h")),),
 }

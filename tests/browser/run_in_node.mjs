@@ -3,7 +3,7 @@
 // Arguments: the site's folder, and a file with the tasks, [{ name, folder, cells: [source, …] }].
 // Writes a line of JSON for each: { name, seconds, outputs: [what each cell gave] }.
 import { readFileSync } from "node:fs";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const [site, tasks] = process.argv.slice(2);
@@ -54,7 +54,7 @@ for (const task of JSON.parse(readFileSync(tasks, "utf8"))) {
   shell.reset();
   pyodide.FS.mkdirTree(task.folder);
   pyodide.FS.chdir(task.folder);
-  pyodide.FS.writeFile(`${task.name}.ipynb`, "{}");
+  pyodide.FS.writeFile(`${basename(task.name)}.ipynb`, "{}");
   outputs = [];
   for (const cell of task.cells) {
     outputs.push([]);

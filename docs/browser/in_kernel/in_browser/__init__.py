@@ -3,8 +3,9 @@
 
 def start() -> None:
     """Mend what is different in a browser."""
-    from in_browser import linear_algebra, packages, streams
+    from in_browser import clock, linear_algebra, packages, streams
 
+    clock.mend()
     streams.mend()
     linear_algebra.mend()
     packages.mend()

@@ -1,4 +1,4 @@
-"""Fetches what a cell is going to need before it runs: nothing can be fetched in the middle of a call."""
+"""Fetches what a cell will need before it runs: nothing can be fetched in the middle of a call."""
 
 import ast
 import json

@@ -1,4 +1,4 @@
-"""What is printed: the kernel's streams lack what programs ask of a file, and Matplotlib says too much."""
+"""What is printed: the kernel's streams lack what a file has, and Matplotlib says too much."""
 
 import logging
 
