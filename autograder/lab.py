@@ -20,6 +20,8 @@ HANDED_OUT = Path(__file__).parent / "handed_out"
 FIRST_PROBLEM = "problems/p3-pendulum/p3-pendulum.ipynb"
 # The logs of the libraries under the server, which each write a part of one error.
 OTHERS_LOGS = ("asyncio", "tornado.access", "tornado.application", "tornado.general")
+# It needs an exchange.
+ASSIGNMENT_LIST = "@jupyter/nbgrader:assignment-list"
 INSTRUCTORS_EXTENSIONS = (
     "@jupyter/nbgrader:course-list",
     "@jupyter/nbgrader:create-assignment",
@@ -61,9 +63,10 @@ def lab(arguments: list[str]) -> int:
     arguments = [argument for argument in arguments if argument != "--instructor"]
     # JupyterLab's state lives beside the environment, so that this course and a student's other
     # projects do not open each other's notebooks.
-    keeps = root / (".venv" if (root / "nbgrader_config.py").is_file() else ".lab")
+    has_exchange = (root / "nbgrader_config.py").is_file()
+    keeps = root / (".venv" if has_exchange else ".lab")
     state = keeps / ("lab" if student else "lab-of-instructor")
-    _write_settings(state / "settings", student)
+    _write_settings(state / "settings", student, has_exchange)
     opens = "/lab"
     first = [path for path in (FIRST_LESSON, FIRST_PROBLEM) if (root / path).exists()]
     if student and first and not any((state / "workspaces").glob("*")):
@@ -103,7 +106,7 @@ def _is_an_error(record: logging.LogRecord) -> bool:
     return not (record.exc_info and isinstance(record.exc_info[1], closed))
 
 
-def _write_settings(folder: Path, student: bool) -> None:
+def _write_settings(folder: Path, student: bool, has_exchange: bool) -> None:
     """Write JupyterLab's own settings: which of its parts are there, and what they ask for."""
     # Without this, it would first ask a student whether to fetch Jupyter's news.
     overrides = {
@@ -112,7 +115,9 @@ def _write_settings(folder: Path, student: bool) -> None:
         # section of a long lesson ends beside it.
         "@jupyterlab/notebook-extension:tracker": {"windowingMode": "defer"},
     }
-    page = {"disabledExtensions": list(INSTRUCTORS_EXTENSIONS) if student else []}
+    disabled = [*INSTRUCTORS_EXTENSIONS] if student else []
+    disabled += [] if has_exchange else [ASSIGNMENT_LIST]
+    page = {"disabledExtensions": disabled}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "overrides.json").write_text(json.dumps(overrides), encoding="utf-8")
     (folder / "page_config.json").write_text(json.dumps(page), encoding="utf-8")

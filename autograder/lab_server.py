@@ -24,6 +24,7 @@ NOT_FOR_STUDENTS = (
     "README.md",
     "SECURITY.md",
     "armdyn.egg-info",
+    "armdyn.json",
     "autograder",
     "build",
     "constraints.txt",
@@ -35,6 +36,10 @@ NOT_FOR_STUDENTS = (
     "solutions",
     "tests",
 )
+
+
+# By which a course's folder is known: the instructor's, or one that a class was given.
+MARKS = ("nbgrader_config.py", "armdyn.json")
 
 
 class CourseContents(AsyncLargeFileManager):
@@ -69,7 +74,8 @@ def _know_language(metadata: dict[str, Any]) -> None:
 def course_of(folder: Path) -> Path | None:
     """The course that the folder is, or is in."""
     for candidate in (folder, *folder.parents):
-        if (candidate / "nbgrader_config.py").is_file() and (candidate / "lessons").is_dir():
+        known = any((candidate / mark).is_file() for mark in MARKS)
+        if known and (candidate / "lessons").is_dir():
             return candidate
     return None
 

@@ -1,5 +1,6 @@
 """Writes the archive for a class: lessons, released problems, the student's package, a start file."""
 
+import json
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -21,8 +22,6 @@ from autograder.problems import MODULES, check_for
 TOP = "armdyn"
 HERE = Path(__file__).parent / "to_start"
 COMMANDS = "[console_scripts]\nautograder = autograder.cli:main\n"
-# Without an exchange there is nothing for nbgrader to fetch or to hand in.
-NOT_FOR_STUDENTS = ("nbgrader",)
 
 
 class BundleError(ValueError):
@@ -60,12 +59,15 @@ def write_bundle(
     with tempfile.TemporaryDirectory(prefix="bundle-") as folder:
         course = dict(_lessons(root))
         own: list[Check] = []
+        versions: dict[str, str] = {}
         for name in names:
             release(root, name, Path(folder) / name)
             source = nbformat.read(root / "solutions" / name / f"{name}.ipynb", as_version=4)
             mechanisms = mechanisms_beside(root / "solutions" / name)
             own += _checks_of_mechanisms(name, source, mechanisms)
-            course |= _problem(name, Path(folder) / name, version_of(source, mechanisms))
+            versions[name] = version_of(source, mechanisms)
+            course |= _problem(name, Path(folder) / name, versions[name])
+        course["armdyn.json"] = f"{json.dumps({'versions': versions}, indent=2)}\n".encode()
         files = package([name.replace("-", "_") for name in names], own)
         files |= {f"autograder/handed_out/{path}": data for path, data in course.items()}
         number = digest(*(part for path in sorted(files) for part in (path, files[path])))[:8]
@@ -115,7 +117,7 @@ def _checks_of_mechanisms(
 def _beside(root: Path, wheel: str) -> Iterable[tuple[str, bytes]]:
     for path in sorted(HERE.iterdir()):
         if path.is_file():
-            yield path.name, path.read_text(encoding="utf-8").replace("WHEEL", wheel).encode()
+            yield path.name, path.read_text(encoding="utf-8").replace("{wheel}", wheel).encode()
     for name in ("LICENSE", "constraints.txt"):
         if (root / name).is_file():
             yield name, (root / name).read_bytes()
@@ -125,10 +127,8 @@ def _metadata(version: str) -> str:
     """METADATA: what the package needs, as this installation says it."""
     kept = []
     for said in metadata.requires("armdyn") or []:
-        what, _, when = said.partition(";")
-        if "extra ==" not in when or (
-            'extra == "lab"' in when and not what.startswith(NOT_FOR_STUDENTS)
-        ):
+        when = said.partition(";")[2]
+        if "extra ==" not in when or 'extra == "lab"' in when:
             kept.append(f"Requires-Dist: {said}")
     lines = [
         "Metadata-Version: 2.4",

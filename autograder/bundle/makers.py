@@ -8,7 +8,7 @@ import ast
 import inspect
 import sys
 from functools import cache
-from types import FunctionType
+from types import CodeType, FunctionType
 
 
 class Makers:
@@ -20,7 +20,7 @@ class Makers:
     def of(self, function: FunctionType) -> tuple[str, list]:
         """Its maker, as "module:name"; and what it has from around it, in the maker's order."""
         module = function.__module__
-        source = _maker(function)
+        source = _maker(module, function.__code__)
         made = self.sources.setdefault(module, {})
         name = made.setdefault(source, f"_made_{len(made) + 1}")
         cells = [cell.cell_contents for cell in function.__closure__ or ()]
@@ -32,9 +32,10 @@ class Makers:
         return "\n\n".join(source.replace("_made", name, 1) for source, name in made.items())
 
 
-def _maker(function: FunctionType) -> str:
-    node = _node(function)
-    names = ", ".join(function.__code__.co_freevars)
+@cache
+def _maker(module: str, code: CodeType) -> str:
+    node = _node(module, code)
+    names = ", ".join(code.co_freevars)
     if isinstance(node, ast.Lambda):
         return f"def _made({names}):\n    return {ast.unparse(node)}\n"
     node.decorator_list = []
@@ -42,20 +43,19 @@ def _maker(function: FunctionType) -> str:
     return f"def _made({names}):\n{inner}\n    return {node.name}\n"
 
 
-def _node(function: FunctionType) -> ast.Lambda | ast.FunctionDef:
+def _node(module: str, code: CodeType) -> ast.Lambda | ast.FunctionDef:
     """The smallest function of the source that has all places of this one's code."""
     places = [
         (first, column)
-        for first, _, column, _ in function.__code__.co_positions()
+        for first, _, column, _ in code.co_positions()
         if first is not None and column is not None and column > 0
     ]
     found = [
         node
-        for node in ast.walk(_tree(function.__module__))
+        for node in ast.walk(_tree(module))
         if isinstance(node, ast.Lambda | ast.FunctionDef)
         and all(_is_in(place, node) for place in places)
-        and [a.arg for a in node.args.args]
-        == list(function.__code__.co_varnames[: function.__code__.co_argcount])
+        and [a.arg for a in node.args.args] == list(code.co_varnames[: code.co_argcount])
     ]
     return min(found, key=lambda node: _extent(node))
 

@@ -10,7 +10,7 @@ from autograder.bundle.left_to_grader import why_left_out
 from autograder.judging.check import Check
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.models import evaluated
-from autograder.stored.asking import all_calls, key, visible_calls
+from autograder.stored.asking import all_calls, key, shown_calls, visible_calls
 
 # What of a check is asked, and holds no answer.
 ASKED = (
@@ -21,7 +21,6 @@ ASKED = (
     "hints",
     "section",
     "further",
-    "pose",
     "returns",
 )
 
@@ -58,7 +57,12 @@ def _in_numbers(check: Check, name: str, describing: Describing) -> InNumbers:
         return InNumbers(said, {"calls": []})
     every = all_calls(check)
     made = check.catalogue(calls) if check.catalogue else []
-    said |= {"mistakes": [_said(own) for own in check.mistakes], "generated": bool(check.catalogue)}
+    said |= {
+        "mistakes": [_said(own) for own in check.mistakes],
+        "generated": bool(check.catalogue),
+        "pose": bool(check.pose),
+    }
+    drawn = shown_calls(check) if check.pose else []
     terms = check.terms if isinstance(check.terms, tuple) else check.terms()
 
     def of(model, calls):
@@ -69,6 +73,8 @@ def _in_numbers(check: Check, name: str, describing: Describing) -> InNumbers:
         {
             "calls": [describing.of(call) for call in calls],
             "asked": [key(call) for call in every],
+            "shown": [key(call) for call in drawn],
+            "pose": [describing.of(list(check.pose(call))) for call in drawn if check.pose],
             "reference": of(check.reference, every),
             "beside": [of(own.model, every) for own in describing.beside],
             "mistakes": [of(own.wrong, calls) for own in check.mistakes],

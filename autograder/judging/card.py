@@ -18,7 +18,7 @@ LOOKS = {
     State.ERROR: ("!", "#CC79A7"),
     State.NOT_ATTEMPTED: ("○", "#888888"),
     State.CHECK_FAILED: ("?", "#0072B2"),
-    State.NOT_HERE: ("→", "#0072B2"),
+    State.NOT_HERE: ("→", "#56B4E9"),
 }
 PARAGRAPH = "margin: 0.3em 0"
 # Python may break anywhere, so that a long array needs no bar to scroll with.

@@ -136,5 +136,5 @@ class SubmissionExporter(NotebookExporter):
         if source.is_file():
             present = nbformat.read(source, as_version=4)
             if why := other_version(notebook, present, mechanisms_beside(source.parent)):
-                raise RefusedError(f"the notebook {why}")
+                raise RefusedError(f"{name}.ipynb {why}")
         return self.from_notebook_node(notebook, resources=resources, **kw)

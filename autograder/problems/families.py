@@ -19,7 +19,6 @@ from autograder.judging.quantities import each
 from autograder.mutation.generated import Generated
 from autograder.problems.material import planar_2r
 from autograder.problems.material.conventions import BOOK, Convention, nearest_first
-from autograder.problems.material.described import pose
 from autograder.problems.material.family_equilibria import (
     askew,
     mistaken,
@@ -69,7 +68,7 @@ def on(own: Convention, check: Check) -> Check:
         terms=made.terms if made else (),
         hints=HINTS.get(check.id, check.hints),
         # The card draws where angles start as in the book.
-        pose=partial(pose, own) if check.pose and own == Convention(slope=own.slope) else None,
+        pose=partial(_pose, own) if check.pose and own == Convention(slope=own.slope) else None,
     )
     match check.id:
         case "p1-singular_arm":
@@ -195,6 +194,10 @@ def _moved(own: Convention, call: Call) -> Call:
     first = call.args[0].copy()  # q, x = [q; q̇], or rows of x
     first[..., :2] = own.angles_at(BOOK.directions(first[..., :2]))
     return replace(call, args=(first, *call.args[1:]))
+
+
+def _pose(own: Convention, call: Call) -> list:
+    return own.joints(call.args[0][:2], call.args[-1])
 
 
 def _described(own: Convention, answer):

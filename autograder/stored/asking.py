@@ -17,15 +17,23 @@ def visible_calls(check: Check) -> list[Call]:
     return check.calls(np.random.default_rng(VISIBLE_SEED), VISIBLE_CASES)
 
 
-def all_calls(check: Check) -> list[Call]:
-    """These, and those by which more is found out of a wrong answer: one number of a call changed at a
-    time, and a call in fewer digits.
+def shown_calls(check: Check) -> list[Call]:
+    """Those that a card may show: the visible ones, and where each is judged by itself, these in fewer
+    digits.
     """
     calls = visible_calls(check)
+    if not isinstance(check.quantities, each) or any(call.truth for call in calls):
+        return calls
+    return [*calls, *(rounded(call, digits) for digits in FEW for call in calls)]
+
+
+def all_calls(check: Check) -> list[Call]:
+    """These, and those by which more is found out of a wrong answer: one number of a call changed at a
+    time.
+    """
+    calls = shown_calls(check)
     if not isinstance(check.quantities, each):
         return calls
-    if not any(call.truth for call in calls):
-        calls = [*calls, *(rounded(call, digits) for digits in FEW for call in calls)]
     probes = [probe.call for call in calls for probe in dependence.probes(check.signature, call)]
     return [*calls, *probes]
 

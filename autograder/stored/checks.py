@@ -48,5 +48,6 @@ def _made(said: dict):
         ),
         catalogue=StoredCatalogue(numbers) if said["generated"] else None,
         terms=numbers.terms,
+        pose=numbers.pose if said["pose"] else None,
         **asked,
     )

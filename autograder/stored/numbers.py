@@ -68,6 +68,10 @@ class Numbers:
             for said, values in self._all["generated"]
         ]
 
+    def pose(self, call: Call) -> list:
+        """The joints of the arm in a call that a card may show, (x, y) in m each."""
+        return restored(self._all["pose"][self._all["shown"].index(key(call))])
+
     def check_calls(self, calls: list[Call]) -> None:
         """NotStoredError where these are not the visible calls."""
         if [key(call) for call in calls] != self._keys:

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from autograder.judging.criterion import TOLERANCE, Criterion, Said
+from autograder.judging.models import Beside
 from autograder.judging.quantities import array, each
 from autograder.mechanisms.outline import Outline
 from autograder.mutation import velocities
@@ -26,12 +27,15 @@ from autograder.mutation.whole import slopes, whole
 
 
 def _judged(mechanism: Outline) -> Judged:
+    from autograder.mutation.references import reference  # which knows every answer
+
+    n, right = mechanism.n, Beside(reference(mechanism, "C"))
+
     @each
     def steps(call, value):
-        C, qd = _matrix(mechanism, call, value), call.args[1]
+        C, qd = _matrix(n, right, call, value), call.args[1]
         return C @ qd, qd @ C @ qd, C + C.T
 
-    n = mechanism.n
     energy = "With your C the energy would change although nobody does work."
     skew = "Ṁ − 2C is not skew-symmetric with your C, as it is with the Christoffel form."
     enough = Said(
@@ -47,17 +51,15 @@ def _judged(mechanism: Outline) -> Judged:
     )
 
 
-def _matrix(mechanism: Outline, call, value) -> np.ndarray:
+def _matrix(n: int, right: Beside, call, value) -> np.ndarray:
     """C as it came. The vector C q̇ and the row sums of C are mistakes with a name: they count as the
     diagonal of a matrix.
     """
-    n = mechanism.n
     if n == 1 and np.size(value) == 1:
         return np.reshape(value, (1, 1))
     if np.size(value) == n:
-        q, qd, arm = call.args
-        right = whole(mechanism)(q[None], qd[None], [arm])
-        for vector in (right.C[0] @ qd, np.sum(right.C[0], axis=-1)):
+        C, qd = right.of(call), call.args[1]
+        for vector in (C @ qd, np.sum(C, axis=-1)):
             if np.allclose(np.ravel(value), vector, rtol=TOLERANCE, atol=TOLERANCE):
                 return np.diag(np.ravel(value))
     return array(value, n, n)

@@ -46,12 +46,12 @@ OF_A_NUMBER = (
 def _judged(mechanism: Mechanism) -> Judged:
     n, entries = mechanism.n, pi_of(mechanism)
     shape = (n, len(entries))
+    listed = ", ".join(pi.doc for pi in entries)
 
     @each
     def columns(call, value):
         if np.shape(value) == shape:
             return tuple(np.transpose(value))
-        listed = ", ".join(pi.doc for pi in entries)
         raise UnfitError(
             f"an array of shape {np.shape(value)}; it must return one row for each coordinate and one "
             f"column for each of {listed}, shape {shape}"

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from autograder.problems.material import planar_2r
 from autograder.problems.material.described import SLOPE, Described, drawn_of, family, folded
 
 if TYPE_CHECKING:
@@ -58,6 +59,10 @@ class Convention(Described):
         first, second = np.cos(self._directions(q) - SLOPE * self.slope)
         carried = (arm.m1 * arm.lc1 + arm.m2 * arm.l1) * first
         return self.turns.T @ np.array([carried, arm.m2 * arm.lc2 * second]) * arm.g
+
+    def joints(self, q, arm) -> list[tuple[float, float]]:
+        """Shoulder, elbow and hand, (x, y) in m, to be drawn."""
+        return planar_2r.joints(BOOK.angles_at(self._directions(q)), arm)
 
     def energy(self, q, qd, arm) -> float:
         """K + P, J."""

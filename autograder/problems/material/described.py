@@ -3,7 +3,6 @@
 Each student may have an arm of the family. What differs is where the zero of each angle is, from where
 the second angle is measured, and which way gravity pulls; links, letters and points stay. With φ the
 angles of the links from the x axis, q enters by φ = T q + φ₀ alone. q: (2,), rad.
-arm: as in `planar_2r`.
 """
 
 import hashlib
@@ -14,8 +13,7 @@ from typing import Literal, TypeVar
 
 import numpy as np
 
-from autograder.problems.material import planar_2r
-from autograder.protocol import Call, OwnArm
+from autograder.protocol import OwnArm
 
 Angles = Literal["relative", "square", "absolute", "crossed"]
 SLOPE = np.pi / 6
@@ -100,10 +98,6 @@ class Described:
     def own_arm(self, code: str = "") -> OwnArm:
         return OwnArm(self.turns, self.zeros, self.pull, code)
 
-    def joints(self, q, arm) -> list[tuple[float, float]]:
-        """Shoulder, elbow and hand, (x, y) in m, to be drawn."""
-        return planar_2r.joints(Described().angles_at(self._directions(q)), arm)
-
     def angles_at(self, directions) -> np.ndarray:
         """q, (…, 2), rad, at which the links have these angles from the x axis."""
         return self.own_arm().angles(directions)
@@ -114,11 +108,6 @@ class Described:
 
     def _directions(self, q) -> np.ndarray:
         return self.directions(np.reshape(q, 2))
-
-
-def pose(own: Described, call: Call) -> list[tuple[float, float]]:
-    """The joints of this arm in a call whose first argument begins with q and whose last is the arm."""
-    return own.joints(call.args[0][:2], call.args[-1])
 
 
 Member = TypeVar("Member", bound=Described)

@@ -20,7 +20,12 @@ from autograder.protocol import read, real
 from autograder.stored.left_out import LeftOut
 
 # They start servers, or read what is not there.
-NOT_IMPORTED = ("autograder.lab_server",)
+NOT_IMPORTED = (
+    "autograder.lab_server",
+    "autograder.bundle.stand_ins",
+    "autograder.bundle.to_start",
+    "autograder.sandbox.inside",
+)
 
 
 def search(ids=None) -> dict:
@@ -49,13 +54,12 @@ def search(ids=None) -> dict:
 def _functions():
     """Every function of every module, by its name."""
     for found in pkgutil.walk_packages(autograder.__path__, "autograder."):
-        if found.name.startswith(NOT_IMPORTED) or "stand_ins" in found.name:
+        if found.name.startswith(NOT_IMPORTED):
             continue
-        with contextlib.suppress(ImportError):
-            module = importlib.import_module(found.name)
-            for name, value in vars(module).items():
-                if inspect.isfunction(value) and value.__module__ == found.name:
-                    yield f"{found.name}.{name}", value
+        module = importlib.import_module(found.name)
+        for name, value in vars(module).items():
+            if inspect.isfunction(value) and value.__module__ == found.name:
+                yield f"{found.name}.{name}", value
 
 
 def _arguments(function) -> int:

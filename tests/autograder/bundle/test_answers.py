@@ -2,6 +2,8 @@
 
 import inspect
 import json
+import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -110,6 +112,22 @@ def test_no_function_of_the_package_gives_a_right_answer(installed):
     assert found["tried"] > 500
     assert found["modules"] > 90
     assert not found["right"]
+
+
+def test_a_package_of_one_problem_is_whole(tmp_path):
+    """What one problem's checks need is there, whichever others are."""
+    for path, data in package(["p3_pendulum"]).items():
+        file = tmp_path / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(data)
+    command = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import runpy; "
+    command += f"runpy.run_path({references.__file__!r}, run_name='__main__')"
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", command], cwd=tmp_path, text=True, check=True,
+        capture_output=True,
+    )  # fmt: skip
+    assert json.loads(done.stdout)["tried"] > 100
+    assert not json.loads(done.stdout)["right"]
 
 
 def test_the_search_for_such_functions_finds_them():

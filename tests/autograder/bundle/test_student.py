@@ -1,5 +1,6 @@
 """A student has the archive alone: unpacks it, opens it, answers, and hands in."""
 
+import json
 import re
 import shutil
 import socket
@@ -11,6 +12,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from autograder.lab_server import course_of
 from autograder.notebook.version import other_version, version_of
 from tests.autograder.bundle import sitting
 from tests.autograder.course_problems import NAMES, problem, without_plots
@@ -76,6 +78,25 @@ def test_the_notebook_says_its_version_and_keeps_it(installed):
         nbformat.validate(notebook)
 
 
+def test_the_start_file_starts_what_it_has_installed(installed, tmp_path):
+    folder = tmp_path / "a student's folder"
+    folder.mkdir()
+    (wheel,) = installed.folder.glob("*.whl")
+    for path in (wheel, installed.folder / "start.py"):
+        shutil.copy(path, folder)
+    (folder / ".venv").mkdir()
+    (folder / ".venv" / "bin").symlink_to(installed.python.parent)
+    (folder / ".venv" / "installed.txt").write_text(wheel.name)
+    (folder / "lessons").mkdir()
+    done = installed.run("start.py", "--version", cwd=folder)
+    assert re.fullmatch(r"\d+\.\d+.*", done.stdout.strip())
+    said = (installed.folder / "START-HERE.txt").read_text()
+    assert f'uvx --from "{wheel.name}[lab]" autograder lab' in said
+    wheel = folder / wheel.name
+    wheel.unlink()
+    assert "is not beside" in installed.run("start.py", cwd=folder, check=False).stdout
+
+
 def test_the_command_opens_the_course_where_there_is_none(installed, tmp_path):
     """As `uvx --from …whl autograder lab` does in an empty folder."""
     with socket.create_server(("127.0.0.1", 0)) as free:
@@ -107,4 +128,7 @@ def test_the_command_opens_the_course_where_there_is_none(installed, tmp_path):
     course = tmp_path / "armdyn"
     assert f"Your course is in {course}" in (tmp_path / "log").read_text()
     assert (course / "lessons" / "00-start-here.ipynb").is_file()
+    page = json.loads((course / ".lab" / "lab" / "settings" / "page_config.json").read_text())
+    assert "@jupyter/nbgrader:assignment-list" in page["disabledExtensions"]
+    assert course_of(course / "problems") == course
     assert not (course / "solutions").exists()

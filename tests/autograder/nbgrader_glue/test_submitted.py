@@ -9,6 +9,7 @@ import sqlalchemy
 from nbformat.v4 import new_markdown_cell
 
 from autograder.nbgrader_glue.submitted import RefusedError, check
+from autograder.notebook.version import stamp
 from tests.autograder import courses
 from tests.autograder.courses import NOTEBOOK, P3, submit
 from tests.autograder.nbgrader_glue.test_hostile_pages import live
@@ -24,6 +25,7 @@ REFUSED = {
     "a_linked_student": "the folder a_linked_student is a link",
     "a_link_to_nothing": f"{NOTEBOOK} leads nowhere",
     "a_pipe": f"{NOTEBOOK} is a pipe, a device or the like",
+    "of_last_year": f"{NOTEBOOK} is of another version of this problem (0000; the course has",
 }
 # nbgrader reads these itself, before anything of ours.
 BATCH = {
@@ -50,6 +52,9 @@ def hand_in(root, release):
     for name, pipe in (("a_pipe", NOTEBOOK), ("a_pipe_beside", "data"),
                        ("a_pipe_of_time", "timestamp.txt")):  # fmt: skip
         os.mkfifo(at[name] / pipe)
+    older = p3_pendulum.right(release)
+    stamp(older, "0000")
+    submit(root, "of_last_year", older)
     others = submit(root, "z_right", right, "2025-01-31 23:59:59 UTC").parent
     shutil.rmtree(at["a_linked_submission"])
     at["a_linked_submission"].symlink_to(others)

@@ -1,8 +1,13 @@
 """What a worker says of a file that is no notebook."""
 
+import copy
+
+import nbformat
 import pytest
 
+from autograder.notebook.version import stamp, version_of
 from autograder.pipeline.worker import judge
+from tests.autograder.course_problems import problem
 
 
 @pytest.mark.parametrize("content", [b"[]", b"null", b"3", b'"text"', b"{}"])
