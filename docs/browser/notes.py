@@ -25,8 +25,11 @@ OF = {
 
 
 def add(notebook: NotebookNode, name: str) -> None:
-    """Put the note below the notebook's title. name: of the notebook, without its ending."""
-    said = [KEPT, DOWNLOAD, INTERRUPT] if name[0] in "pc" else [KEPT, INTERRUPT]
+    """Put the note below the notebook's title.
+
+    name: of the notebook, without its ending; a lesson's begins with its number.
+    """
+    said = [KEPT, INTERRUPT] if name[0].isdigit() else [KEPT, DOWNLOAD, INTERRUPT]
     said += [OF[name]] if name in OF else []
     cell = new_markdown_cell("> " + "\n> ".join(said), id="in-the-browser")
     notebook.cells.insert(1, cell)

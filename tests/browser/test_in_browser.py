@@ -39,10 +39,10 @@ MOST_MB = 30  # before the first card
 @pytest.fixture(scope="module")
 def site(tmp_path_factory, needs) -> Path:
     """The site's folder, made by the command."""
-    why = "needs jupyterlite_core: pip install -c constraints.txt -e .[browser]"
-    pytest.importorskip("jupyterlite_core", reason=why)
     top = tmp_path_factory.mktemp("in the browser")
     pyodide = complete(top / "pyodide", needs)
+    why = "needs jupyterlite_core: pip install -c constraints.txt -e .[browser]"
+    pytest.importorskip("jupyterlite_core", reason=why)
     made = subprocess.run(
         [sys.executable, "-m", "docs.browser", top / "site"],
         cwd=ROOT, capture_output=True, text=True, env=os.environ | {"ARMDYN_PYODIDE": str(pyodide)},
