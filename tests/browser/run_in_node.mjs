@@ -1,12 +1,12 @@
 // Runs notebooks in a site's Python, in Node: the kernel that a page has, without the page.
 //
-// Arguments: the site's folder, and a file with the tasks, [{ name, folder, cells: [source, …] }].
-// Writes a line of JSON for each: { name, seconds, outputs: [what each cell gave] }.
-import { readFileSync } from "node:fs";
+// Arguments: the site's folder; a file with the tasks, [{ name, folder, cells: [source, …] }]; and a file
+// for the replies, [{ name, seconds, outputs: [what each cell gave] }].
+import { readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { pathToFileURL } from "node:url";
 
-const [site, tasks] = process.argv.slice(2);
+const [site, tasks, to] = process.argv.slice(2);
 const place = join(site, "static", "pyodide");
 const page = JSON.parse(readFileSync(join(site, "jupyter-lite.json"), "utf8"))["jupyter-config-data"];
 const kernelOf = "@jupyterlite/pyodide-kernel-extension:kernel";
@@ -49,6 +49,7 @@ shell.displayhook.publish_execution_result = (count, data) => shown(data);
 shell.send_comm = quiet;
 kernel._parent_header = pyodide.toPy({ header: {} });
 
+const replies = [];
 for (const task of JSON.parse(readFileSync(tasks, "utf8"))) {
   const started = performance.now();
   shell.reset();
@@ -64,6 +65,7 @@ for (const task of JSON.parse(readFileSync(tasks, "utf8"))) {
     }
   }
   const seconds = (performance.now() - started) / 1000;
-  console.log(JSON.stringify({ name: task.name, seconds, outputs }));
+  replies.push({ name: task.name, seconds, outputs });
 }
+writeFileSync(to, JSON.stringify(replies));
 process.exit(0);

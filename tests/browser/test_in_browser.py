@@ -32,6 +32,7 @@ VERDICT = re.compile(r"\A.*?(?=^  (Stuck\?|See |Lesson )|\Z)", re.DOTALL | re.MU
 STATE = re.compile(
     r"\A[pc][1-8]-\w+: (correct|partly correct|incorrect|judged when you hand it in)$"
 )
+AT = "lab/index.html?path="
 COMPRESSED = {".css", ".html", ".ipynb", ".js", ".json", ".mjs", ".svg", ".wasm"}
 MOST_MB = 30  # before the first card
 
@@ -67,12 +68,12 @@ def ran(site, needs, tmp_path, notebooks) -> dict[str, list[list[dict]]]:
     ]
     (tmp_path / "tasks.json").write_text(json.dumps(tasks))
     done = subprocess.run(
-        [needs("nodejs"), RUNNER, site, tmp_path / "tasks.json"],
+        [needs("nodejs"), RUNNER, site, tmp_path / "tasks.json", tmp_path / "replies.json"],
         capture_output=True, text=True, timeout=900,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr[-2000:]
-    lines = [json.loads(line) for line in done.stdout.splitlines()]
-    return {line["name"]: line["outputs"] for line in lines}
+    replies = json.loads((tmp_path / "replies.json").read_text())
+    return {reply["name"]: reply["outputs"] for reply in replies}
 
 
 def cards(outputs) -> list[str]:
@@ -231,10 +232,17 @@ def visitor(browser, served):
     context.close()
 
 
+def opened(page, address: str, pictures, *title: str) -> Problem:
+    """The notebook at this address, with a kernel that takes cells."""
+    page.goto(address)
+    expect(page.locator(".jp-Toolbar-kernelName")).to_contain_text("Python")
+    expect(page.locator("#jp-main-statusbar")).to_contain_text("Idle")
+    return Problem(page, pictures, *title)
+
+
 def test_a_wrong_answer_gets_its_card_and_stays(visitor, site, served, tmp_path):
     page = visitor
-    page.goto(f"{served}/lab/index.html?path=problems/p3-pendulum/p3-pendulum.ipynb")
-    student = Problem(page, tmp_path)
+    student = opened(page, f"{served}/{AT}problems/p3-pendulum/p3-pendulum.ipynb", tmp_path)
     expect(student.panel).to_contain_text("In the browser.")
     expect(student.panel.locator("img[alt*='rigid body']")).to_have_js_property("complete", True)
     student.run("from types import SimpleNamespace")
@@ -260,13 +268,13 @@ def test_a_wrong_answer_gets_its_card_and_stays(visitor, site, served, tmp_path)
 
 def test_a_lessons_slider_moves_its_picture(visitor, served, tmp_path):
     page = visitor
-    page.goto(f"{served}/lab/index.html?path=lessons/01-canonical-form.ipynb")
-    lesson = Problem(page, tmp_path, "The canonical form of")
+    where = f"{served}/{AT}lessons/01-canonical-form.ipynb"
+    lesson = opened(page, where, tmp_path, "The canonical form of")
     lesson.run("import ipywidgets")
     lesson.run("arm = Planar2R(")
     lesson.run("@ipywidgets.interact(")
     control = lesson.cell("@ipywidgets.interact(")
-    picture = control.locator(".jupyter-widgets-output-area img, .widget-output img").first
+    picture = control.locator(".jupyter-widgets img").first
     before = picture.get_attribute("alt")
     slider = control.locator(".noUi-handle").first
     slider.focus()
