@@ -44,6 +44,18 @@ SETTINGS = {
     "@jupyterlab/notebook-extension:tracker": {"windowingMode": "defer"},
 }
 
+FIRST = "lab/index.html?path=lessons/00-start-here.ipynb"
+FRONT = f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="refresh" content="0; url={FIRST}">
+<title>armdyn</title>
+</head>
+<body><p><a href="{FIRST}">Open the first lesson</a></p></body>
+</html>
+"""
+
 
 class SiteError(RuntimeError):
     """JupyterLite did not build the site; the message is its own."""
@@ -65,6 +77,7 @@ def build(course: Course, pyodide: Pyodide, to: Path) -> None:
             raise SiteError(
                 f"JupyterLite did not build the site: {(made.stderr or made.stdout)[-2000:]}"
             )
+        (to / "index.html").write_text(FRONT, encoding="utf-8")
         course.write_numbers(to)
         pyodide.write(to / PLACE, _wheels(course, pyodide, lite), (*AT_ONCE, *LATER))
 
