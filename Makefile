@@ -1,11 +1,11 @@
-.PHONY: help lab test test-all coverage lint hooks lessons bench site book installed
+.PHONY: help lab test test-all coverage lint hooks lessons bench site book browser installed
 .SUFFIXES:
 
 ARGS =
-# CI has the libraries that armdyn is compared with, and those that make the site; elsewhere the tests that
+# CI has the libraries that armdyn is compared with, and those that make the sites; elsewhere the tests that
 # need them are skipped.
 comma := ,
-TESTED := $(if $(CI),test$(comma)peers$(comma)site,test)
+TESTED := $(if $(CI),test$(comma)peers$(comma)site$(comma)browser,test)
 LOG := .venv/install.log
 
 help:
@@ -18,6 +18,7 @@ help:
 	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md, references.md'
 	@echo 'make site      the course as static pages, in build/site; open build/site/index.html'
 	@echo 'make book      the course as one PDF, build/armdyn.pdf'
+	@echo 'make browser   the course as a site that runs in the browser, in build/browser; ARGS=p3-pendulum'
 	@echo 'PYTHON=/path/to/python3 chooses the Python of .venv'
 
 lab: .venv/lab.done
@@ -82,6 +83,9 @@ site: .venv/site.done
 book: .venv/site.done
 	.venv/bin/python -m docs.book build/armdyn.pdf
 
+browser: .venv/browser.done
+	.venv/bin/python -m docs.browser build/browser $(ARGS)
+
 define install
 @echo "Installing $(1) into .venv; the first time takes some minutes (log: $(LOG))"
 @.venv/bin/python -m pip --disable-pip-version-check install -c constraints.txt -e ".[$(1)]" \
@@ -94,7 +98,7 @@ endef
 	$(call install,lab)
 
 # One after the other, also with -j: two installations into one .venv break each other.
-.venv/$(TESTED).done .venv/dev.done .venv/bench.done .venv/site.done: .venv/lab.done
+.venv/$(TESTED).done .venv/dev.done .venv/bench.done .venv/site.done .venv/browser.done: .venv/lab.done
 	$(call install,$(basename $(@F)))
 
 # An environment knows its own path and its Python: when either has gone, it is made anew.

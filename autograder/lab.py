@@ -27,6 +27,8 @@ INSTRUCTORS_EXTENSIONS = (
     "@jupyter/nbgrader:create-assignment",
     "@jupyter/nbgrader:formgrader",
 )
+# `make browser` installs it for the pages that it makes, and here it finds no part of JupyterLite.
+OF_BROWSERS = ("@jupyterlite/pyodide-kernel-extension",)
 
 
 def lab(arguments: list[str]) -> int:
@@ -115,7 +117,7 @@ def _write_settings(folder: Path, student: bool, has_exchange: bool) -> None:
         # section of a long lesson ends beside it.
         "@jupyterlab/notebook-extension:tracker": {"windowingMode": "defer"},
     }
-    disabled = [*INSTRUCTORS_EXTENSIONS] if student else []
+    disabled = [*OF_BROWSERS, *(INSTRUCTORS_EXTENSIONS if student else ())]
     disabled += [] if has_exchange else [ASSIGNMENT_LIST]
     page = {"disabledExtensions": disabled}
     folder.mkdir(parents=True, exist_ok=True)

@@ -24,6 +24,8 @@ PROGRAMS = {
     "octave": ("octave-cli",),
     "openssl": ("openssl",),
     "make": ("make",),
+    "nodejs": ("node",),
+    "npm": ("npm",),
     "postgresql": ("initdb", *sorted(map(str, SERVERS))),
     "python3-dev": (str(Path(sysconfig.get_path("include"), "Python.h")),),
 }

@@ -41,11 +41,16 @@ class NoCompilerError(RuntimeError):
     """There is no C compiler that makes Python modules; the message says what to install."""
 
     def __init__(self, reason: str):
+        install = (
+            "Debian or Ubuntu: apt install gcc python3-dev. macOS: xcode-select --install. Windows: the "
+            "Visual Studio Build Tools, with 'Desktop development with C++'."
+        )
+        if sys.platform == "emscripten":
+            install = "A browser has none: for compiled C, the course must be on your computer."
         super().__init__(
-            f"No working C compiler: {reason}. Debian or Ubuntu: apt install gcc python3-dev. "
-            "macOS: xcode-select --install. Windows: the Visual Studio Build Tools, with 'Desktop "
-            "development with C++'. Without one, armdyn.codegen.numpy_model gives the same model "
-            "in NumPy, and armdyn.codegen.fastest_model chooses for you."
+            f"No working C compiler: {reason}. {install} Without one, "
+            "armdyn.codegen.numpy_model gives the same model in NumPy, and armdyn.codegen.fastest_model "
+            "chooses for you."
         )
 
 

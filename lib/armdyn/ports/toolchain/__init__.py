@@ -6,10 +6,11 @@ relatively, and only the standard library and NumPy.
 
 from .building import BuildError, build
 from .conversation import Conversation, ProgramError
-from .finding import MissingToolError, missing
+from .finding import IN_BROWSER, MissingToolError, missing
 from .languages import TOOLCHAINS, Toolchain
 
 __all__ = [
+    "IN_BROWSER",
     "TOOLCHAINS",
     "BuildError",
     "Conversation",

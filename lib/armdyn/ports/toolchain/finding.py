@@ -2,8 +2,11 @@
 
 import os
 import shutil
+import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
+
+IN_BROWSER = "A browser starts no other programs: for this, the course must be on your computer."
 
 
 class MissingToolError(RuntimeError):
@@ -18,6 +21,8 @@ def program(what: str, names: Iterable[str], install: str) -> Path:
     for name in names:
         if found := shutil.which(name):
             return Path(found)
+    if sys.platform == "emscripten":
+        raise MissingToolError(f"{what} was not found. {IN_BROWSER}")
     raise MissingToolError(f"{what} was not found ({', '.join(names)}). {install}")
 
 

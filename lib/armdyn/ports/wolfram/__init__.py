@@ -12,7 +12,7 @@ from pathlib import Path
 from armdyn.codegen.naming import identifiers
 from armdyn.codegen.wolfram import RESERVED, wolfram
 from armdyn.derive import Derivation
-from armdyn.ports.toolchain import MissingToolError, Toolchain
+from armdyn.ports.toolchain import IN_BROWSER, MissingToolError, Toolchain
 
 _DRIVER = ("driver.py", "driver.wl")
 _MODEL = """(* What the driver needs of the generated arm.wl. *)
@@ -37,6 +37,8 @@ def toolchain() -> Toolchain:
     """driver.py, run by this Python. Raises MissingToolError."""
     for package in ("mathics", "packaging"):
         if importlib.util.find_spec(package) is None:
+            if sys.platform == "emscripten":
+                raise MissingToolError(f"Mathics3 was not found. {IN_BROWSER}")
             raise MissingToolError(
                 f"Mathics3 was not found (the Python package {package}). Debian or Ubuntu, macOS, "
                 "Windows: pip install Mathics3 packaging."
