@@ -28,6 +28,7 @@ NOT_FOR_STUDENTS = (
     "autograder",
     "build",
     "constraints.txt",
+    "containers",
     "course",
     "docs",
     "lib",

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from autograder import terminal
 from autograder.pipeline import run as pipeline
 from autograder.pipeline.run import Line
-from autograder.report import Student, page, summary
+from autograder.report import Class, Student, page, summary
 from autograder.terminal import say, shown_points
 
 
@@ -29,8 +29,9 @@ def printed(text: str, encoding: str) -> bytes:
 def test_points_are_rounded_as_a_person_would(points, shown):
     assert shown_points(points) == shown
     assert f"ada      {shown} of 28" in pipeline.table([Line("ada", points, 28.0)])
-    assert f"mean {shown}, median {shown} of 28 points" in summary(28.0, [Student("ada", points)])
-    assert f'<td class="number">{shown}</td>' in page("p1", 28.0, [Student("ada", points)])
+    of = Class("p1", 28.0, [Student("ada", points)])
+    assert f"mean {shown}, median {shown} of 28 points" in summary(of)
+    assert f'<td class="number">{shown}</td>' in page(of)
 
 
 def test_a_terminal_gets_nothing_to_obey():
@@ -63,6 +64,6 @@ def test_nothing_of_a_student_makes_a_line_of_the_table(student, states, note):
     assert len(shown) == 5
     assert "".join(shown).isprintable()
     verdict = {"check": "p3-M", "state": "incorrect", "credit": 0.0, "diagnosis": [states]}
-    said = summary(2.0, [Student(student, 1.0, 0, {"p3-M": verdict})])
+    said = summary(Class("p3", 2.0, [Student(student, 1.0, 0, {"p3-M": verdict})]))
     assert len(said.split("\n")) == 2
     assert said.replace("\n", "").isprintable()
