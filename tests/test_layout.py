@@ -163,32 +163,17 @@ MAY_IMPORT = {
         "report",
         *("roster", "term_calendar", "lms"),
     ),
-    "term_commands": (
-        *("arguments", "files", "lean", "lms", "nbgrader_glue", "pipeline", "roster"),
-        *("term_calendar", "terminal"),
+    "commands": (
+        *("arguments", "authoring", "bundle", "files", "lab_server", "lean", "lms", "mechanisms"),
+        *("mutation", "nbgrader_glue", "pipeline", "report", "roster", "term_calendar", "terminal"),
+        "worked_answers",
     ),
     "arguments": ("worked_answers",),
     "lab": ("files",),
     "lab_server": (),
     "lean": (),
     "__init__": ("protocol", "student"),
-    "cli": (
-        "arguments",
-        "authoring",
-        "bundle",
-        "files",
-        "lab",
-        "lab_server",
-        "lean",
-        "mechanisms",
-        "mutation",
-        "nbgrader_glue",
-        "pipeline",
-        "report",
-        "term_commands",
-        "terminal",
-        "worked_answers",
-    ),
+    "cli": ("commands", "lab"),
 }
 
 

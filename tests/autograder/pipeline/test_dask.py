@@ -12,6 +12,7 @@ import pytest
 from distributed import Client
 
 from autograder import cli
+from autograder.commands.grade import open_recorder
 from autograder.pipeline import run as pipeline
 from tests.autograder import courses
 from tests.autograder.courses import P3, rows, submit
@@ -77,13 +78,13 @@ def test_a_killed_worker_costs_nobody_a_grade(cluster, tmp_path, monkeypatch):
         settle(run, student, outcome, **how)
 
     monkeypatch.setattr(pipeline._Run, "_settle", kill_half_way)
-    lines = pipeline.grade_all(there, P3, cli.open_recorder, scheduler=address)
+    lines = pipeline.grade_all(there, P3, open_recorder, scheduler=address)
     assert workers[0].returncode == -signal.SIGKILL
     assert workers[1].poll() is None
     assert all(line.graded and line.redone for line in lines)
     assert lines[0].score == sum(p3_pendulum.POINTS.values())
     monkeypatch.setattr(pipeline._Run, "_settle", settle)
-    assert [line.score for line in pipeline.grade_all(here, P3, cli.open_recorder, jobs=1)] == [
+    assert [line.score for line in pipeline.grade_all(here, P3, open_recorder, jobs=1)] == [
         line.score for line in lines
     ]
     assert rows(courses.database(there)) == rows(courses.database(here))

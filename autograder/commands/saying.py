@@ -1,0 +1,19 @@
+"""How a command ends that could not do all that it was asked."""
+
+import sys
+
+from autograder.terminal import say, shown_note
+
+
+def complain(what: str, status: int = 2) -> int:
+    say(f"autograder: {what}", sys.stderr)
+    return status
+
+
+def to_be_looked_at(faults: list[str]) -> int:
+    """Say what needs a look; the exit status."""
+    if faults:
+        say("\nTo be looked at:")
+    for fault in faults:
+        say(f"  {shown_note(fault)}")
+    return 1 if faults else 0
