@@ -69,7 +69,10 @@ def plots(release):
     return after(
         right_but(release),
         "answer-g_vec",
-        new_code_cell("plt.plot([0, 1])\nplt.show()\nplt.figure()\nplt.plot([1, 0]);"),
+        new_code_cell(
+            "import matplotlib.pyplot as plt\nplt.plot([0, 1])\nplt.show()\nplt.figure()\n"
+            "plt.plot([1, 0]);"
+        ),
         new_code_cell("fig, ax = plt.subplots()\nax.plot(*np.ones((2, 4)))"),
     )
 
