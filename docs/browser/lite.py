@@ -44,6 +44,8 @@ SETTINGS = {
     "@jupyterlab/notebook-extension:tracker": {"windowingMode": "defer"},
 }
 
+# JupyterLite reads this element of the page, too, and does not start without it.
+CONFIG = "jupyter-config-data"
 FIRST = "lab/index.html?path=lessons/00-start-here.ipynb"
 FRONT = f"""<!doctype html>
 <html lang="en">
@@ -51,6 +53,7 @@ FRONT = f"""<!doctype html>
 <meta charset="utf-8">
 <meta http-equiv="refresh" content="0; url={FIRST}">
 <title>armdyn</title>
+<script id="{CONFIG}" type="application/json">{{}}</script>
 </head>
 <body><p><a href="{FIRST}">Open the first lesson</a></p></body>
 </html>

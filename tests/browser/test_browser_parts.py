@@ -3,7 +3,10 @@
 import hashlib
 import io
 import json
+import re
+import tarfile
 import zipfile
+from pathlib import Path
 
 import nbformat
 import pytest
@@ -15,7 +18,7 @@ pytest.importorskip(
     reason="needs jupyterlite_pyodide_kernel: pip install -c constraints.txt -e .[browser]",
 )
 
-from docs.browser import needs, notes
+from docs.browser import lite, needs, notes
 from docs.browser.installed import NotPureError, wheel_of
 from docs.browser.pyodide import LOCK, Pyodide, PyodideError, Wheel
 
@@ -42,6 +45,20 @@ def test_a_module_needs_what_it_may_import_later():
     assert "matplotlib" in found["armdyn.plotting"]
     assert "scipy" in found["armdyn.simulate"]
     assert "sympy" in found["armdyn.codegen"]
+
+
+def test_the_front_page_has_what_jupyterlite_looks_for():
+    """Its start-up reads the site's index.html and stops where the element is missing."""
+    import jupyterlite_core
+
+    archive = next((Path(jupyterlite_core.__file__).parent).glob("*.tgz"))
+    with tarfile.open(archive) as files:
+        utils = files.extractfile("package/config-utils.js").read().decode()
+    (named,) = re.findall(r"JUPYTER_CONFIG_ID = '([^']+)'", utils)
+    (config,) = re.findall(
+        rf'<script id="{named}" type="application/json">(.+?)</script>', lite.FRONT
+    )
+    assert json.loads(config) == {}
 
 
 def test_a_site_with_pyodides_address_has_its_own_wheels_beside_it(tmp_path):
