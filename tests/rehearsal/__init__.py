@@ -1,0 +1,1 @@
+"""A term rehearsed with the commands of the guide, and a ledger of its marks that is kept apart."""

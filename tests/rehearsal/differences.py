@@ -1,0 +1,91 @@
+"""Where the course's gradebook, tables and sheets differ from the ledger, in lines."""
+
+import csv
+from collections.abc import Iterator
+from pathlib import Path
+
+from tests.rehearsal.ledger import RULES
+from tests.rehearsal.term import Term
+
+NEAR = 1e-6  # points: tables round to as many decimals
+
+
+def of_the_gradebook(term: Term) -> Iterator[str]:
+    """Its rows: who is there, points, penalties, what waits for a person."""
+    ledger = term.ledger
+    with term.gradebook() as gradebook:
+        known = {one.id for one in gradebook.students}
+        for student in ledger.withdrawn & known:
+            yield f"{student} has withdrawn, and is in the gradebook"
+        rows = {(one.student_id, one.assignment.name): one
+                for assignment in gradebook.assignments for one in assignment.submissions}  # fmt: skip
+        for (student, name), entry in ledger.hand_ins.items():
+            row = rows.pop((student, name), None)
+            where = f"gradebook: {student}, {name}"
+            if entry.damaged:
+                continue
+            if row is None:
+                yield f"{where}: no row"
+                continue
+            yield from _differ(where, "score", row.score, ledger.raw(student, name))
+            yield from _differ(where, "penalty", row.late_submission_penalty or 0.0, ledger.penalty(student, name))  # fmt: skip
+            if row.needs_manual_grade != entry.unread:
+                yield f"{where}: waits for a person: {row.needs_manual_grade}, not {entry.unread}"
+        for (student, name), row in rows.items():
+            if row.notebooks and any(grade.auto_score for one in row.notebooks for grade in one.grades):
+                yield f"gradebook: {student}, {name}: a row with points, and nothing was handed in"
+
+
+def of_the_long_table(term: Term, path: Path) -> Iterator[str]:
+    ledger = term.ledger
+    counted = [name for name in term.names if RULES[name].counts]
+    rows = {(row["student"], row["assignment"]): row for row in table(path)}
+    wanted = {(one.id, name) for one in term.students for name in counted}
+    if set(rows) != wanted:
+        yield f"{path.name}: rows that are not to be there, or missing: {set(rows) ^ wanted}"
+    for student in term.students:
+        for name in counted:
+            row = rows.get((student.id, name))
+            if row is None:
+                continue
+            where = f"{path.name}: {student.id}, {name}"
+            yield from _differ(where, "points", points(row["points"]), ledger.mark(student.id, name))
+            status = row["status"].split(", late")[0]
+            if status != ledger.status(student.id, name):
+                yield f"{where}: {status}, not {ledger.status(student.id, name)}"
+            if harmless(student.last) != row["last_name"] or harmless(student.first) != row["first_name"]:
+                yield f"{where}: {row['first_name']} {row['last_name']} is not {student.name}"
+
+
+def of_the_wide_table(term: Term, path: Path) -> Iterator[str]:
+    for row in table(path):
+        where = f"{path.name}: {row['student']}"
+        yield from _differ(where, "total", float(row["total"]), term.ledger.total(row["student"]))
+
+
+def of_a_sheet(term: Term, path: Path, name: str, key: str, mark: str) -> Iterator[str]:
+    """Of a learning platform's: key, mark: the headings with the student's number and the points."""
+    rows = {row[key].removeprefix("Participant "): row for row in table(path)}
+    for student in term.students:
+        where = f"{path.name}: {student.id}, {name}"
+        found = rows[str(student.number)][mark]
+        yield from _differ(where, "points", points(found), term.ledger.mark(student.id, name))
+
+
+def table(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="", encoding="utf-8-sig") as file:
+        return list(csv.DictReader(file))
+
+
+def points(cell: str) -> float | None:
+    return float(cell.replace(",", ".")) if cell else None
+
+
+def harmless(name: str) -> str:
+    """A cell that a spreadsheet would take for a formula has an apostrophe in front."""
+    return f"'{name}" if name[:1] in "=+-@" else name
+
+
+def _differ(where: str, what: str, found: float | None, wanted: float | None) -> Iterator[str]:
+    if (found is None) != (wanted is None) or (found is not None and abs(found - wanted) > NEAR):
+        yield f"{where}: {what} {found}, not {wanted}"
