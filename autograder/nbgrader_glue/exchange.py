@@ -16,6 +16,7 @@ from typing import Any
 
 from nbgrader.exchange import ExchangeError, default
 from nbgrader.utils import check_directory, ignore_patterns
+from traitlets import Bool
 
 from autograder.nbgrader_glue.foreign_folder import ForeignFolderError, copy_foreign
 
@@ -114,7 +115,11 @@ def _give_to_group(group: int, folder: str, stage: str) -> None:
 
 
 class Collect(_Entered, default.ExchangeCollect):
-    """Takes only what its owner handed in, and no link."""
+    """Takes only what its owner handed in, and no link; and what was handed in again."""
+
+    update = Bool(
+        True, help="Whether a later hand-in takes the place of one that was collected before."
+    ).tag(config=True)
 
     src_records: list[dict[str, Any]]
 
