@@ -78,7 +78,7 @@ def from_gradebook(source: NotebookNode, cells: Mapping[str, Known]) -> list[str
     for name, one in cells.items():
         if name not in known:
             found.append(
-                f"{_with_points(name, one.points)} is in the gradebook, but no longer there"
+                f"{_with_points(name, one.points)} is in the gradebook, but no longer in solutions/"
             )
     return found
 

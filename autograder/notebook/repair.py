@@ -157,7 +157,8 @@ def _put_back(notebook, known, placed, begun: Edition, notes) -> None:
                 if was_there
                 else f"{name} is newer than the student's notebook; it was put in"
             )
-            text = original.source if is_locked(original) else ""
+            empty = "" if was_there else released(original)
+            text = original.source if is_locked(original) else empty
             cell = NEW_CELL[original.cell_type](source=text)
             cell.metadata = copy.deepcopy(original.metadata)
             del cell["id"]  # a random one
