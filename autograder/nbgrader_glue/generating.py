@@ -61,10 +61,18 @@ class _Change:
     def check(self) -> None:
         """NbGraderException if nothing may be done; else put the present release aside."""
         folder = self._release.parent
-        if self._aside.exists() and not self._release.exists():  # an earlier run was killed
-            self._put_back()
-        if not folder.exists() or not self._source().is_file():
+        if self._aside.exists() and not folder.exists():  # an earlier run was killed
+            shutil.copytree(self._aside, folder)
+        if not folder.exists():
             return
+        if self._source().is_file():
+            self._compare(folder)
+        if self._converter.force:
+            shutil.rmtree(self._aside, ignore_errors=True)
+            shutil.copytree(folder, self._aside)
+
+    def _compare(self, folder: Path) -> None:
+        """Remember what is graded otherwise now; NbGraderException without --force, or if it fails."""
         with tempfile.TemporaryDirectory(prefix="release-") as made:
             now = self._try(Path(made))
             same = _same(now, folder)
@@ -73,33 +81,26 @@ class _Change:
         if not self._graded and self._release.is_file():
             text = self._release.read_text(encoding="utf-8")
             self._graded = agreement.from_release(source, text)
-        if not self._converter.force:
-            if self._graded or not same:
-                what = agreement.few(self._graded) or "a text or a file is another"
-                self._refuse(
-                    f"course/release/{self._name} is older than solutions/{self._name}: {what}. "
-                    f"Nothing was changed: {agreement.again(self._name)} to make it anew"
-                )
-            return
+        if not self._converter.force and (self._graded or not same):
+            what = agreement.few(self._graded) or "a text or a file is another"
+            self._refuse(
+                f"course/release/{self._name} is older than solutions/{self._name}: {what}. "
+                f"Nothing was changed: {agreement.again(self._name)} to make it anew"
+            )
         if self._release.is_file():
             keep(self._root, self._name, self._release)
-        shutil.rmtree(self._aside, ignore_errors=True)
-        shutil.copytree(folder, self._aside)
 
     def finish(self) -> None:
         """Keep the new edition, and say what follows; if there is none, put the old release back."""
-        if self._release.is_file():
+        folder = self._release.parent
+        if self._aside.exists() and not folder.exists():
+            shutil.copytree(self._aside, folder)
+            self._log.error("course/release/%s is as it was before", self._name)
+        elif self._release.is_file():
             keep(self._root, self._name, self._release)
             if self._aside.exists():
                 self._say_what_follows()
-        elif self._aside.exists():
-            self._put_back()
-            self._log.error("course/release/%s is as it was before", self._name)
         shutil.rmtree(self._aside, ignore_errors=True)
-
-    def _put_back(self) -> None:
-        shutil.rmtree(self._release.parent, ignore_errors=True)
-        shutil.copytree(self._aside, self._release.parent)
 
     def _say_what_follows(self) -> None:
         for line in self._graded:

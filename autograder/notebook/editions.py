@@ -68,7 +68,7 @@ def begun_with(notebook: NotebookNode, editions: Sequence[Edition]) -> Edition:
 
 
 def _likeness(claimed: dict[str, NotebookNode], texts: set[str], edition: Edition) -> int:
-    """How many settings, types and texts are this edition's, less the cells that only one of them has."""
+    """How many settings, types and texts are this edition's, less the cells that only one has."""
     common = claimed.keys() & edition.settings.keys()
     alike = sum(settings_of(claimed[name]) == edition.settings[name] for name in common)
     alike += sum(claimed[name].cell_type == edition.types[name] for name in common)

@@ -4,6 +4,7 @@ nbgrader gives an untouched answer 0 points, and nobody reads it. So the cell ge
 where the answer may be: then the cell is no longer untouched, and the person finds what to read.
 """
 
+import re
 from collections.abc import Sequence
 
 from nbformat import NotebookNode
@@ -15,6 +16,13 @@ from autograder.notebook.released import essence, released
 from autograder.protocol import one_line
 
 POINTER = "(From the grader: this cell has no answer; it may be in the student's own {where}.)"
+
+POINTS = re.compile(r"[#*]? ?\\?\(From the grader: this cell has no answer;.*\)\*?\s*$")
+
+
+def without_pointer(text: str) -> str:
+    """An answer's text without the sentence, if it has one."""
+    return POINTS.sub("", text)
 
 
 def point_to_own_cells(
