@@ -62,7 +62,8 @@ def require(source: NotebookNode, cells: Mapping[str, Known], assignment: str) -
 
 def from_gradebook(source: NotebookNode, cells: Mapping[str, Known]) -> list[str]:
     """How the gradebook differs from the source, a cell a line."""
-    found, known = [], known_cells(source)
+    found: list[str] = []
+    known = {name: cell for name, cell in known_cells(source).items() if _is_kept(cell)}
     for name, cell in known.items():
         points = _points(cell.metadata["nbgrader"])
         if name not in cells:
@@ -154,6 +155,11 @@ def _points(settings: Mapping) -> float | None:
     if settings.get("grade") or settings.get("task"):
         return float(settings.get("points") or 0)
     return None
+
+
+def _is_kept(cell: NotebookNode) -> bool:
+    """Whether nbgrader keeps the cell in the gradebook: not one that is neither graded nor locked."""
+    return utils.is_grade(cell) or _is_answer(cell) or utils.is_locked(cell)
 
 
 def _is_answer(cell: NotebookNode) -> bool:

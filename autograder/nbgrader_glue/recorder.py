@@ -121,7 +121,7 @@ class Recorder:
         """Write a judged submission's rows and files; if that fails, the earlier ones stay."""
         notebook: NotebookNode = nbformat.from_dict(judged)
         for cell in notebook.cells:
-            if name := grade_id(cell):
+            if (name := grade_id(cell)) in self._rows.cells:
                 checksum = self._rows.cells[name].checksum
                 cell.metadata["nbgrader"]["checksum"] = checksum
         for step in self._steps:

@@ -2,6 +2,7 @@
 
 import copy
 import csv
+import re
 import shutil
 
 import nbformat
@@ -178,7 +179,15 @@ def test_until_then_no_mark_is_out_of_the_old_points(course, capsys, monkeypatch
     assert "14" not in row.values()
 
 
+def page(root) -> str:
+    """What the student reads after the one command that makes pages."""
+    courses.run(root, "nbgrader", "generate_feedback", P3, "--student", "right")
+    text = (root / "course" / "feedback" / "right" / P3 / f"{P3}.html").read_text()
+    return " ".join(re.sub(r"<[^>]+>", " ", text).split())
+
+
 def test_a_mark_above_the_new_points_comes_back_to_be_read(course, monkeypatch):
+    assert "14 of 15 points" in page(course)
     change(course, points(PROOF, 3))
     printed = courses.run(course, "nbgrader", "generate_assignment", P3, "--force")
     assert f"{PROOF}: a person gave more than the new 3 points to right" in printed
@@ -186,6 +195,7 @@ def test_a_mark_above_the_new_points_comes_back_to_be_read(course, monkeypatch):
     assert standing(course, "right")[2] == {PROOF}
     mark(course, "right", 3.0)
     assert standing(course, "right") == (13.0, 13.0, set())
+    assert "13 of 13 points" in page(course)
 
 
 def test_points_that_are_changed_back_are_graded_again(course, monkeypatch):
