@@ -16,6 +16,7 @@ from typing import Any
 
 from nbgrader.exchange import ExchangeError, default
 from nbgrader.utils import check_directory, ignore_patterns
+from traitlets import Bool
 
 from autograder.nbgrader_glue.foreign_folder import ForeignFolderError, copy_foreign
 
@@ -114,7 +115,13 @@ def _give_to_group(group: int, folder: str, stage: str) -> None:
 
 
 class Collect(_Entered, default.ExchangeCollect):
-    """Takes only what its owner handed in, and no link."""
+    """Takes only what its owner handed in, and no link. A later hand-in takes the place of an earlier
+    one, which stays if the later one cannot be taken.
+    """
+
+    update = Bool(
+        True, help="Whether a later hand-in takes the place of one that was collected before."
+    ).tag(config=True)
 
     src_records: list[dict[str, Any]]
 
@@ -138,9 +145,42 @@ class Collect(_Entered, default.ExchangeCollect):
 
     def copy_files(self) -> None:
         self.refused: list[str] = []
-        super().copy_files()
+        self.src_records = [r for r in self.src_records if not self._is_by_hand(r["username"])]
+        with tempfile.TemporaryDirectory(prefix="collected-") as aside:
+            before = {}
+            for number, record in enumerate(self.src_records):
+                there = self._collected(record["username"])
+                if self.coursedir.get_existing_timestamp(str(there)) not in (
+                    None,
+                    record["timestamp"],
+                ):
+                    kept = shutil.copytree(there, Path(aside, str(number)), symlinks=True)
+                    before[record["username"]] = kept
+            try:
+                super().copy_files()
+            finally:
+                for student, kept in before.items():
+                    if not self._collected(student).exists():
+                        shutil.copytree(kept, self._collected(student), symlinks=True)
         if self.refused:
             self.fail("Not collected: " + "; ".join(self.refused))
+
+    def _collected(self, student: str) -> Path:
+        course = self.coursedir
+        folder = course.format_path(course.submitted_directory, student, course.assignment_id)
+        return Path(folder)
+
+    def _is_by_hand(self, student: str) -> bool:
+        """Whether somebody else has put a submission there, which no hand-in may replace unasked."""
+        folder = self._collected(student)
+        if not folder.is_dir() or (folder / "timestamp.txt").exists():
+            return False
+        self.log.warning(
+            "%s has no timestamp.txt: it was not collected, and stays. To take the hand-in of %s "
+            "instead, remove that folder",
+            *(os.path.relpath(folder), student),
+        )
+        return True
 
     def do_copy(self, src: str, dest: str, log: Any = None) -> None:
         ignored: Callable[[str, list[str]], list[str]] = ignore_patterns(

@@ -29,12 +29,17 @@ Files = dict[str, tuple[int, int]]  # path in its folder → size, time in ns
 
 
 class Folders:
-    """Where submissions are, and where their graded notebooks go."""
+    """Where submissions are, and where their graded notebooks go.
 
-    def __init__(self, config: Config, assignment: str):
+    converter: nbgrader's, if its command is running.
+    """
+
+    def __init__(self, config: Config, assignment: str, converter: Autograde | None = None):
         self.assignment = assignment
-        self.course = CourseDirectory(config=config, log=QUIET)
-        self.converter = Autograde(coursedir=self.course, config=config, log=QUIET)
+        if converter is None:
+            course = CourseDirectory(config=config, log=QUIET)
+            converter = Autograde(coursedir=course, config=config, log=QUIET)
+        self.course, self.converter = converter.coursedir, converter
         self.source = Path(self.course.format_path(self.course.source_directory, ".", assignment))
         self.beside_source = self._files(self.source)
         self._not_copied = {os.path.join("", name) for name in

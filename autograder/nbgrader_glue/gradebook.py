@@ -8,19 +8,17 @@ import sys
 from collections.abc import Set
 from dataclasses import dataclass
 from datetime import datetime
-from types import SimpleNamespace
 
 from nbformat import NotebookNode
 from nbgrader import api, utils
 from sqlalchemy import select
 
 from autograder.lms.marks import lateness as lateness_in_words
+from autograder.nbgrader_glue.agreement import of_gradebook
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.late import Lateness, seconds_late, settle_one
 from autograder.notebook.suggestion import suggestion_of
 from autograder.terminal import say
-
-COPIED = ("name", "cell_type", "locked", "source", "checksum")
 
 
 @dataclass(frozen=True)
@@ -223,10 +221,7 @@ class Rows:
             self._db.commit()
         notebook = assignment.notebooks[0]
         self._assignment, self._notebook, self._due = assignment.id, notebook.id, assignment.duedate
-        self.source_cells = {
-            cell.name: SimpleNamespace(**{key: getattr(cell, key) for key in COPIED})
-            for cell in notebook.source_cells
-        }
+        self.cells = of_gradebook(notebook)
         graded = [*notebook.grade_cells, *notebook.task_cells]
         commented = [*notebook.solution_cells, *notebook.task_cells]
         self._with_grade = [cell.id for cell in graded]

@@ -4,15 +4,17 @@ what went wrong before what is right, and the problem's own text at the end.
 
 import copy
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from nbformat import NotebookNode
 
+from autograder.notebook.editions import Edition, texts_of
 from autograder.notebook.grade import is_judged
 from autograder.notebook.letter import HEAD, is_letter
 from autograder.notebook.outputs import read_verdict
 from autograder.notebook.recognise import grade_id
+from autograder.notebook.released import essence
 from autograder.notebook.scores import could_not_be_judged
 from autograder.problems import CHECKS
 
@@ -49,17 +51,18 @@ class Item:
 
 
 def arranged(
-    notebook: NotebookNode, source: NotebookNode | None
+    notebook: NotebookNode, source: NotebookNode | None, earlier: Sequence[Edition] = ()
 ) -> tuple[NotebookNode, list[Item]]:
     """A copy of a notebook that holds its grades, its cells in the order of the page, and the items.
 
-    source: the assignment's own notebook; without it, each text counts as a student's. Each cell's
-    metadata say, under "page", what begins and ends with it.
+    source: the assignment's own notebook; without it, each text counts as a student's, but for those of
+    the editions that students may have. Each cell's metadata say, under "page", what begins and ends
+    with it.
     """
     notebook = copy.deepcopy(notebook)
     for cell in notebook.cells:
         cell.metadata["page"] = NotebookNode()
-    given, headings = _given(source), _headings(source or notebook)
+    given, headings = _given(source) | texts_of(earlier), _headings(source or notebook)
     items, taken = _items(notebook.cells, given, headings)
     others = [cell for cell in notebook.cells if id(cell) not in taken]
     letters = [cell for cell in others if is_letter(cell)]
@@ -178,7 +181,7 @@ def _section(title: str, cells: list[NotebookNode], folded: bool = False) -> lis
 
 
 def _given(source: NotebookNode | None) -> set[str]:
-    return {cell.source.strip() for cell in source.cells} if source else set()
+    return {essence(cell.source) for cell in source.cells} if source else set()
 
 
 def _headings(notebook: NotebookNode) -> dict[str, str]:
@@ -209,7 +212,7 @@ def _name_places(
 
 
 def _is_given(cell: NotebookNode, given: set[str]) -> bool:
-    return not grade_id(cell) and cell.source.strip() in given
+    return not grade_id(cell) and essence(cell.source) in given
 
 
 def _shows(cell: NotebookNode, given: set[str]) -> bool:

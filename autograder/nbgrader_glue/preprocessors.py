@@ -14,8 +14,11 @@ from traitlets import Unicode
 from autograder.files import put_in_place
 from autograder.nbgrader_glue import handed_in
 from autograder.nbgrader_glue.items import UNREAD
+from autograder.nbgrader_glue.kept_editions import kept
 from autograder.notebook.beside import Beside
+from autograder.notebook.editions import Edition, of_release
 from autograder.notebook.grade import grade, is_judged
+from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
 from autograder.notebook.scores import with_verdicts
 from autograder.notebook.suggestion import suggestion_of
@@ -51,6 +54,11 @@ class FromSource(NbGraderPreprocessor):
             course.format_path(course.submitted_directory, names["student"], names["assignment"])
         )
 
+    def earlier(self, names) -> list[Edition]:
+        """The editions of the assignment that students may have."""
+        root = Path(self.parent.parent.coursedir.root)
+        return [of_release(text) for text in kept(root, names["assignment"])]
+
     def beside(self, names) -> Beside:
         converter = self.parent.parent
         course, assignment = converter.coursedir, names["assignment"]
@@ -70,7 +78,8 @@ class RepairCells(FromSource):
     def preprocess(self, nb, resources):
         names, source = resources["nbgrader"], self.source_of(resources)
         _, notes = handed_in.counted(self.submitted(names), names["notebook"], source)
-        nb, notes = repair(nb, source, notes, self.beside(names).documents)
+        documents = self.beside(names).documents
+        nb, notes = repair(nb, source, notes, documents, self.earlier(names))
         _warn(self.log, names["student"], notes)
         return nb, resources
 
@@ -89,22 +98,32 @@ class Judge(FromSource):
         secret = secret_of(Path(self.parent.parent.coursedir.root) / self.seed_file)
         seed = seed_of(secret, names["student"], names["assignment"])
         source, student = self.source_of(resources), names["student"]
-        graded = grade(nb, source, seed, self.beside(names), student=student)
+        beside, earlier = self.beside(names), self.earlier(names)
+        graded = grade(nb, source, seed, beside, student=student, earlier=earlier)
         _warn(self.log, names["student"], graded.notes)
         return with_verdicts(graded), resources
 
 
 class SaveSuggestions(SaveAutoGrades):
     """For `autograde`, instead of nbgrader's SaveAutoGrades: saves what marked lines suggest, too. A
-    person still has to read the answer.
+    person still has to read the answer, but not again what has not changed.
     """
 
+    def preprocess(self, nb, resources):
+        regrading = getattr(self.parent, "regrading", None)
+        student = resources["nbgrader"]["student"]
+        self._same = regrading.same_answers(student, nb) if regrading else set()
+        return super().preprocess(nb, resources)
+
     def _add_score(self, cell, resources):
+        grade = self.gradebook.find_grade(*_place(self, cell))
+        to_read = grade.needs_manual_grade
         super()._add_score(cell, resources)
         if suggestion := suggestion_of(cell):
-            grade = self.gradebook.find_grade(*_place(self, cell))
             grade.auto_score, grade.needs_manual_grade = suggestion.points, True
-            self.gradebook.db.commit()
+        if grade.manual_score is not None and grade_id(cell) in self._same:
+            grade.needs_manual_grade = to_read
+        self.gradebook.db.commit()
 
     def _add_comment(self, cell, resources):
         super()._add_comment(cell, resources)

@@ -1,21 +1,21 @@
 """Does what `nbgrader autograde` does around the judging, for many submissions of one assignment."""
 
-import copy
+import sys
 from functools import cached_property
 from pathlib import Path
 from typing import Self
 
 import nbformat
 from nbformat import NotebookNode
-from nbgrader import utils
 from nbgrader.nbgraderformat import MetadataValidator
 from traitlets import import_item
 from traitlets.config import Config
 
-from autograder.nbgrader_glue import names
+from autograder.nbgrader_glue import agreement, names
 from autograder.nbgrader_glue.decided import same_answers
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
+from autograder.nbgrader_glue.kept_editions import kept
 from autograder.nbgrader_glue.late import Lateness
 from autograder.nbgrader_glue.preprocessors import Judge, secret_of, seed_of
 from autograder.nbgrader_glue.release import configuration
@@ -24,6 +24,7 @@ from autograder.nbgrader_glue.submitted import RefusedError
 from autograder.notebook.beside import Beside
 from autograder.notebook.recognise import grade_id
 from autograder.term_calendar import read_if_there
+from autograder.terminal import say
 
 # This module or `repair` does the work of these steps, whatever their settings.
 REPLACED = (
@@ -67,8 +68,10 @@ class Recorder:
             self._rows.close()
             raise
         self.max_score: float = sum(self._rows.points.values())
-        # What else decides a grade, besides the submission, the source and the seed.
-        self.settings = repr((config, self._rows.source_cells, self._rows.points))
+        # What else decides a graded notebook. A path, an export or a penalty does not.
+        cells = sorted(self._rows.cells.items())
+        self.settings = repr(([_settings(step) for step in self._steps], cells))
+        self.earlier = kept(root, assignment)
 
     def __enter__(self) -> Self:
         return self
@@ -118,8 +121,8 @@ class Recorder:
         """Write a judged submission's rows and files; if that fails, the earlier ones stay."""
         notebook: NotebookNode = nbformat.from_dict(judged)
         for cell in notebook.cells:
-            if grade_id(cell):
-                checksum = self._rows.source_cells[grade_id(cell)].checksum
+            if (name := grade_id(cell)) in self._rows.cells:
+                checksum = self._rows.cells[name].checksum
                 cell.metadata["nbgrader"]["checksum"] = checksum
         for step in self._steps:
             notebook, _ = step(notebook, {})
@@ -159,32 +162,25 @@ class Recorder:
             )
 
     def _agree_with_source(self) -> None:
-        """Check once what nbgrader would check in each repaired submission."""
-        where = f"solutions/{self.assignment}"
-        again = f"run `nbgrader generate_assignment {self.assignment} --force`"
-        source = nbformat.reads(self.source, as_version=4)
+        """Check once what nbgrader would check in each repaired submission, and more."""
         try:
-            MetadataValidator().validate_nb(source)
+            MetadataValidator().validate_nb(self._source)
         except Exception as error:
-            raise ValueError(f"{where}: its nbgrader settings are not valid: {error}") from None
-        for cell in source.cells:
-            name = grade_id(cell)
-            if name and name not in self._rows.source_cells:
-                raise ValueError(f"{where} has a cell {name}, but the gradebook does not: {again}")
-            if name and not _can_be_put_right(cell, self._rows.source_cells[name], self._rows):
-                raise ValueError(f"Inconsistent checksums: {name} has changed in {where}: {again}")
+            raise ValueError(
+                f"solutions/{self.assignment}: its nbgrader settings are not valid: {error}"
+            ) from None
+        agreement.require(self._source, self._rows.cells, self.assignment)
+        released = agreement.released(self._folders.course, self.assignment)
+        if said := agreement.said_of_release(self._source, released, self.assignment):
+            say(said, sys.stderr)
 
 
-def _can_be_put_right(cell: NotebookNode, known, rows: Rows) -> bool:
-    """Whether nbgrader's OverwriteCells can make a locked cell the one in the gradebook again."""
-    if not known.locked:
-        return True
-    cell = copy.deepcopy(cell)
-    cell.source, cell.cell_type = known.source, known.cell_type
-    cell.metadata["nbgrader"]["locked"] = True
-    if utils.is_grade(cell) and known.name in rows.points:
-        cell.metadata["nbgrader"]["points"] = rows.points[known.name]
-    return utils.compute_checksum(cell) == known.checksum
+def _settings(step) -> tuple[str, list]:
+    """A step's settings, whatever the rest of nbgrader_config.py says."""
+    values = {name: getattr(step, name) for name in step.class_trait_names(config=True)}
+    plain = {name: sorted(value, key=repr) if isinstance(value, set) else value
+             for name, value in values.items()}  # fmt: skip
+    return type(step).__name__, sorted(plain.items())
 
 
 def _refuse_other_steps(config: Config, converter) -> None:

@@ -8,7 +8,9 @@ from pathlib import Path
 
 OURS = "autograder.nbgrader_glue.preprocessors"
 # For `autograde`: what reads a submission.
-SUBMISSION_EXPORTER = "autograder.nbgrader_glue.submitted.SubmissionExporter"
+SUBMISSION_EXPORTER = "autograder.nbgrader_glue.reading.SubmissionExporter"
+# For `generate_assignment`: what writes a release.
+RELEASE_EXPORTER = "autograder.nbgrader_glue.generating.ReleaseExporter"
 # For `generate_feedback`: what writes its pages.
 FEEDBACK_EXPORTER = "autograder.nbgrader_glue.feedback.FeedbackExporter"
 # For `export`.
@@ -77,7 +79,7 @@ def autograde_preprocessors() -> list[str]:
 
 
 def generate_preprocessors() -> list[str]:
-    """nbgrader's own, with ContinuePastErrors first."""
+    """nbgrader's own, with ContinuePastErrors first, and SaveChangedCells instead of SaveCells."""
     return [
         f"{OURS}.ContinuePastErrors",
         "nbgrader.preprocessors.IncludeHeaderFooter",
@@ -87,7 +89,7 @@ def generate_preprocessors() -> list[str]:
         "nbgrader.preprocessors.ClearOutput",
         "nbgrader.preprocessors.CheckCellMetadata",
         "nbgrader.preprocessors.ComputeChecksums",
-        "nbgrader.preprocessors.SaveCells",
+        "autograder.nbgrader_glue.new_cells.SaveChangedCells",
         "nbgrader.preprocessors.ClearHiddenTests",
         "nbgrader.preprocessors.ClearMarkScheme",
         "nbgrader.preprocessors.ComputeChecksums",

@@ -2,6 +2,7 @@
 
 import hashlib
 import logging
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -13,6 +14,7 @@ from autograder.judging.check import HIDDEN_CASES
 from autograder.judging.verdict import State, Verdict
 from autograder.notebook import examples, outputs
 from autograder.notebook.beside import Beside
+from autograder.notebook.editions import Edition
 from autograder.notebook.own_arm import drawn_for
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
@@ -48,11 +50,13 @@ def grade(
     beside: Beside = NOTHING,
     said: tuple[str, ...] = (),
     student: str | None = None,
+    earlier: Sequence[Edition] = (),
 ) -> Graded:
     """Run the submission's cells in a sandbox and judge its graded functions outside.
 
     beside: files that its cells find. said: notes that come first. student: whose submission it is,
-    where the problem gives each student an own arm; None for the arm of the book.
+    where the problem gives each student an own arm; None for the arm of the book. earlier: editions
+    of the problem that the student may have, the newest first.
     seed: decides the random cases, together with the code of the repaired notebook and the files
     beside it. So the same submission gets the same verdicts again, and a changed one meets other
     cases. Each check has its own random numbers, so that a new problem changes no other's cases. A
@@ -60,14 +64,14 @@ def grade(
     not to blame, it is graded once more. OSError if that happens again, or if no sandbox starts.
     """
     try:
-        return _graded(submission, source, seed, beside, said, student)
+        return _graded(submission, source, seed, beside, said, student, earlier)
     except OSError as error:
         log.warning("%s; grading the notebook once more", shown_note(str(error)))
-        return _graded(submission, source, seed, beside, said, student)
+        return _graded(submission, source, seed, beside, said, student, earlier)
 
 
-def _graded(submission, source, seed, beside, said, student) -> Graded:
-    notebook, notes = repair(submission, source, said, beside.documents)
+def _graded(submission, source, seed, beside, said, student, earlier) -> Graded:
+    notebook, notes = repair(submission, source, said, beside.documents, earlier)
     verdicts: dict[str, Verdict] = {}
     marks: dict[str, list[Marked]] = {}
     seed = of_content(seed, notebook, beside)

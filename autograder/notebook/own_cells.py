@@ -4,10 +4,12 @@ nbgrader gives an untouched answer 0 points, and nobody reads it. So the cell ge
 where the answer may be: then the cell is no longer untouched, and the person finds what to read.
 """
 
+import re
 from collections.abc import Sequence
 
 from nbformat import NotebookNode
 
+from autograder.notebook.editions import Edition, texts_of
 from autograder.notebook.letter import is_letter, plain
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.released import essence, released
@@ -15,16 +17,28 @@ from autograder.protocol import one_line
 
 POINTER = "(From the grader: this cell has no answer; it may be in the student's own {where}.)"
 
+POINTS = re.compile(r"[#*]? ?\\?\(From the grader: this cell has no answer;.*\)\*?\s*$")
+
+
+def without_pointer(text: str) -> str:
+    """An answer's text without the sentence, if it has one."""
+    return POINTS.sub("", text)
+
 
 def point_to_own_cells(
-    notebook: NotebookNode, source: NotebookNode, documents: Sequence[str] = ()
+    notebook: NotebookNode,
+    source: NotebookNode,
+    documents: Sequence[str] = (),
+    editions: Sequence[Edition] = (),
 ) -> list[str]:
     """Put the sentence into each empty answer with something of the student's beside it; give notes.
 
     That is text or a picture in the cells directly above, or in those below up to the next graded cell;
-    or else one of the documents, which were handed in beside the notebook.
+    or else one of the documents, which were handed in beside the notebook. No text that one of the
+    editions had is a student's own.
     """
     given = {essence(text) for cell in source.cells for text in (cell.source, released(cell))}
+    given |= texts_of(editions)
     untouched = {
         grade_id(cell): {essence(released(cell)), ""} for cell in source.cells if _is_read(cell)
     }

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 
 from nbformat import NotebookNode
 
+from autograder.notebook.editions import Edition, begun_with, of_source, settings_of
 from autograder.notebook.form import NEW_CELL, give_form, tell_apart, without_surrogates
 from autograder.notebook.letter import letter
 from autograder.notebook.own_cells import point_to_own_cells
@@ -25,6 +26,7 @@ def repair(
     source: NotebookNode,
     said: Iterable[str] = (),
     documents: Sequence[str] = (),
+    earlier: Sequence[Edition] = (),
 ) -> tuple[NotebookNode, list[str]]:
     """The submission with each graded cell of `source` in it exactly once, and a note on each change.
 
@@ -35,7 +37,8 @@ def repair(
     An empty answer that a person reads points to the student's own cells beside it, or documents.
 
     said: notes that come before all others. documents: files of the student's that may hold an
-    answer.
+    answer. earlier: editions of the problem that students may have, the newest first: what differs
+    from the source because it was so in the student's edition is put right without a note.
     """
     notebook, notes = copy.deepcopy(submission), list(said)
     for cell in notebook.cells:
@@ -46,13 +49,15 @@ def repair(
         notebook = clean
     give_form(notebook, source, notes)
     known = known_cells(source)
+    editions = [of_source(source), *earlier]
+    begun = begun_with(notebook, editions)
     found = places(notebook, source)
     _tell_of(found, notes)
     for index, cell in enumerate(notebook.cells):
         claimed = grade_id(cell)
         if "nbgrader" in cell.metadata and (claimed is None or found.at.get(claimed) != index):
             del cell.metadata["nbgrader"]
-            if claimed and claimed not in known:
+            if claimed and claimed not in known and claimed not in begun.settings:
                 notes.append(
                     f"a cell claims to be {one_line(claimed, 60)}, which this assignment does not have"
                 )
@@ -61,10 +66,10 @@ def repair(
         placed[name].metadata["nbgrader"] = copy.deepcopy(known[name].metadata["nbgrader"])
     for name, original in known.items():
         if name in placed:
-            _keep_changed_text(notebook, placed[name], original, notes)
-            _put_right(placed[name], original, notes)
-    _put_back(notebook, known, placed, notes)
-    notes += point_to_own_cells(notebook, source, documents)
+            _keep_changed_text(notebook, placed[name], original, begun, notes)
+            _put_right(placed[name], original, begun, notes)
+    _put_back(notebook, known, placed, begun, notes)
+    notes += point_to_own_cells(notebook, source, documents, editions)
     if len(notes) > MOST_NOTES:
         notes = [*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES} more notes like these"]
     if notes:
@@ -90,11 +95,13 @@ def _tell_of(found: Places, notes) -> None:
         )
 
 
-def _keep_changed_text(notebook, cell, original, notes) -> None:
+def _keep_changed_text(notebook, cell, original, begun: Edition, notes) -> None:
     """What was written into a locked cell runs as a cell of the student's own, before it."""
     if not is_locked(original):
         return
     if essence(cell.source) in (essence(released(original)), essence(original.source)):
+        return
+    if begun.has_text_of(cell):
         return
     name = grade_id(original)
     if not cell.source.strip():
@@ -111,12 +118,15 @@ def _keep_changed_text(notebook, cell, original, notes) -> None:
     notebook.cells.insert(_index(notebook.cells, cell), own)
 
 
-def _put_right(cell, original, notes) -> None:
-    name = grade_id(original)
+def _put_right(cell, original, begun: Edition, notes) -> None:
+    name = grade_id(original) or ""
+    if not is_locked(original) and begun.has_text_of(cell):
+        cell.source = released(original)  # no answer: what nbgrader knows as none
     if cell.cell_type != original.cell_type:
-        notes.append(
-            f"{name} had been made a {cell.cell_type} cell; it is a {original.cell_type} cell again"
-        )
+        if cell.cell_type != begun.types.get(name):
+            notes.append(
+                f"{name} had been made a {cell.cell_type} cell; it is a {original.cell_type} cell again"
+            )
         cell.cell_type = original.cell_type
         if cell.cell_type == "code":
             cell.outputs, cell.execution_count = [], None
@@ -125,11 +135,9 @@ def _put_right(cell, original, notes) -> None:
             cell.pop("outputs", None)
             cell.pop("execution_count", None)
     checksum = cell.metadata["nbgrader"].get("checksum")
-    claims = {
-        k: v for k, v in cell.metadata["nbgrader"].items() if k not in ("checksum", "cell_type")
-    }
-    wanted = dict(original.metadata["nbgrader"])
-    if any(claims.get(key) != value for key, value in wanted.items()):
+    claims, wanted = settings_of(cell), dict(original.metadata["nbgrader"])
+    differs = any(claims.get(key) != value for key, value in wanted.items())
+    if differs and not begun.has_settings_of(cell):
         notes.append(f"the nbgrader settings of {name} had been changed; they were put back")
     cell.metadata["nbgrader"] = NotebookNode(
         wanted | ({"checksum": checksum} if isinstance(checksum, str) else {})
@@ -138,13 +146,19 @@ def _put_right(cell, original, notes) -> None:
         cell.source = original.source
 
 
-def _put_back(notebook, known, placed, notes) -> None:
+def _put_back(notebook, known, placed, begun: Edition, notes) -> None:
     """Put each missing cell below the graded cell that comes before it in the source."""
     before = None
     for name, original in known.items():
         if name not in placed:
-            notes.append(f"{name} was missing; it was put back")
-            text = original.source if is_locked(original) else ""
+            was_there = name in begun.settings
+            notes.append(
+                f"{name} was missing; it was put back"
+                if was_there
+                else f"{name} is newer than the student's notebook; it was put in"
+            )
+            empty = "" if was_there else released(original)
+            text = original.source if is_locked(original) else empty
             cell = NEW_CELL[original.cell_type](source=text)
             cell.metadata = copy.deepcopy(original.metadata)
             del cell["id"]  # a random one

@@ -27,7 +27,8 @@ class Recorder(Protocol):
 
     assignment: str
     source: str  # the source notebook, as JSON
-    settings: str  # what else decides a grade, besides the submission, the source and the seed
+    settings: str  # what else decides a graded notebook, besides these, the submission and the seed
+    earlier: tuple[str, ...]  # the editions that students may have, as JSON, the newest first
     max_score: float
 
     def submissions(self) -> dict[str, Path]:

@@ -8,6 +8,7 @@ from nbformat import NotebookNode
 
 from autograder.judging.verdict import State
 from autograder.notebook.beside import Beside
+from autograder.notebook.editions import of_release
 from autograder.notebook.grade import NOTHING, grade
 from autograder.notebook.scores import with_verdicts
 from autograder.notebook.version import other_version
@@ -30,16 +31,19 @@ def judge(
     beside: Beside = NOTHING,
     said: tuple[str, ...] = (),
     student: str | None = None,
+    earlier: tuple[str, ...] = (),
 ) -> dict:
     """Grade a notebook, and give its cells with outputs that nbgrader can read.
 
+    earlier: the editions of the problem that students may have, as JSON, the newest first.
     The result holds notebook, states, notes, certain (whether every check could judge) and code, which
     shows whether a worker has other code; or refused (why the file cannot be graded) and code.
     """
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # nbformat's are not the instructor's business
-            return _judged(content, source, seed, beside, said, student) | {"code": code_version()}
+            judged = _judged(content, source, seed, beside, said, student, earlier)
+            return judged | {"code": code_version()}
     except (UnicodeDecodeError, nbformat.reader.NotJSONError):
         refused = "is not valid JSON: ask the student for it again"
     except OtherVersionError as error:
@@ -61,12 +65,19 @@ def load() -> None:
 
 
 def _judged(
-    content: bytes, source: str, seed: str, beside: Beside, said: tuple, student: str | None
+    content: bytes,
+    source: str,
+    seed: str,
+    beside: Beside,
+    said: tuple[str, ...],
+    student: str | None,
+    earlier: tuple[str, ...],
 ) -> dict:
     notebook, notes = _read(content.decode("utf-8-sig"))
     if why := other_version(notebook, _source(source), beside.mechanisms):
         raise OtherVersionError(why)
-    graded = grade(notebook, _source(source), seed, beside, said, student)
+    editions = [of_release(text) for text in earlier]
+    graded = grade(notebook, _source(source), seed, beside, said, student, editions)
     notebook = with_verdicts(graded)
     nbformat.validate(notebook, relax_add_props=True)
     states = [verdict.state for verdict in graded.verdicts.values()]

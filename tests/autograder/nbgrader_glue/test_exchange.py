@@ -256,6 +256,36 @@ def test_anothers_file_under_a_second_name_is_not_collected(course):
     assert not course.collected(ADA).exists()
 
 
+def test_a_later_hand_in_takes_the_place_of_an_earlier_one(course):
+    course.hand_in(ADA, '{"first": 1}')
+    course.do(GRADER, exchange.Collect)
+    course.hand_in(ADA, '{"second": 1}')
+    course.do(GRADER, exchange.Collect)
+    assert (course.collected(ADA) / f"{P3}.ipynb").read_text() == '{"second": 1}'
+
+
+def test_the_earlier_one_stays_if_the_later_cannot_be_taken(course):
+    course.hand_in(ADA, '{"first": 1}')
+    course.do(GRADER, exchange.Collect)
+    later = course.hand_in(ADA, '{"second": 1}')
+    with acting_as(ADA):
+        pipe(course, later)
+    with pytest.raises(ExchangeError, match="Not collected"):
+        course.do(GRADER, exchange.Collect)
+    assert (course.collected(ADA) / f"{P3}.ipynb").read_text() == '{"first": 1}'
+
+
+def test_what_an_instructor_put_there_stays(course, caplog):
+    """It has no time, which nbgrader takes for an earlier one."""
+    course.hand_in(ADA, '{"by exchange": 1}')
+    with acting_as(GRADER):
+        course.collected(ADA).mkdir(parents=True)
+        (course.collected(ADA) / f"{P3}.ipynb").write_text('{"by mail": 1}')
+    course.do(GRADER, exchange.Collect)
+    assert (course.collected(ADA) / f"{P3}.ipynb").read_text() == '{"by mail": 1}'
+    assert "has no timestamp.txt" in caplog.text
+
+
 def test_a_change_after_the_stated_time_is_said(course, caplog):
     made = course.hand_in(ADA)
     early = made.parent / f"{ADA}+{P3}+2001-01-01 00:00:00.000000 UTC+x"

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 from nbgrader.converters import Autograde, GenerateAssignment, GenerateFeedback
-from nbgrader.preprocessors import SaveAutoGrades
+from nbgrader.preprocessors import SaveAutoGrades, SaveCells
 from traitlets import import_item
 
 from autograder.nbgrader_glue import (
@@ -14,6 +14,7 @@ from autograder.nbgrader_glue import (
     generate_preprocessors,
     sanitize_preprocessors,
 )
+from autograder.nbgrader_glue.new_cells import SaveChangedCells
 from autograder.nbgrader_glue.preprocessors import (
     ContinuePastErrors,
     GetDecidedGrades,
@@ -22,7 +23,7 @@ from autograder.nbgrader_glue.preprocessors import (
     SaveSuggestions,
 )
 
-INSTEAD = {SaveAutoGrades: SaveSuggestions}
+INSTEAD = {SaveAutoGrades: SaveSuggestions, SaveCells: SaveChangedCells}
 
 
 @pytest.mark.parametrize(
