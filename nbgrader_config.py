@@ -45,6 +45,7 @@ c.Exchange.assignment_dir = str(problems)
 c.ExchangeFetchAssignment.replace_missing_files = True
 
 c.GenerateAssignment.preprocessors = nbgrader_glue.generate_preprocessors()
+c.GenerateAssignment.exporter_class = nbgrader_glue.SOURCE_EXPORTER
 c.Autograde.sanitize_preprocessors = nbgrader_glue.sanitize_preprocessors()
 c.Autograde.autograde_preprocessors = nbgrader_glue.autograde_preprocessors()
 c.Autograde.exporter_class = nbgrader_glue.SUBMISSION_EXPORTER

@@ -7,6 +7,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 OURS = "autograder.nbgrader_glue.preprocessors"
+# For `generate_assignment`: what reads a source.
+SOURCE_EXPORTER = "autograder.nbgrader_glue.source.SourceExporter"
 # For `autograde`: what reads a submission.
 SUBMISSION_EXPORTER = "autograder.nbgrader_glue.submitted.SubmissionExporter"
 # For `generate_feedback`: what writes its pages.

@@ -10,6 +10,7 @@ from nbconvert.exporters import NotebookExporter
 
 from autograder.nbgrader_glue.handed_in import counted, mechanisms_beside
 from autograder.nbgrader_glue.names import leave_out_unfit
+from autograder.nbgrader_glue.source import UnsoundError, refuse_unsound, tell
 from autograder.nbgrader_glue.start import can_start
 from autograder.notebook.version import other_version
 from autograder.protocol import one_line
@@ -84,6 +85,7 @@ class SubmissionExporter(NotebookExporter):
         super().__init__(config=config, **kw)
         leave_out_unfit(self.parent)
         can_start(self.parent, lambda: Room().close())
+        self._refuse_unsound()
         for folder, notebooks in getattr(self.parent, "assignments", {}).items():
             name = self._course.assignment_id
             if (
@@ -91,6 +93,16 @@ class SubmissionExporter(NotebookExporter):
                 and self._source(name).exists()
             ):
                 self._look_for(Path(folder), name, notebooks)
+
+    def _refuse_unsound(self) -> None:
+        """UnsoundError if the assignment's source cannot be graded as it is written."""
+        source = self._source("*") if self.parent is not None else Path()
+        for path in sorted(source.parent.glob(source.name)):
+            try:
+                refuse_unsound(path, self._course.ignore)
+            except UnsoundError as error:
+                tell(self.log, f"{error}\nNothing was graded, and nothing has changed.")
+                raise
 
     @property
     def _course(self):

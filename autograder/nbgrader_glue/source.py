@@ -1,0 +1,70 @@
+"""Looks at an assignment's source before it is released, and before anything is graded by it."""
+
+from logging import Logger
+from pathlib import Path
+
+import nbformat
+from nbconvert.exporters import NotebookExporter
+from nbgrader.converters.base import NbGraderException
+
+from autograder.nbgrader_glue.handed_in import beside
+from autograder.notebook.beside import Beside
+from autograder.notebook.trial import refusal, without_check
+from autograder.terminal import shown_note
+
+WEAKER = (
+    "%s has no check: as in nbgrader, it is graded by whether its code runs to the end, and by the "
+    "number that it ends in. It runs in the sandbox, but where a student's code can read it, and change "
+    "what it rests on"
+)
+
+
+class UnsoundError(NbGraderException):
+    """A source cannot be graded as it is written; the message has a sentence for each cell."""
+
+
+def beside_source(folder: Path, ignore: list[str]) -> Beside:
+    """The files beside a source, as cells find them."""
+    return beside(folder, folder, ignore, [])
+
+
+def refuse_unsound(path: Path, ignore: list[str]) -> None:
+    """UnsoundError if the source cannot be graded as it is written. OSError if no sandbox starts."""
+    source = nbformat.read(path, as_version=4)
+    if why := refusal(path.parent.name, source, beside_source(path.parent, ignore)):
+        raise UnsoundError(why)
+
+
+def tell(log: Logger, message: str) -> None:
+    """Log an error of several lines, each as one."""
+    for line in message.splitlines():
+        log.error(shown_note(line))
+
+
+class SourceExporter(NotebookExporter):
+    """For `generate_assignment`: refuses a source that cannot be graded.
+
+    nbgrader makes it when it has found the sources, and before it changes anything.
+    """
+
+    def __init__(self, config=None, **kw):
+        super().__init__(config=config, **kw)
+        for notebooks in getattr(self.parent, "assignments", {}).values():
+            for name in sorted(notebooks):
+                self._look_at(Path(name))
+
+    def _look_at(self, path: Path) -> None:
+        assert self.parent is not None  # `generate_assignment` makes the exporter
+        ignore = self.parent.coursedir.ignore
+        try:
+            refuse_unsound(path, ignore)
+        except UnsoundError as error:
+            tell(self.log, str(error))
+            raise
+        except OSError as error:
+            self.log.warning(
+                "the tests of %s were not tried: %s", path.name, shown_note(str(error))
+            )
+        source = nbformat.read(path, as_version=4)
+        for id in without_check(source, beside_source(path.parent, ignore)):
+            self.log.warning(WEAKER, id)
