@@ -170,6 +170,13 @@ def test_outputs_of_a_test_do_not_change_its_score():
     assert "all of them" in json.dumps(cell.outputs)
 
 
+def test_so_many_outputs_hide_no_value():
+    submission = copy.deepcopy(SOURCE)
+    shown = "def mean(values):\n    [display(n) for n in range(99)]\n    return -1"
+    cell_of(submission, "answer-mean").source = shown
+    assert grade(submission, SOURCE, "seed").verdicts["test-mean"].credit == 0
+
+
 def test_no_hidden_test_is_quoted():
     """Neither in the sentence about it, nor in one about a function that is missing."""
     source = source_with(M='SECRET = 1\nassert M.SECRET, exec("C")')
