@@ -10,6 +10,7 @@ from nbgrader.converters.base import NbGraderException
 from autograder.nbgrader_glue.handed_in import beside
 from autograder.notebook.beside import Beside
 from autograder.notebook.trial import refusal, without_check
+from autograder.protocol import one_line
 from autograder.terminal import shown_note
 
 WEAKER = (
@@ -30,7 +31,10 @@ def beside_source(folder: Path, ignore: list[str]) -> Beside:
 
 def refuse_unsound(path: Path, ignore: list[str]) -> None:
     """UnsoundError if the source cannot be graded as it is written. OSError if no sandbox starts."""
-    source = nbformat.read(path, as_version=4)
+    try:
+        source = nbformat.read(path, as_version=4)
+    except Exception as error:  # JSON of another kind, or none
+        raise UnsoundError(f"{path} cannot be read: {one_line(str(error))}") from None
     if why := refusal(path.parent.name, source, beside_source(path.parent, ignore)):
         raise UnsoundError(why)
 

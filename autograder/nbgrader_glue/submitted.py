@@ -96,8 +96,12 @@ class SubmissionExporter(NotebookExporter):
 
     def _refuse_unsound(self) -> None:
         """UnsoundError if the assignment's source cannot be graded as it is written."""
-        source = self._source("*") if self.parent is not None else Path()
-        for path in sorted(source.parent.glob(source.name)):
+        found = getattr(self.parent, "assignments", {}).values()
+        names = {Path(name).stem for notebooks in found for name in notebooks}
+        names.add(self._course.assignment_id)
+        for path in map(self._source, sorted(names)):
+            if not path.is_file():
+                continue
             try:
                 refuse_unsound(path, self._course.ignore)
             except UnsoundError as error:

@@ -5,6 +5,7 @@ such as reading a file that does not lie beside the notebook, shows up in the sa
 """
 
 import ast
+import os
 from collections.abc import Iterator
 
 from nbformat import NotebookNode
@@ -91,7 +92,13 @@ def _written(cell: NotebookNode, source: NotebookNode, beside: Beside) -> Iterat
 
 
 def _tried(source: NotebookNode, beside: Beside, tests: dict[str, str]) -> Iterator[str]:
-    drawn = drawn_for(source, None)
+    if not hasattr(os, "fork"):
+        raise OSError("this system has no sandbox")
+    try:
+        drawn = drawn_for(source, None)
+    except ValueError as error:
+        yield str(error)
+        return
     with Sitting(lambda: Room.loaded(files=beside.laid)) as sitting:
         if drawn is not None:
             sitting.run(drawn.prelude)

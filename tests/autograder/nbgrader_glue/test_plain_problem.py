@@ -110,3 +110,15 @@ def test_a_source_that_cannot_be_graded_is_refused_before_anything_changes(
     ) in said
     assert "Traceback" not in said
     assert (courses.files(root / "course" / "release"), courses.files(graded)) == before
+
+
+def test_a_source_that_cannot_be_read_leaves_the_release_as_it_is(course, tmp_path):
+    root = tmp_path / "course"
+    shutil.copytree(course, root)
+    before = courses.files(root / "course" / "release")
+    (root / "solutions" / NOTEBOOK).write_text("no notebook")
+    arguments = ("generate_assignment", "--force", plain.NAME)
+    said = courses.run(root, "nbgrader", *arguments, status=1)
+    assert f"{plain.NAME}.ipynb cannot be read" in said
+    assert "Traceback" not in said
+    assert courses.files(root / "course" / "release") == before
