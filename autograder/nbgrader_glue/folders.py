@@ -18,6 +18,7 @@ from traitlets.config import Config
 from autograder import hints_seen
 from autograder.digest import digest
 from autograder.nbgrader_glue import handed_in, names, submitted
+from autograder.nbgrader_glue.source import beside_source
 from autograder.notebook.beside import Beside
 
 QUIET = logging.getLogger("autograder.nbgrader")
@@ -69,6 +70,10 @@ class Folders:
         """The files that the notebook's cells find beside it."""
         kept = self.converter.exclude_overwriting.get(self.assignment, [])
         return handed_in.beside(self.submitted(student), self.source, self.course.ignore, kept)
+
+    def laid_in_source(self) -> Beside:
+        """The files that the source's own cells find beside it."""
+        return beside_source(self.source, self.course.ignore)
 
     def timestamp(self, student: str):
         """When it was handed in, in UTC, or None; RefusedError if its timestamp.txt holds no time."""

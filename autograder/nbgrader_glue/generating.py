@@ -17,6 +17,7 @@ from nbgrader.converters.base import NbGraderException
 from autograder.nbgrader_glue import agreement, worked
 from autograder.nbgrader_glue.kept_editions import FOLDER, keep
 from autograder.nbgrader_glue.release import generate
+from autograder.nbgrader_glue.source import look_at
 from autograder.nbgrader_glue.start import can_start
 from autograder.protocol import one_line
 from autograder.terminal import plain
@@ -30,7 +31,12 @@ class ReleaseExporter(NotebookExporter):
     def __init__(self, config=None, **kw):
         super().__init__(config=config, **kw)
         converter = self.parent
-        if converter is None or converter.no_database:
+        if converter is None:
+            return
+        for notebooks in getattr(converter, "assignments", {}).values():
+            for path in map(Path, sorted(notebooks)):
+                look_at(path, converter.coursedir.ignore, converter.log)
+        if converter.no_database:
             return
         can_start(converter)
         convert = converter.convert_notebooks

@@ -11,6 +11,7 @@ from autograder.nbgrader_glue.agreement import DisagreementError, check_before
 from autograder.nbgrader_glue.handed_in import counted, mechanisms_beside
 from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.nbgrader_glue.regrading import Regrading
+from autograder.nbgrader_glue.source import UnsoundError, refuse_unsound, tell
 from autograder.nbgrader_glue.start import can_start
 from autograder.nbgrader_glue.submitted import RefusedError, check
 from autograder.notebook.version import other_version
@@ -29,6 +30,7 @@ class SubmissionExporter(NotebookExporter):
         super().__init__(config=config, **kw)
         leave_out_unfit(self.parent)
         can_start(self.parent, lambda: Room().close())
+        self._refuse_unsound()
         self.regrading = None
         if hasattr(self.parent, "init_destination"):
             self._agree()
@@ -40,6 +42,20 @@ class SubmissionExporter(NotebookExporter):
                 and self._source(name).exists()
             ):
                 self._look_for(Path(folder), name, notebooks)
+
+    def _refuse_unsound(self) -> None:
+        """UnsoundError if the assignment's source cannot be graded as it is written."""
+        found = getattr(self.parent, "assignments", {}).values()
+        names = {Path(name).stem for notebooks in found for name in notebooks}
+        names.add(self._course.assignment_id)
+        for path in map(self._source, sorted(names)):
+            if not path.is_file():
+                continue
+            try:
+                refuse_unsound(path, self._course.ignore)
+            except UnsoundError as error:
+                tell(self.log, f"{error}\nNothing was graded, and nothing has changed.")
+                raise
 
     def _agree(self) -> None:
         """NbGraderException if solutions/ and the gradebook differ in what is graded."""

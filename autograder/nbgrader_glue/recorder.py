@@ -110,6 +110,10 @@ class Recorder:
         """The files that the notebook's cells find beside it."""
         return self._folders.laid_in(student)
 
+    def laid_in_source(self) -> Beside:
+        """The files that the source's own cells find beside it."""
+        return self._folders.laid_in_source()
+
     def seed_of(self, student: str) -> str:
         return seed_of(self._secret, student, self.assignment)
 

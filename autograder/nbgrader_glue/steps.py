@@ -9,7 +9,7 @@ from pathlib import Path
 OURS = "autograder.nbgrader_glue.preprocessors"
 # For `autograde`: what reads a submission.
 SUBMISSION_EXPORTER = "autograder.nbgrader_glue.reading.SubmissionExporter"
-# For `generate_assignment`: what writes a release.
+# For `generate_assignment`: what looks at a source and writes its release.
 RELEASE_EXPORTER = "autograder.nbgrader_glue.generating.ReleaseExporter"
 # For `generate_feedback`: what writes its pages.
 FEEDBACK_EXPORTER = "autograder.nbgrader_glue.feedback.FeedbackExporter"

@@ -16,7 +16,9 @@ from autograder.notebook import examples, outputs
 from autograder.notebook.beside import Beside
 from autograder.notebook.editions import Edition
 from autograder.notebook.own_arm import drawn_for
-from autograder.notebook.recognise import grade_id
+from autograder.notebook.plain_tests import Outcome, by_value, checks_called, plain_test, with_test
+from autograder.notebook.recognise import grade_id, known_cells
+from autograder.notebook.released import is_as_released
 from autograder.notebook.repair import repair
 from autograder.notebook.sitting import Sitting
 from autograder.problems import check_for
@@ -59,9 +61,10 @@ def grade(
     of the problem that the student may have, the newest first.
     seed: decides the random cases, together with the code of the repaired notebook and the files
     beside it. So the same submission gets the same verdicts again, and a changed one meets other
-    cases. Each check has its own random numbers, so that a new problem changes no other's cases. A
-    grade cell without a check gets no credit and says so. If a sandbox is lost and the notebook is
-    not to blame, it is graded once more. OSError if that happens again, or if no sandbox starts.
+    cases. Each check has its own random numbers, so that a new problem changes no other's cases. What
+    stands in a grade cell beside its check runs in the sandbox too, and an error there costs the cell's
+    points; a grade cell without a check is graded by that alone. If a sandbox is lost and the notebook
+    is not to blame, it is graded once more. OSError if that happens again, or if no sandbox starts.
     """
     try:
         return _graded(submission, source, seed, beside, said, student, earlier)
@@ -87,9 +90,15 @@ def _graded(submission, source, seed, beside, said, student, earlier) -> Graded:
         def ask(calls):
             return [beside.explained(reply) for reply in sitting.ask(calls)]
 
+        def tested(text: str) -> Outcome:
+            return Outcome.read(sitting.run(text, is_students=False), beside) if text else Outcome()
+
+        known, answers = known_cells(source), []
         for cell in notebook.cells:
             if cell.cell_type != "code":
                 continue
+            if cell.metadata.get("nbgrader", {}).get("solution"):
+                answers.append(cell)
             cell.outputs, cell.execution_count = [], None
             if not is_judged(cell):
                 cell.outputs = allowance.shown(sitting.run(cell.source))
@@ -113,9 +122,18 @@ def _graded(submission, source, seed, beside, said, student, earlier) -> Graded:
             if check is not None:
                 verdict = check.run(ask, stream(seed, name), HIDDEN_CASES)
                 verdict = sitting.naming_an_earlier(check, verdict)
-            else:
+                done = tested(plain_test(cell.source, name))
+                verdict = with_test(verdict, done)
+            elif problem or checks_called(cell, source):
                 problem = problem or f"No check belongs to the grade cell {name}."
-                verdict = Verdict(name, State.CHECK_FAILED, problem=problem)
+                verdict, done = Verdict(name, State.CHECK_FAILED, problem=problem), Outcome()
+            else:
+                done = tested(cell.source)
+                blank = [is_as_released(own, known.get(grade_id(own) or "")) for own in answers]
+                points = float(cell.metadata["nbgrader"]["points"])
+                verdict, note = by_value(name, points, done, bool(blank) and all(blank))
+                notes += filter(None, [note])
+            cell.outputs, answers = allowance.shown(list(done.shown)), []
             if verdict.state is State.CHECK_FAILED:
                 log.error("%s: %s", shown_name(name), shown_note(verdict.problem))
                 notes.append(f"{name} could not be judged: {verdict.problem}")

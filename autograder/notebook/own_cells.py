@@ -30,13 +30,16 @@ def point_to_own_cells(
     source: NotebookNode,
     documents: Sequence[str] = (),
     editions: Sequence[Edition] = (),
+    put_back: Sequence[NotebookNode] = (),
 ) -> list[str]:
     """Put the sentence into each empty answer with something of the student's beside it; give notes.
 
     That is text or a picture in the cells directly above, or in those below up to the next graded cell;
     or else one of the documents, which were handed in beside the notebook. No text that one of the
-    editions had is a student's own.
+    editions had is a student's own. put_back: the cells that the student had deleted, which part nothing
+    from its answer.
     """
+    deleted = set(map(id, put_back))
     given = {essence(text) for cell in source.cells for text in (cell.source, released(cell))}
     given |= texts_of(editions)
     untouched = {
@@ -47,8 +50,12 @@ def point_to_own_cells(
         name = grade_id(cell)
         if name not in untouched or essence(cell.source) not in untouched[name]:
             continue
-        above = _run_of(reversed(notebook.cells[:index]), lambda other: _is_own(other, given))
-        below = _run_of(notebook.cells[index + 1 :], lambda other: not grade_id(other))
+        above, below = (
+            [other for other in cells if id(other) not in deleted]
+            for cells in (reversed(notebook.cells[:index]), notebook.cells[index + 1 :])
+        )
+        above = _run_of(above, lambda other: _is_own(other, given))
+        below = _run_of(below, lambda other: not grade_id(other))
         own = {
             "cell above": any(_is_own(other, given) for other in above),
             "cell below": any(_is_own(other, given) for other in below),

@@ -14,7 +14,7 @@ from autograder.notebook.editions import Edition, begun_with, of_source, setting
 from autograder.notebook.form import NEW_CELL, give_form, tell_apart, without_surrogates
 from autograder.notebook.letter import letter
 from autograder.notebook.own_cells import point_to_own_cells
-from autograder.notebook.recognise import Places, grade_id, known_cells, places
+from autograder.notebook.recognise import Places, grade_id, is_untouched, known_cells, places
 from autograder.notebook.released import essence, released
 from autograder.protocol import one_line
 
@@ -32,9 +32,12 @@ def repair(
 
     A locked cell gets the source's text again; what a student wrote into it becomes a cell of the
     student's own before it. An editable cell keeps the student's text; if it was deleted, an empty
-    one is put in. If there are several copies, the last one counts, as it does when the notebook runs;
-    the others stay as ordinary cells. Cells that only claim to be graded stay too, without the claim.
-    An empty answer that a person reads points to the student's own cells beside it, or documents.
+    one is put in. A missing cell comes just before the next one of the source that is there, below what
+    the student wrote in its place; a set-up cell comes first. If an answer is there several times, the
+    last one counts that differs from what was handed out; of another cell, the last, as it does when the
+    notebook runs. The others stay as ordinary cells, and those without an answer do not run. Cells that
+    only claim to be graded stay too, without the claim. An empty answer that a person reads points to
+    the student's own cells beside it, or documents.
 
     said: notes that come before all others. documents: files of the student's that may hold an
     answer. earlier: editions of the problem that students may have, the newest first: what differs
@@ -62,14 +65,17 @@ def repair(
                     f"a cell claims to be {one_line(claimed, 60)}, which this assignment does not have"
                 )
     placed = {name: notebook.cells[index] for name, index in found.at.items()}
+    for name, indices in found.copies.items():
+        for index in set(indices) - {found.at[name]}:
+            _keep_from_running(notebook.cells[index], known[name])
     for name in found.bare:
         placed[name].metadata["nbgrader"] = copy.deepcopy(known[name].metadata["nbgrader"])
     for name, original in known.items():
         if name in placed:
             _keep_changed_text(notebook, placed[name], original, begun, notes)
             _put_right(placed[name], original, begun, notes)
-    _put_back(notebook, known, placed, begun, notes)
-    notes += point_to_own_cells(notebook, source, documents, editions)
+    put_back = _put_back(notebook, known, placed, begun, notes)
+    notes += point_to_own_cells(notebook, source, documents, editions, put_back)
     if len(notes) > MOST_NOTES:
         notes = [*notes[:MOST_NOTES], f"and {len(notes) - MOST_NOTES} more notes like these"]
     if notes:
@@ -85,7 +91,9 @@ def is_locked(cell: NotebookNode) -> bool:
 
 
 def _tell_of(found: Places, notes) -> None:
-    notes += [f"{name} was there more than once; the last one counts" for name in found.doubled]
+    for name, indices in found.copies.items():
+        which = "the last one" if found.at[name] == indices[-1] else "the one with an answer"
+        notes += [f"{name} was there more than once; {which} counts"] * (len(indices) - 1)
     if len(found.bare) == 1:
         notes.append(f"{found.bare[0]} had lost its nbgrader settings; they were put back")
     elif found.bare:
@@ -146,12 +154,25 @@ def _put_right(cell, original, begun: Edition, notes) -> None:
         cell.source = original.source
 
 
-def _put_back(notebook, known, placed, begun: Edition, notes) -> None:
-    """Put each missing cell below the graded cell that comes before it in the source."""
-    before = None
-    for name, original in known.items():
+def _keep_from_running(cell: NotebookNode, original: NotebookNode) -> None:
+    """A copy without an answer, which runs below the answer, would put the stub in its place."""
+    if cell.cell_type == "code" and not is_locked(original) and is_untouched(cell, original):
+        cell.cell_type = "raw"
+        for part in ("outputs", "execution_count"):
+            cell.pop(part, None)
+
+
+def _put_back(notebook, known, placed, begun: Edition, notes) -> list[NotebookNode]:
+    """Put each missing cell just before the next one of the source that is there and stands below those
+    before it, so that it comes below what the student wrote in its place; the cells.
+
+    What the source has above all answers is what own cells need, too, so that it comes first.
+    """
+    names, put_back, last = list(known), [], -1
+    answers = [number for number, name in enumerate(names) if not is_locked(known[name])]
+    for number, name in enumerate(names):
         if name not in placed:
-            was_there = name in begun.settings
+            original, was_there = known[name], name in begun.settings
             notes.append(
                 f"{name} was missing; it was put back"
                 if was_there
@@ -162,10 +183,14 @@ def _put_back(notebook, known, placed, begun: Edition, notes) -> None:
             cell = NEW_CELL[original.cell_type](source=text)
             cell.metadata = copy.deepcopy(original.metadata)
             del cell["id"]  # a random one
-            position = 0 if before is None else _index(notebook.cells, before) + 1
-            notebook.cells.insert(position, cell)
+            after = (_index(notebook.cells, placed[n]) for n in names[number + 1 :] if n in placed)
+            position = next((index for index in after if index > last), len(notebook.cells))
+            is_set_up = number < min(answers, default=0)
+            notebook.cells.insert(last + 1 if is_set_up else position, cell)
             placed[name] = cell
-        before = placed[name]
+            put_back.append(cell)
+        last = _index(notebook.cells, placed[name])
+    return put_back
 
 
 def _index(cells, wanted) -> int:

@@ -56,11 +56,16 @@ class Sitting:
     def __exit__(self, *exception):
         self._leave()
 
-    def run(self, source: str) -> list[dict]:
-        """The outputs of a cell; an error output where it ends its process."""
+    def run(self, source: str, is_students: bool = True) -> list[dict]:
+        """The outputs of a cell; an error output where it ends its process.
+
+        is_students: whether it may be to blame for a function that is missing; no sentence about one
+        quotes another cell.
+        """
+        cells = self._cells if is_students else []
         if self._is_over():
             text = f"not run: the notebook had used up its {self._limit():g} s before this cell"
-            self._cells.append(Ran(source, f"TimeoutError: {text}", stopped=True))
+            cells.append(Ran(source, f"TimeoutError: {text}", stopped=True))
             return [outputs.error("TimeoutError", text, [text])]
         try:
             room = self._current()
@@ -72,10 +77,10 @@ class Sitting:
             text = "this cell ended Python itself" + (f": {reason}" if reason else "")
             shown = [outputs.error("RoomLostError", text, [text])]
             why = PYTHON_ENDED + (f" ({reason})" if reason else "")
-            self._cells.append(Ran(source, why, stopped=True))
+            cells.append(Ran(source, why, stopped=True))
         else:
             self._ran.append(source)
-            self._cells.append(ran(source, shown))
+            cells.append(ran(source, shown))
         return shown
 
     def ask(self, calls: list[Call]) -> list[Reply]:

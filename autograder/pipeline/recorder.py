@@ -49,6 +49,9 @@ class Recorder(Protocol):
     def laid_in(self, student: str) -> Beside:
         """The files that the notebook's cells find beside it."""
 
+    def laid_in_source(self) -> Beside:
+        """The files that the source's own cells find beside it."""
+
     def seed_of(self, student: str) -> str:
         """What decides the student's random cases."""
 

@@ -19,6 +19,7 @@ from autograder.pipeline.cache import Cache, code_version
 from autograder.pipeline.executors import Cluster, Processes, outcomes
 from autograder.pipeline.lock import locked
 from autograder.pipeline.recorder import Recorder, Standing
+from autograder.pipeline.soundness import refuse_unsound
 from autograder.pipeline.worker import judge, load
 from autograder.protocol import one_line
 from autograder.sandbox.room import share
@@ -73,6 +74,7 @@ def grade_all(
         if force or not (root / CACHE / _done(assignment, "anybody")).parent.exists():
             pool.warm(load)
         with open_recorder(root, assignment) as recorder:
+            refuse_unsound(recorder, Cache(root / CACHE))
             return _Run(root, recorder, pool, force).lines()
 
 

@@ -48,7 +48,7 @@ LOAD = "import matplotlib.pyplot, sympy\ndel matplotlib, sympy"
 # Limits on what a cell may show and a call may answer; the runner never sends as much.
 MOST_BYTES = 32 << 20
 MOST_VALUES = 1 << 20
-MOST_OUTPUTS = 100
+MOST_OUTPUTS = 110
 BYTES_A_NUMBER = 32
 
 

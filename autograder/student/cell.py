@@ -11,19 +11,21 @@ import numpy as np
 
 from autograder.judging import card
 from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES, VISIBLE_SEED
+from autograder.judging.passages import filled
 from autograder.judging.verdict import State, Verdict
 from autograder.lesson_checks import known as known_in_lesson
 from autograder.pictures.offers import offer
 from autograder.problems import CHECKS, UnknownCheckError, known_check
 from autograder.proofs import derivation_of
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all, no_limit
-from autograder.student import below, failing, lesson, progress, worst_case
+from autograder.student import below, failing, in_grading, lesson, progress, worst_case
 from autograder.student.definitions import watched
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for, reminder
 from autograder.student.pasted import as_pasted
 
 _definitions = watched({check.name for check in CHECKS.values()})
+_cells = in_grading.watched()
 
 
 class NotCorrectError(Exception):
@@ -42,6 +44,13 @@ class NotCorrectError(Exception):
         if os.environ.get("NBGRADER_EXECUTION"):
             return self.said.splitlines()
         return [f"{self.verdict.headline}: see the card above."]
+
+
+class NotInGradingError(Exception):
+    """The answer is correct here, and the notebook will not do the same when it is graded."""
+
+    def _render_traceback_(self):
+        return str(self).splitlines()
 
 
 def check(id: str | None = None, fresh: bool = False) -> None:
@@ -67,8 +76,15 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     _tell_of_no_limit()
     if said := reminder(id):
         print(said)
+    told = in_grading.told(verdict.check, _cells)
+    for one in told:
+        print(f"When it is graded: {one.said}")
     if verdict.state not in (State.CORRECT, State.NOT_HERE):
         raise NotCorrectError(verdict, shown["text/plain"])
+    costs = [one.said for one in told if one.costs]
+    if costs and os.environ.get("NBGRADER_EXECUTION"):
+        head = f"{verdict.headline}, but not when it is graded."
+        raise NotInGradingError("\n".join([head, *map(filled, costs)]))  # Validate cuts long lines
 
 
 def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:

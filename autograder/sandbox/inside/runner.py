@@ -127,7 +127,9 @@ def _limit_resources(walled):
 
 
 def _run(shell, source, seconds, protocol):
-    """The cell's outputs as a notebook stores them; an error also says at which line it arose."""
+    """The cell's outputs as a notebook stores them; an error also says at which line it arose, and what
+    shows the value of the last expression says so.
+    """
     import inline_figures
     from IPython.utils.capture import capture_output
 
@@ -150,9 +152,12 @@ def _run(shell, source, seconds, protocol):
         outputs.append(
             {"output_type": "stream", "name": "stderr", "text": f"{text}\n", "left_out": text}
         )
-    for data, _ in shell.display_pub.shown[:MOST_OUTPUTS]:
-        data = {kind: _text(data[kind]) for kind in SHOWN if kind in data}
-        outputs.append({"output_type": "display_data", "data": data, "metadata": {}})
+    displayed = shell.display_pub.shown
+    value = [shown for shown in displayed[MOST_OUTPUTS:] if shown.is_value]
+    for shown in [*displayed[:MOST_OUTPUTS], *value]:
+        data = {kind: _text(shown.data[kind]) for kind in SHOWN if kind in shown.data}
+        output = {"output_type": "display_data", "data": data, "metadata": {}}
+        outputs.append(output | ({"value": True} if shown.is_value else {}))
     errors = shell.errors or ([(type(stopped), stopped, [])] if stopped else [])
     if errors and shell.is_below_magic(source):
         stopped = errors[-1][1]

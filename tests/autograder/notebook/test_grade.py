@@ -277,7 +277,31 @@ def test_cells_show_this_run_and_nothing_older(release):
     assert cell_of(graded.notebook, "answer-M").outputs[0].text == "now\n"
 
 
-def test_a_grade_cell_without_a_check_fails_closed(release):
+def elsewhere(notebook):
+    """A check is gone, with M in a cell of one's own; below everything stands a second stub of g_vec."""
+    stub = copy.deepcopy(cell_of(problem(P3).release, "answer-g_vec"))
+    own = new_code_cell(p3_pendulum.RIGHT["M"], id="own")
+    notebook.cells.insert(notebook.cells.index(cell_of(notebook, "answer-M")) + 1, own)
+    cell_of(notebook, "answer-M").source = ""
+    at = notebook.cells.index(cell_of(notebook, "p3-M"))
+    notebook.cells[at : at + 1] = []
+    notebook.cells.insert(notebook.cells.index(cell_of(notebook, "answer-g_vec")) + 1, stub)
+
+
+def unknown(notebook):
+    """Neither nbgrader's settings nor ids are left."""
+    for number, cell in enumerate(notebook.cells):
+        cell.metadata.pop("nbgrader", None)
+        cell.id = f"n{number}"
+
+
+@pytest.mark.parametrize("edit", [elsewhere, unknown])
+def test_what_an_editor_or_a_slip_takes_away_costs_no_points(release, edit):
+    edit(submission := p3_pendulum.right(release))
+    assert set(states(grade(submission, SOURCE, "seed")).values()) == {State.CORRECT}
+
+
+def test_a_grade_cell_that_calls_another_check_fails_closed(release):
     source = copy.deepcopy(SOURCE)
     for notebook in (source, submission := p3_pendulum.right(release)):
         cell_of(notebook, "p3-M").metadata.nbgrader.grade_id = "p3-unheard-of"
