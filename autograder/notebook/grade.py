@@ -17,7 +17,7 @@ from autograder.notebook.own_arm import drawn_for
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
 from autograder.notebook.sitting import Sitting
-from autograder.problems import check_for
+from autograder.problems import check_for, own_checks
 from autograder.proofs import derivation_of, mark
 from autograder.proofs.marks import Marked
 from autograder.sandbox.room import Room
@@ -73,6 +73,7 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
     seed = of_content(seed, notebook, beside)
     allowance = outputs.Allowance()
     drawn = drawn_for(source, student)
+    notes += own_checks.broken(beside.mechanisms)
     with Sitting(partial(Room.loaded, files=beside.laid)) as sitting:
         if drawn is not None:
             sitting.run(drawn.prelude)
