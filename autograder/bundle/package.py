@@ -130,6 +130,8 @@ def _in_parts(describing: Describing) -> Iterator[tuple[str, bytes]]:
     shaking = Shaking(lambda module: module.startswith(IN_PARTS), _has)
     for name in sorted(describing.names):
         shaking.need(*name.split(":"))
+    for known in MODULES:
+        shaking.need(known.__name__, "READ")
     for module in describing.makers.sources:
         shaking.need_source(module, describing.makers.written(module))
     of_checks = {module.__name__: _folder(module) for module in MODULES} | {

@@ -4,7 +4,6 @@ What only one problem can say (its hints, the sentences on its wrong answers) is
 """
 
 import re
-from dataclasses import dataclass
 from importlib import import_module
 from types import SimpleNamespace
 
@@ -16,24 +15,12 @@ from autograder.judging.verdict import State
 from autograder.notebook.recognise import grade_id
 from autograder.problems import CHECKS, READ
 from tests.autograder.course_problems import NAMES, ROOT, problem
+from tests.autograder.problems.own import Own, expected
 from tests.autograder.verdicts import sentences
 from tests.submissions.answers import cell_of
 
 IMAGE = re.compile(r"!\[(.*?)\]\((.*?)\)", re.DOTALL)
 RUBRIC = re.compile(r"^\| points \| for \|\n\|[-|]+\|\n((?:\|.*\n?)+)", re.MULTILINE)
-
-
-@dataclass(frozen=True)
-class Own:
-    """What the notebook must agree with: its grade_id and points of the answer that a person reads,
-    the points of all cells, all grade_ids, and phrases of the answers that no student may be given.
-    """
-
-    read: str
-    points: int
-    total: int
-    ids: str
-    phrases: tuple[str, ...] = ()
 
 
 OWN = {
@@ -179,6 +166,12 @@ PARTLY_RIGHT = {
 }
 
 
+# A newer problem has its own in a file `expected.py` of its folder.
+OWN |= expected("OWN")
+WRONG |= expected("WRONG")
+PARTLY_RIGHT |= expected("PARTLY_RIGHT")
+
+
 @pytest.fixture(scope="module", params=NAMES)
 def given(request):
     return problem(request.param)
@@ -202,8 +195,10 @@ def text(notebook) -> str:
 
 def test_every_problem_is_here():
     modules = (ROOT / "tests" / "submissions").glob("[pc][0-9]_*.py")
-    assert sorted(path.stem.replace("_", "-") for path in modules) == NAMES
-    assert sorted(OWN) == NAMES
+    assert sorted(path.stem.replace("_", "-") for path in modules) == NAMES, (
+        "each notebook of solutions/ needs a module in tests/submissions/, and each module a notebook"
+    )
+    assert sorted(OWN) == NAMES, "give tests/autograder/problems/FOLDER/expected.py an OWN"
 
 
 def test_format_and_kernel(given):
