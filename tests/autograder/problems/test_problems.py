@@ -178,7 +178,9 @@ def given(request):
 
 
 def test_a_person_reads_one_answer_of_each_problem():
-    assert sorted(READ) == sorted(own.read for own in OWN.values())
+    assert sorted(READ) == sorted(own.read for own in OWN.values()), (
+        "READ in autograder/problems/FOLDER/checks.py is the grade_id of the answer that a person reads"
+    )
 
 
 def claims(cell) -> dict:
@@ -215,7 +217,10 @@ def test_no_outputs_are_stored(given, version):
 
 def test_grade_ids_stay(given):
     ids = [name for name in map(grade_id, given.source.cells) if name]
-    assert ids == OWN[given.name].ids.split()
+    assert ids == OWN[given.name].ids.split(), (
+        "OWN.ids lists all grade_ids in order; of a problem that has been given to students, none may "
+        "change"
+    )
     assert len(ids) == len(set(ids))
 
 
@@ -223,7 +228,9 @@ def test_the_example_is_the_one_that_the_mistakes_know(given):
     """p2 and p3 know of none."""
     folder = given.name.replace("-", "_")
     known = getattr(import_module(f"autograder.problems.{folder}.mistakes"), "EXAMPLE", None)
-    assert bool(known) == (given.name[:2] not in ("p2", "p3"))
+    assert bool(known) == (given.name[:2] not in ("p2", "p3")), (
+        f"give autograder/problems/{folder}/mistakes.py an EXAMPLE, which the set-up cell has, too"
+    )
     if known:
         namespace = {}
         exec(cell_of(given.source, f"{given.name[:2]}-setup").source, namespace)
@@ -240,7 +247,9 @@ def test_points_are_those_of_the_grade_cells(given):
     points = {
         grade_id(c): claims(c)["points"] for c in given.source.cells if claims(c).get("grade")
     }
-    assert points == given.submissions.POINTS | {own.read: own.points}
+    assert points == given.submissions.POINTS | {own.read: own.points}, (
+        f"POINTS of {given.submissions.__name__}, and OWN, are those of solutions/{given.name}"
+    )
     assert sum(points.values()) == own.total
 
 
