@@ -9,6 +9,7 @@ import importlib.abc
 import importlib.machinery
 import importlib.util
 import linecache
+import os
 import re
 import sys
 import traceback
@@ -109,12 +110,17 @@ def files_of(source: Path) -> dict[str, str]:
 
 
 def files_here() -> dict[str, str]:
-    """Those that a notebook in the working folder needs: its problem's, or else all of the course."""
+    """Those that a notebook in the working folder needs: its problem's, or else all of the course.
+
+    What another account has put into a folder above, such as /tmp, is left alone: it would be run here.
+    """
     here = Path.cwd()
     root = course_of(here)
     if root is None:
         return {}
-    return files_of(here) or _texts(sorted((root / FOLDER).glob("*.py")))
+    found = [path for path in sorted((root / FOLDER).glob("*.py")) if is_ours(path, here)]
+    mine = [path for path in found if path.stem == here.name]
+    return _texts(mine or found)
 
 
 def names_here() -> set[str]:
@@ -125,6 +131,13 @@ def names_here() -> set[str]:
 def course_of(folder: Path) -> Path | None:
     """The course's folder that this one is in; None outside a course."""
     return next((at for at in (folder, *folder.parents) if (at / COURSE).is_file()), None)
+
+
+def is_ours(path: Path, here: Path) -> bool:
+    """Whether the file is this account's, the administrator's, or of whoever owns the working folder."""
+    if not hasattr(os, "geteuid"):
+        return True
+    return path.stat().st_uid in (0, os.geteuid(), here.stat().st_uid)
 
 
 def _texts(paths: list[Path]) -> dict[str, str]:

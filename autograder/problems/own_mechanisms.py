@@ -52,9 +52,12 @@ def files_here(id: str) -> dict[str, str]:
     the course's solutions/; and the course's own checks.
     """
     name = id.rpartition("-")[0]
-    course = own_checks.course_of(Path.cwd())
-    beside = [Path(f"{name}.py"), *([course / "solutions" / name / f"{name}.py"] if course else [])]
-    for path in filter(Path.is_file, beside if name else []):
+    here = Path.cwd()
+    course = own_checks.course_of(here)
+    places = [Path(f"{name}.py")]
+    if course and (source := course / "solutions" / name / f"{name}.py").is_file():
+        places += [source] if own_checks.is_ours(source, here) else []
+    for path in filter(Path.is_file, places if name else []):
         text = path.read_text(encoding="utf-8", errors="replace")
         if "MECHANISM" in text:
             return {path.name: text} | own_checks.files_here()

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from autograder.cli import main
-from autograder.problems import CHECKS, check_for
+from autograder.problems import CHECKS, check_for, own_checks
 from autograder.problems.own_checks import OwnChecksError, read
 from autograder.student.cell import NotCorrectError, check
 from tests.autograder.authoring.my_cart import (
@@ -21,6 +21,7 @@ from tests.autograder.authoring.my_cart import (
     written,
 )
 from tests.autograder.courses import P3
+from tests.autograder.nbgrader_glue.accounts import needs_root
 
 FILE = "checks/cart-pole.py"
 
@@ -147,6 +148,16 @@ def test_a_check_that_fails_while_judging_names_the_line(root, capsys):
         exec('check("my-cart-small_swing")', {"check": check, "small_swing": lambda arm: 1.0})
     at = f"(checks/my-cart.py, line {line('return sqrt((arm.mt')})"
     assert at in " ".join(capsys.readouterr().out.split())
+
+
+@needs_root
+def test_a_file_of_another_account_is_not_run(root, monkeypatch):
+    path = written(root, "my-cart", f"{CART}\nimport pathlib\npathlib.Path('ran').touch()\n")
+    os.chown(path, 12345, 12345)
+    assert own_checks.files_here() == {}
+    monkeypatch.setattr("os.geteuid", lambda: 12345)
+    assert list(own_checks.files_here()) == ["checks/my-cart.py"]
+    assert not (root / "ran").exists()
 
 
 def test_a_notebooks_check_finds_the_file_in_the_course(root, monkeypatch, capsys):
