@@ -79,7 +79,7 @@ def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
     for sentence in re.findall(r': "(.+)",', sentences):
         assert f"  {sentence}\n" in shown
     for name in MECHANISMS:
-        assert name in guide
+        assert name in guide, f"docs/own-problem.md does not list the mechanism {name}"
     cart = mechanism_of(changed, "cart-pole.py", "cart-pole")
     assert check_of(cart, "M").further in changed
     files = {"checks/p3-pendulum.py": mistakes}
