@@ -120,6 +120,7 @@ MAY_IMPORT = {
     "terminal": ("protocol",),
     "sandbox": ("protocol",),
     "judging": ("protocol",),
+    "checks": ("protocol", "judging"),
     "mechanisms": (),
     "mutation": ("digest", "files", "protocol", "judging", "mechanisms"),
     "authoring": (
@@ -131,6 +132,7 @@ MAY_IMPORT = {
             "mutation",
             "notebook",
             "pictures",
+            "problems",
             "proofs",
         ),
     ),

@@ -12,6 +12,8 @@ from autograder.cli import main
 from autograder.mechanisms import MECHANISMS
 from autograder.mechanisms.file import mechanism_of
 from autograder.mutation.checks import check_of
+from autograder.problems import check_for
+from tests.autograder.verdicts import judged_by
 
 ROOT = Path(__file__).parents[1]
 README = ROOT / "README.md"
@@ -64,7 +66,7 @@ def test_feedback_reaches_students_by_the_commands_of_the_readme():
 
 def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
     guide = (ROOT / "docs" / "own-problem.md").read_text(encoding="utf-8")
-    example, sentences, ways_on, changed = re.findall(r"```python\n(.*?)```", guide, re.S)
+    example, sentences, ways_on, changed, mistakes = re.findall(r"```python\n(.*?)```", guide, re.S)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "lessons").symlink_to(ROOT / "lessons")
     given = re.findall(r"`(?:Mechanism` also `)?((?:\w+=[A-Z]+(?:, )?)+)`", guide)
@@ -77,6 +79,10 @@ def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
     for sentence in re.findall(r': "(.+)",', sentences):
         assert f"  {sentence}\n" in shown
     for name in MECHANISMS:
-        assert name in guide
+        assert name in guide, f"docs/own-problem.md does not list the mechanism {name}"
     cart = mechanism_of(changed, "cart-pole.py", "cart-pole")
     assert check_of(cart, "M").further in changed
+    files = {"checks/p3-pendulum.py": mistakes}
+    in_pounds = "0.4536 * pend.m * pend.g * pend.lc * np.sin(q)"
+    said = judged_by(check_for("p3-g_vec", None, files), in_pounds)
+    assert said.diagnosis[0] in mistakes

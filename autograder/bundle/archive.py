@@ -4,6 +4,7 @@ import json
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from importlib import metadata
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from autograder.judging.check import Check
 from autograder.nbgrader_glue.handed_in import mechanisms_beside
 from autograder.notebook.beside import DEFINES
 from autograder.notebook.version import stamp, version_of
-from autograder.problems import MODULES, check_for
+from autograder.problems import MODULES, check_for, own_checks
 
 TOP = "armdyn"
 HERE = Path(__file__).parent / "to_start"
@@ -59,16 +60,24 @@ def write_bundle(
     with tempfile.TemporaryDirectory(prefix="bundle-") as folder:
         course = dict(_lessons(root))
         own: list[Check] = []
+        files_of: dict[str, str] = {}
         versions: dict[str, str] = {}
         for name in names:
             release(root, name, Path(folder) / name)
             source = nbformat.read(root / "solutions" / name / f"{name}.ipynb", as_version=4)
             mechanisms = mechanisms_beside(root / "solutions" / name)
-            own += _checks_of_mechanisms(name, source, mechanisms)
+            try:
+                own_checks.refuse_broken(mechanisms)
+            except own_checks.OwnChecksError as error:
+                raise BundleError(str(error)) from error
+            own += _own_checks(name, source, mechanisms)
+            files_of |= mechanisms
             versions[name] = version_of(source, mechanisms)
             course |= _problem(name, Path(folder) / name, versions[name])
         course["armdyn.json"] = f"{json.dumps({'versions': versions}, indent=2)}\n".encode()
-        files = package([name.replace("-", "_") for name in names], own)
+        own_checks.import_again(files_of)
+        completed = partial(own_checks.with_mistakes, files=files_of)
+        files = package([name.replace("-", "_") for name in names], own, completed)
         files |= {f"autograder/handed_out/{path}": data for path, data in course.items()}
         number = digest(*(part for path in sorted(files) for part in (path, files[path])))[:8]
         version = f"{metadata.version('armdyn')}+{number}"
@@ -102,15 +111,14 @@ def _problem(name: str, released: Path, version: str) -> dict[str, bytes]:
     return found
 
 
-def _checks_of_mechanisms(
-    name: str, source: NotebookNode, mechanisms: Mapping[str, str]
-) -> Iterable[Check]:
-    """Those of a problem that is about a mechanism; none of the course's own problems."""
-    if name.replace("-", "_") in {module.__name__.split(".")[-2] for module in MODULES}:
-        return
+def _own_checks(name: str, source: NotebookNode, files: Mapping[str, str]) -> Iterable[Check]:
+    """Those of mechanisms, and those of the course's own files; none of the kit's problems."""
+    of_kit = name.replace("-", "_") in {module.__name__.split(".")[-2] for module in MODULES}
     for cell in source.cells:
         id = (cell.metadata.get("nbgrader") or {}).get("grade_id", "")
-        if check := check_for(id, None, mechanisms):
+        if of_kit and not own_checks.check_of(id, files):
+            continue
+        if check := check_for(id, None, files):
             yield check
 
 

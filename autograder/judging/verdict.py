@@ -1,5 +1,7 @@
 """The verdict on one answer, and how it reads as plain text."""
 
+import os
+import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -208,9 +210,16 @@ def check_failed(check: str, error: Exception) -> Verdict:
     return Verdict(
         check,
         State.CHECK_FAILED,
-        problem=f"{type(error).__name__} in the check {check}: {shortened(str(error))}.",
+        problem=f"{type(error).__name__} in the check {check}{_at(error)}: {shortened(str(error))}.",
         next_step="This is not your fault. Please tell your instructor.",
     )
+
+
+def _at(error: Exception) -> str:
+    """Where in a course's own file, which alone runs under a name that is no whole path."""
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [f for f in frames if f.filename.endswith(".py") and not os.path.isabs(f.filename)]
+    return f" ({own[-1].filename}, line {own[-1].lineno})" if own else ""
 
 
 def plain(verdict: Verdict, lines: Sequence[str] = (), last: Sequence[str] = ()) -> str:

@@ -16,7 +16,7 @@ from autograder.notebook.outputs import read_verdict
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.released import essence
 from autograder.notebook.scores import could_not_be_judged
-from autograder.problems import CHECKS
+from autograder.problems import check_here
 
 UNREAD = "unread"  # in a graded cell's settings: a person has not decided on it yet
 NO_RESPONSE = "No response."  # as nbgrader says it
@@ -152,7 +152,7 @@ def _title(cell: NotebookNode, heading: str) -> str:
     name = grade_id(cell) or ""
     if not is_judged(cell):
         return heading or name
-    check = CHECKS.get(name)
+    check = check_here(name)
     function = check.name if check else name.rpartition("-")[2]
     asked = check.criteria[0].text if check and len(check.criteria) == 1 else heading
     return f"{function}: {asked}" if asked else function

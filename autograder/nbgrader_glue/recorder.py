@@ -23,6 +23,7 @@ from autograder.nbgrader_glue.steps import autograde_preprocessors, sanitize_pre
 from autograder.nbgrader_glue.submitted import RefusedError
 from autograder.notebook.beside import Beside
 from autograder.notebook.recognise import grade_id
+from autograder.problems import own_checks
 from autograder.term_calendar import read_if_there
 from autograder.terminal import say
 
@@ -60,6 +61,8 @@ class Recorder:
         lateness = Lateness(read_if_there(root).of(assignment), config, self._converter)
         course = self._folders.course
         self._secret = secret_of(Path(course.root) / Judge(parent=self._converter).seed_file)
+        # Before 100 students are told that a check failed.
+        own_checks.refuse_broken(own_checks.files_of(self._folders.source))
         self.source = (self._folders.source / f"{assignment}.ipynb").read_text(encoding="utf-8")
         self._rows = Rows(course.db_url, course.course_id, assignment, lateness)
         try:

@@ -21,7 +21,7 @@ from autograder.notebook.recognise import grade_id, known_cells
 from autograder.notebook.released import is_as_released
 from autograder.notebook.repair import repair
 from autograder.notebook.sitting import Sitting
-from autograder.problems import check_for
+from autograder.problems import check_for, own_checks
 from autograder.proofs import derivation_of, mark
 from autograder.proofs.marks import Marked
 from autograder.sandbox.room import Room
@@ -80,6 +80,7 @@ def _graded(submission, source, seed, beside, said, student, earlier) -> Graded:
     seed = of_content(seed, notebook, beside)
     allowance = outputs.Allowance()
     drawn = drawn_for(source, student)
+    notes += own_checks.broken(beside.mechanisms)
     with Sitting(partial(Room.loaded, files=beside.laid)) as sitting:
         if drawn is not None:
             sitting.run(drawn.prelude)

@@ -15,7 +15,7 @@ from autograder.judging.passages import filled
 from autograder.judging.verdict import State, Verdict
 from autograder.lesson_checks import known as known_in_lesson
 from autograder.pictures.offers import offer
-from autograder.problems import CHECKS, UnknownCheckError, known_check
+from autograder.problems import CHECKS, UnknownCheckError, known_check, own_checks
 from autograder.proofs import derivation_of
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all, no_limit
 from autograder.student import below, failing, in_grading, lesson, progress, worst_case
@@ -24,7 +24,7 @@ from autograder.student.display import show
 from autograder.student.own_arm import drawn_for, reminder
 from autograder.student.pasted import as_pasted
 
-_definitions = watched({check.name for check in CHECKS.values()})
+_definitions = watched({check.name for check in CHECKS.values()} | own_checks.names_here())
 _cells = in_grading.watched()
 
 
@@ -73,6 +73,8 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     pictured = offer(verdict, known_check(id), namespace)
     shown = card.mimebundle(verdict, below.lines(verdict, pictured), below.points(verdict))
     show(shown)
+    for broken in own_checks.broken(own_checks.files_here()):
+        print(broken)
     _tell_of_no_limit()
     if said := reminder(id):
         print(said)

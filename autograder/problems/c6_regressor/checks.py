@@ -208,6 +208,7 @@ NOT_LEAST_SQUARES = (
     "squares of all 2K residuals smaller."
 )
 
+READ = "c6-discussion"  # by a person
 CHECKS = (
     Check(
         id="c6-regressor",

@@ -171,6 +171,7 @@ def _christoffel(q, qd, s, C_used, gains, arm):
     return planar_2r.C(q, qd, arm)
 
 
+READ = "c8-discussion"  # by a person
 CHECKS = (
     Check(
         id="c8-gravity_compensation",

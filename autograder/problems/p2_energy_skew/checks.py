@@ -155,6 +155,7 @@ def not_skew(products: str) -> tuple[Said, ...]:
     )
 
 
+READ = "p2-proof"  # by a person
 CHECKS = (
     Check(
         id="p2-M_dot",

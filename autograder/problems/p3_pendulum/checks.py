@@ -73,6 +73,7 @@ TRAP_INERTIA = Section(
     "01-canonical-form", "01-trap-inertia", 'Trap: the pendulum\'s inertia "about its centre"'
 )
 
+READ = "p3-derivation"  # by a person
 CHECKS = (
     Check(
         id="p3-lagrangian",

@@ -147,6 +147,7 @@ OF_ALL = (
     "link 1 down only", "in degrees",
 )  # fmt: skip
 
+READ = "p4-check"  # by a person
 CHECKS = (
     Check(
         id="p4-potential_energy",

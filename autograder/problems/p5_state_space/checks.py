@@ -195,6 +195,7 @@ def _drift_parts(call, value):
     return tuple(judged)
 
 
+READ = "p5-discussion"  # by a person
 CHECKS = (
     Check(
         id="p5-f",

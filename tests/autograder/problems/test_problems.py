@@ -4,7 +4,6 @@ What only one problem can say (its hints, the sentences on its wrong answers) is
 """
 
 import re
-from dataclasses import dataclass
 from importlib import import_module
 from types import SimpleNamespace
 
@@ -16,24 +15,12 @@ from autograder.judging.verdict import State
 from autograder.notebook.recognise import grade_id
 from autograder.problems import CHECKS, READ
 from tests.autograder.course_problems import NAMES, ROOT, problem
+from tests.autograder.problems.own import Own, expected
 from tests.autograder.verdicts import sentences
 from tests.submissions.answers import cell_of
 
 IMAGE = re.compile(r"!\[(.*?)\]\((.*?)\)", re.DOTALL)
 RUBRIC = re.compile(r"^\| points \| for \|\n\|[-|]+\|\n((?:\|.*\n?)+)", re.MULTILINE)
-
-
-@dataclass(frozen=True)
-class Own:
-    """What the notebook must agree with: its grade_id and points of the answer that a person reads,
-    the points of all cells, all grade_ids, and phrases of the answers that no student may be given.
-    """
-
-    read: str
-    points: int
-    total: int
-    ids: str
-    phrases: tuple[str, ...] = ()
 
 
 OWN = {
@@ -179,13 +166,21 @@ PARTLY_RIGHT = {
 }
 
 
+# A newer problem has its own in a file `expected.py` of its folder.
+OWN |= expected("OWN")
+WRONG |= expected("WRONG")
+PARTLY_RIGHT |= expected("PARTLY_RIGHT")
+
+
 @pytest.fixture(scope="module", params=NAMES)
 def given(request):
     return problem(request.param)
 
 
 def test_a_person_reads_one_answer_of_each_problem():
-    assert sorted(READ) == sorted(own.read for own in OWN.values())
+    assert sorted(READ) == sorted(own.read for own in OWN.values()), (
+        "READ in autograder/problems/FOLDER/checks.py is the grade_id of the answer that a person reads"
+    )
 
 
 def claims(cell) -> dict:
@@ -202,8 +197,10 @@ def text(notebook) -> str:
 
 def test_every_problem_is_here():
     modules = (ROOT / "tests" / "submissions").glob("[pc][0-9]_*.py")
-    assert sorted(path.stem.replace("_", "-") for path in modules) == NAMES
-    assert sorted(OWN) == NAMES
+    assert sorted(path.stem.replace("_", "-") for path in modules) == NAMES, (
+        "each notebook of solutions/ needs a module in tests/submissions/, and each module a notebook"
+    )
+    assert sorted(OWN) == NAMES, "give tests/autograder/problems/FOLDER/expected.py an OWN"
 
 
 def test_format_and_kernel(given):
@@ -220,7 +217,10 @@ def test_no_outputs_are_stored(given, version):
 
 def test_grade_ids_stay(given):
     ids = [name for name in map(grade_id, given.source.cells) if name]
-    assert ids == OWN[given.name].ids.split()
+    assert ids == OWN[given.name].ids.split(), (
+        "OWN.ids lists all grade_ids in order; of a problem that has been given to students, none may "
+        "change"
+    )
     assert len(ids) == len(set(ids))
 
 
@@ -228,7 +228,9 @@ def test_the_example_is_the_one_that_the_mistakes_know(given):
     """p2 and p3 know of none."""
     folder = given.name.replace("-", "_")
     known = getattr(import_module(f"autograder.problems.{folder}.mistakes"), "EXAMPLE", None)
-    assert bool(known) == (given.name[:2] not in ("p2", "p3"))
+    assert bool(known) == (given.name[:2] not in ("p2", "p3")), (
+        f"give autograder/problems/{folder}/mistakes.py an EXAMPLE, which the set-up cell has, too"
+    )
     if known:
         namespace = {}
         exec(cell_of(given.source, f"{given.name[:2]}-setup").source, namespace)
@@ -245,7 +247,9 @@ def test_points_are_those_of_the_grade_cells(given):
     points = {
         grade_id(c): claims(c)["points"] for c in given.source.cells if claims(c).get("grade")
     }
-    assert points == given.submissions.POINTS | {own.read: own.points}
+    assert points == given.submissions.POINTS | {own.read: own.points}, (
+        f"POINTS of {given.submissions.__name__}, and OWN, are those of solutions/{given.name}"
+    )
     assert sum(points.values()) == own.total
 
 
