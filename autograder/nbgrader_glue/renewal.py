@@ -11,6 +11,7 @@ from nbgrader import utils
 from nbgrader.api import Gradebook, MissingEntry
 
 from autograder.digest import digest
+from autograder.marking.kept import Kept
 from autograder.nbgrader_glue import worked
 
 # nbconvert writes a tag's settings in an order of its own.
@@ -47,9 +48,15 @@ class Renewal:
                 if path.is_file()
             ]
             opened = worked.settings(Path(self._course.root)).get(assignment)
-            marks = self._marks(assignment, student)
-            self._made_of[key] = digest(self._layout, repr((files, opened, marks)))
+            marks, rows = self._marks(assignment, student), self._rows(assignment, student)
+            self._made_of[key] = digest(self._layout, repr((files, opened, marks, rows)))
         return self._made_of[key]
+
+    def _rows(self, assignment: str, student: str) -> list:
+        """The rows of rubrics by which a person marked."""
+        kept = Kept(Path(self._course.root))
+        return [(cell, sorted(of_cell[student].items())) for cell in sorted(kept.cells(assignment))
+                if student in (of_cell := kept.of(assignment, cell))]  # fmt: skip
 
     def _marks(self, assignment: str, student: str) -> list:
         with Gradebook(self._course.db_url, self._course.course_id) as gradebook:
