@@ -140,10 +140,10 @@ class Kept:
 
 
 def _share(path: Path, course: Path) -> None:
-    """Open a path to the group that shares the course's folder, if one does, and to nobody else."""
-    shared = stat.S_IMODE(course.stat().st_mode) & 0o070
+    """Open a path to the group that writes into the course's folder, if one does, and to nobody else."""
     own = 0o700 if path.is_dir() else 0o600
-    path.chmod(own | (shared & (own >> 3)))
+    shared = course.stat().st_mode & stat.S_IWGRP
+    path.chmod(own | own >> 3 if shared else own)
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from nbgrader.preprocessors import GetGrades, NbGraderPreprocessor, SaveAutoGrad
 from traitlets import Unicode
 
 from autograder.files import put_in_place
-from autograder.marking.kept import Kept, counting
+from autograder.marking.kept import Kept, KeptError, counting
 from autograder.nbgrader_glue import handed_in
 from autograder.nbgrader_glue.items import ROWS, UNREAD
 from autograder.notebook.beside import Beside
@@ -128,10 +128,18 @@ class GetDecidedGrades(GetGrades):
         grade = self.gradebook.find_grade(*_place(self, cell))
         cell.metadata.nbgrader[UNREAD] = grade.needs_manual_grade
         if grade.manual_score is not None and not grade.needs_manual_grade:
-            kept = Kept(Path(self.parent.parent.coursedir.root))
+            cell.metadata.nbgrader[ROWS] = self._rows(grade)
+
+    def _rows(self, grade) -> list[dict]:
+        """The rows of the rubric behind a person's points; none where they are not known."""
+        kept = Kept(Path(self.parent.parent.coursedir.root))
+        try:
             entry = kept.of(self.assignment_id, grade.name).get(self.student_id, {})
-            if given := counting(entry, grade.manual_score):
-                cell.metadata.nbgrader[ROWS] = [asdict(row) for row in given.rows]
+        except KeptError as error:
+            self.log.warning("%s", error)
+            return []
+        given = counting(entry, grade.manual_score)
+        return [asdict(row) for row in given.rows] if given else []
 
     def _get_comment(self, cell, resources):
         super()._get_comment(cell, resources)

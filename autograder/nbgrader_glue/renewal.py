@@ -11,7 +11,7 @@ from nbgrader import utils
 from nbgrader.api import Gradebook, MissingEntry
 
 from autograder.digest import digest
-from autograder.marking.kept import Kept
+from autograder.marking.kept import COUNTS, FIRST, Kept, KeptError
 from autograder.nbgrader_glue import worked
 
 # nbconvert writes a tag's settings in an order of its own.
@@ -53,10 +53,16 @@ class Renewal:
         return self._made_of[key]
 
     def _rows(self, assignment: str, student: str) -> list:
-        """The rows of rubrics by which a person marked."""
+        """The rows of rubrics by which a person marked; none where they cannot be read."""
         kept = Kept(Path(self._course.root))
-        return [(cell, sorted(of_cell[student].items())) for cell in sorted(kept.cells(assignment))
-                if student in (of_cell := kept.of(assignment, cell))]  # fmt: skip
+        try:
+            found = {cell: kept.of(assignment, cell).get(student, {})
+                     for cell in sorted(kept.cells(assignment))}  # fmt: skip
+        except KeptError:
+            return []
+        return [
+            (cell, entry.get(FIRST), entry.get(COUNTS)) for cell, entry in found.items() if entry
+        ]
 
     def _marks(self, assignment: str, student: str) -> list:
         with Gradebook(self._course.db_url, self._course.course_id) as gradebook:
