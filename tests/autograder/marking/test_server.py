@@ -115,7 +115,7 @@ def test_this_machines_own_names_are_accepted(ask):
 
 def test_no_other_page_is_let_in(ask):
     for path in ("/", "/marking.js", PROOF):
-        status, text, headers = ask(path)
+        status, _, headers = ask(path)
         assert status == 200
         assert "Access-Control-Allow-Origin" not in headers
         assert "Set-Cookie" not in headers
@@ -168,9 +168,10 @@ def test_a_damaged_file_is_told_on_the_page(ask, desk):
 
 def test_it_listens_at_one_address_of_this_machine(ask):
     # Whoever listens at every address is found at this one, too.
-    with socket.socket() as other, pytest.raises(OSError, match=r"refused|reach|assign|timed out"):
+    with socket.socket() as other:
         other.settimeout(5)
-        other.connect(("127.0.0.2", ask.port))
+        with pytest.raises(OSError, match=r"refused|reach|assign|timed out"):
+            other.connect(("127.0.0.2", ask.port))
 
 
 def test_a_port_that_is_in_use_is_an_error(ask, desk):
