@@ -48,6 +48,7 @@ def run(root: Path, given: argparse.Namespace) -> int:
     from autograder.marking.server import serve
     from autograder.nbgrader_glue import answer_page
     from autograder.nbgrader_glue.by_hand import ByHand
+    from autograder.nbgrader_glue.late import settle_course
 
     to = ""
     try:
@@ -71,7 +72,7 @@ def run(root: Path, given: argparse.Namespace) -> int:
 
             with contextlib.suppress(KeyboardInterrupt):
                 serve(desk, answer_page.style(), given.port, ready)
-        for line in [] if given.second else book.settle():
+        for line in [] if given.second else settle_course(root):
             say(shown_note(line))
         left = desk.left()
     except (OSError, ValueError) as error:

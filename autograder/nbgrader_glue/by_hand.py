@@ -19,7 +19,6 @@ from autograder.marking.rubric import rubrics
 from autograder.nbgrader_glue import answer_page
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.items import NO_RESPONSE, titles_above
-from autograder.nbgrader_glue.late import settle
 from autograder.nbgrader_glue.release import configuration
 
 PATIENCE = 30.0  # s, while another program writes into the gradebook
@@ -30,7 +29,6 @@ class ByHand:
     """The book of one course, whose folder is `root`. RosterError if the class list is wrong."""
 
     def __init__(self, root: Path):
-        self._root = root
         config = configuration(root)
         config.CourseDirectory.assignment_id = "of the term"
         self._course = CourseDirectory(config=config, log=QUIET)
@@ -75,11 +73,6 @@ class ByHand:
                 gradebook.db.commit()
 
         _patiently(write)
-
-    def settle(self) -> list[str]:
-        """Late penalties of the points that there are now; what has changed, in lines."""
-        with self._gradebook() as gradebook:
-            return settle(self._root, gradebook)
 
     def _gradebook(self) -> api.Gradebook:
         course = self._course
