@@ -57,7 +57,7 @@ def test_until_a_proof_is_read_the_checks_alone_have_a_mean():
     assert (step.share, step.of_checks) == (None, pytest.approx(0.9))
     page = str(Text(report.term_page([unread])))
     assert "90 % of the checks" in page
-    assert "ada (8) 0" in page
+    assert "ada (8) bob (6)" in page
     assert "Of the checks alone, of all: mean 4.5, median 4.5 of 5 points" in page
     read = replace(unread, students=[replace(students[0], to_read=0), students[1]])
     assert term.steps([read])[0].share == pytest.approx(0.8)
