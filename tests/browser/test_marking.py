@@ -94,6 +94,7 @@ def tab(browser):
 
 def to(tab, text: str) -> None:
     """Go on to the answer with this text."""
+    expect(tab.locator(".where")).to_contain_text("answer")
     for _ in range(4):
         if tab.locator(".answer").get_by_text(text).count():
             return
