@@ -9,6 +9,7 @@ from autograder.commands import (
     export,
     forget,
     grade,
+    mark,
     new_problem,
     open_solution,
     problems,
@@ -20,6 +21,7 @@ from autograder.commands import (
 ALL = (
     problems,
     grade,
+    mark,
     report,
     open_solution,
     collect_zip,

@@ -76,7 +76,7 @@ class FeedbackExporter(HTMLExporter):
             penalty=number(float(late)) if late else "",
             unread=sum(item.kind == "open" for item in items),
             made_of=self._made_of(names),
-            code_style=_code_style(),
+            code_style=code_style(),
         )
         return nb, resources
 
@@ -101,7 +101,7 @@ class FeedbackExporter(HTMLExporter):
         return nbformat.read(path, as_version=4) if path.is_file() else None
 
 
-def _code_style() -> str:
+def code_style() -> str:
     """Colours of code, by day and by night."""
     light, dark = (HtmlFormatter(style=name).get_style_defs(".highlight")
                    for name in ("default", "github-dark"))  # fmt: skip

@@ -14,6 +14,7 @@ from traitlets.config import Config
 
 from autograder import roster, term_calendar
 from autograder.files import put_in_place
+from autograder.marking.kept import Kept
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.shelf import REPLACED
@@ -110,6 +111,10 @@ def _files_of_the_class(root: Path, student: str) -> Iterator[Trace]:
         if count:
             what = f"{count} extensions in {term_calendar.FILE}"
             yield Trace(what, partial(put_in_place, calendar, rest))
+    kept = Kept(root)
+    for path in kept.naming(student):
+        what = f"{_shown(root, path)}, where the student's proofs are marked"
+        yield Trace(what, partial(kept.forget, path, student))
     for path in _naming(root, student, WRITTEN):
         what = f"{_shown(root, path)}, which names the student: write it again"
         yield Trace(what, partial(_remove, path))

@@ -23,14 +23,15 @@ from autograder.terminal import say
 
 @dataclass(frozen=True)
 class Standing:
-    """A submission in the gradebook: its automatic rows as text, its points, its cells to be read, and
-    how late it is, in words.
+    """A submission in the gradebook: its automatic rows as text, its points, its cells to be read, how
+    late it is, in words, and the points of the checks alone, without a penalty.
     """
 
     rows: str
     score: float
     to_read: int
     late: str = ""
+    of_checks: float = 0.0
 
 
 class Rows:
@@ -181,6 +182,7 @@ class Rows:
             sum(map(_points, grades)) - (penalty or 0.0),
             sum(bool(row.needs_manual_grade) for row in grades),
             lateness_in_words(penalty or 0.0) if late else "",
+            sum(_points(grade) for grade in grades if self._names[grade.cell_id] in self.of_checks),
         )
 
     def _late_penalty(self, student: str, submission, notebook: str) -> float | None:
@@ -228,6 +230,8 @@ class Rows:
         self._with_comment = [cell.id for cell in commented]
         self._names = {cell.id: cell.name for cell in [*graded, *commented]}
         self.points = {cell.name: float(cell.max_score) for cell in graded}
+        by_person = {cell.name for cell in commented}
+        self.of_checks = {name: most for name, most in self.points.items() if name not in by_person}
         self._db.expunge_all()
 
 

@@ -19,6 +19,7 @@ from autograder.notebook.scores import could_not_be_judged
 from autograder.problems import check_here
 
 UNREAD = "unread"  # in a graded cell's settings: a person has not decided on it yet
+ROWS = "rows"  # there: the rows of the rubric, with the points that a person gave for each
 NO_RESPONSE = "No response."  # as nbgrader says it
 HEADING = re.compile(r"^#{1,6}[ \t]+(.+?)[ \t#]*$", re.MULTILINE)
 # "A. The matrix of the arm (4 points)": only the words are the title.
@@ -37,7 +38,8 @@ FIRST, WRONG, RIGHT, REST, TEXT = (
 class Item:
     """A graded answer: the cells from the answer to the cell that has its points.
 
-    kind: "wrong", "open" (a person still has to read it) or "right".
+    kind: "wrong", "open" (a person still has to read it) or "right". rows: of the rubric, each with its
+    text, points and what was given.
     """
 
     id: str
@@ -48,6 +50,7 @@ class Item:
     points: str
     cells: list[NotebookNode] = field(default_factory=list)
     comments: list[str] = field(default_factory=list)
+    rows: list[dict] = field(default_factory=list)
 
 
 def arranged(
@@ -62,7 +65,7 @@ def arranged(
     notebook = copy.deepcopy(notebook)
     for cell in notebook.cells:
         cell.metadata["page"] = NotebookNode()
-    given, headings = _given(source) | texts_of(earlier), _headings(source or notebook)
+    given, headings = _given(source) | texts_of(earlier), titles_above(source or notebook)
     items, taken = _items(notebook.cells, given, headings)
     others = [cell for cell in notebook.cells if id(cell) not in taken]
     letters = [cell for cell in others if is_letter(cell)]
@@ -144,6 +147,7 @@ def _item(cell: NotebookNode, cells: list[NotebookNode], headings: dict[str, str
         number(points),
         cells,
         comments,
+        list(claims.get(ROWS) or []),
     )
 
 
@@ -184,7 +188,7 @@ def _given(source: NotebookNode | None) -> set[str]:
     return {essence(cell.source) for cell in source.cells} if source else set()
 
 
-def _headings(notebook: NotebookNode) -> dict[str, str]:
+def titles_above(notebook: NotebookNode) -> dict[str, str]:
     """grade_id → the heading above the cell, without its letter and its points."""
     found: dict[str, str] = {}
     heading = ""

@@ -2,6 +2,7 @@
 
 import secrets
 from collections.abc import Iterable
+from dataclasses import asdict
 from functools import lru_cache
 from logging import Logger
 from pathlib import Path
@@ -12,8 +13,9 @@ from nbgrader.preprocessors import GetGrades, NbGraderPreprocessor, SaveAutoGrad
 from traitlets import Unicode
 
 from autograder.files import put_in_place
+from autograder.marking.kept import Kept, KeptError, counting
 from autograder.nbgrader_glue import handed_in
-from autograder.nbgrader_glue.items import UNREAD
+from autograder.nbgrader_glue.items import ROWS, UNREAD
 from autograder.nbgrader_glue.kept_editions import kept
 from autograder.notebook.beside import Beside
 from autograder.notebook.editions import Edition, of_release
@@ -136,14 +138,27 @@ class SaveSuggestions(SaveAutoGrades):
 
 class GetDecidedGrades(GetGrades):
     """For `generate_feedback`, instead of nbgrader's GetGrades: once a person has decided on an answer,
-    the page no longer says which points its lines suggest. Until then the answer says that it is unread.
+    the page no longer says which points its lines suggest, and says which rows of the rubric the answer
+    met. Until then the answer says that it is unread.
     """
 
     def _get_score(self, cell, resources):
         super()._get_score(cell, resources)
-        cell.metadata.nbgrader[UNREAD] = self.gradebook.find_grade(
-            *_place(self, cell)
-        ).needs_manual_grade
+        grade = self.gradebook.find_grade(*_place(self, cell))
+        cell.metadata.nbgrader[UNREAD] = grade.needs_manual_grade
+        if grade.manual_score is not None and not grade.needs_manual_grade:
+            cell.metadata.nbgrader[ROWS] = self._rows(grade)
+
+    def _rows(self, grade) -> list[dict]:
+        """The rows of the rubric behind a person's points; none where they are not known."""
+        kept = Kept(Path(self.parent.parent.coursedir.root))
+        try:
+            entry = kept.of(self.assignment_id, grade.name).get(self.student_id, {})
+        except KeptError as error:
+            self.log.warning("%s", error)
+            return []
+        given = counting(entry, grade.manual_score)
+        return [asdict(row) for row in given.rows] if given else []
 
     def _get_comment(self, cell, resources):
         super()._get_comment(cell, resources)

@@ -10,18 +10,11 @@ from autograder.judging.verdict import State
 from autograder.notebook.beside import Beside
 from autograder.notebook.editions import of_release
 from autograder.notebook.grade import NOTHING, grade
+from autograder.notebook.reading import UnreadableError, read
 from autograder.notebook.scores import with_verdicts
 from autograder.notebook.version import other_version
 from autograder.pipeline.cache import code_version
 from autograder.sandbox.room import Room
-
-
-class NoNotebookError(ValueError):
-    """What was handed in under a notebook's name is something else."""
-
-
-class OtherVersionError(ValueError):
-    """A notebook has other questions than the course; the message says which."""
 
 
 def judge(
@@ -44,12 +37,8 @@ def judge(
             warnings.simplefilter("ignore")  # nbformat's are not the instructor's business
             judged = _judged(content, source, seed, beside, said, student, earlier)
             return judged | {"code": code_version()}
-    except (UnicodeDecodeError, nbformat.reader.NotJSONError):
-        refused = "is not valid JSON: ask the student for it again"
-    except OtherVersionError as error:
+    except UnreadableError as error:
         refused = str(error)
-    except NoNotebookError:
-        refused = "is not a notebook: ask the student for it again"
     except OSError:
         raise  # ours
     except Exception as error:
@@ -73,9 +62,9 @@ def _judged(
     student: str | None,
     earlier: tuple[str, ...],
 ) -> dict:
-    notebook, notes = _read(content.decode("utf-8-sig"))
+    notebook, notes = read(content)
     if why := other_version(notebook, _source(source), beside.mechanisms):
-        raise OtherVersionError(why)
+        raise UnreadableError(why)
     editions = [of_release(text) for text in earlier]
     graded = grade(notebook, _source(source), seed, beside, said, student, editions)
     notebook = with_verdicts(graded)
@@ -87,21 +76,6 @@ def _judged(
         "notes": [*notes, *graded.notes],
         "certain": State.CHECK_FAILED not in states,
     }
-
-
-def _read(text: str) -> tuple[NotebookNode, list[str]]:
-    try:
-        notebook = nbformat.reads(text, as_version=nbformat.NO_CONVERT)
-        has_metadata = isinstance(notebook.get("metadata"), dict)
-    except (AttributeError, KeyError, TypeError) as error:  # JSON, but of something else
-        raise NoNotebookError from error
-    if not has_metadata:
-        raise NoNotebookError
-    notes = []
-    if notebook.nbformat != 4:
-        notes.append(f"the notebook was in format {notebook.nbformat}; it was converted")
-        notebook = nbformat.convert(notebook, 4)
-    return notebook, notes
 
 
 @lru_cache(maxsize=8)

@@ -15,6 +15,7 @@ from nbgrader.utils import notebook_hash
 
 from autograder import roster, term_calendar
 from autograder.cli import main
+from autograder.marking.kept import FIRST, Given, Kept
 from tests.autograder import courses
 from tests.autograder.courses import NOTEBOOK, P3
 from tests.autograder.lms.platforms import (
@@ -304,6 +305,9 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     assert "Nil Nihil" in page
     assert "late, −3" in page
     others = courses.rows(courses.database(course))["grade"]
+    given = Given((), 1.0, "", "", "")
+    for student in ("bob", "bobby"):
+        Kept(course).change(P3, "p3-derivation", student, lambda entry: {FIRST: given})
     monkeypatch.setattr("builtins.input", lambda question: "n")
     assert main(["forget", "bob"]) == 1
     assert submitted.exists()
@@ -316,7 +320,7 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     for what in (
         *("submitted/bob", "autograded/bob", "replaced/bob", "inbound/bob+", "armdyn/feedback/"),
         *("cache-of-results", "the gradebook", "the line in course/class.csv", "1 extensions in"),
-        *("course/marks.csv", f"course/report/{P3}.html"),
+        *("course/marks.csv", f"course/report/{P3}.html", f"course/marking/{P3}.json"),
     ):
         assert what in said, what
     left = [path for path in (course / "course").rglob("*") if path.is_file()]
@@ -324,6 +328,7 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
               if "bob" in str(path.relative_to(course)).replace("bobby", "") or
               b"bob" in path.read_bytes().replace(b"bobby", b"")]  # fmt: skip
     assert traces == []
+    assert list(Kept(course).of(P3, "p3-derivation")) == ["bobby"]
     assert (inbound / "bobby+p3-pendulum+2026-11-28 10:00:00 UTC+abc").exists()
     kept = courses.rows(courses.database(course))["grade"]
     assert kept == [row for row in others if "bob/" not in repr(row)]
