@@ -116,6 +116,7 @@ MAY_IMPORT = {
     "roster": (),
     "term_calendar": ("roster",),
     "lms": ("protocol", "roster", "term_calendar"),
+    "year": ("protocol", "roster", "term_calendar", "lms"),
     "sandbox/inside": (),
     "terminal": ("protocol",),
     "sandbox": ("protocol",),
@@ -166,7 +167,7 @@ MAY_IMPORT = {
     "commands": (
         *("arguments", "authoring", "bundle", "files", "lab_server", "lean", "lms", "mechanisms"),
         *("mutation", "nbgrader_glue", "pipeline", "report", "roster", "term_calendar", "terminal"),
-        "worked_answers",
+        *("worked_answers", "year"),
     ),
     "arguments": ("worked_answers",),
     "lab": ("files",),
