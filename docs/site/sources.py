@@ -15,7 +15,8 @@ from docs import reading_order
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
 GUIDES = (
-    *("instructors", "class-server", "own-problem", "library", "course-map"),
+    *("instructors", "handing-out", "class-list", "platforms", "grading-rules", "sandbox"),
+    *("troubleshooting", "class-server", "own-problem", "library", "course-map"),
     *("source-errata", "references"),
 )
 PAGES = ("CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md")
