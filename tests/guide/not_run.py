@@ -8,6 +8,7 @@ REASONS = {
     "make lab": WINDOW,
     "autograder lab": WINDOW,
     "autograder lab --instructor": WINDOW,
+    "autograder problems": "tests/autograder/test_cli.py does",
     "make test": WHOLE,
     "pytest --nbval --numprocesses=auto --dist=loadfile tests lessons solutions": WHOLE,
     "ruff check && ruff format --check && mypy": "`make test` does, before it runs this test",

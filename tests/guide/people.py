@@ -2,7 +2,6 @@
 
 import json
 from datetime import UTC, datetime
-from functools import cache
 from pathlib import Path
 
 from nbgrader.api import Gradebook
@@ -15,15 +14,9 @@ COURSE = "armdyn"
 IN_TIME = datetime(2026, 11, 28, 10, tzinfo=UTC)
 
 
-@cache
-def notebook(kind: str) -> str:
-    """A submission to p3, as tests/submissions calls it, made once."""
-    return json.dumps(p3_pendulum.CLASS[kind](_release()))
-
-
-def _release():
-    folder = courses._released().name
-    return courses.release(Path(folder))
+def notebook(root: Path, kind: str) -> str:
+    """A submission to p3 as it is released in the course `root`, of a kind of tests/submissions."""
+    return json.dumps(p3_pendulum.CLASS[kind](courses.release(root)))
 
 
 def hand_in(root: Path, student: str, kind: str, when: datetime = IN_TIME) -> None:
@@ -32,14 +25,14 @@ def hand_in(root: Path, student: str, kind: str, when: datetime = IN_TIME) -> No
     inbound = root / "course" / "exchange" / COURSE / "inbound"
     folder = inbound / f"{student}+{P3}+{time}+secret-of-{student}"
     folder.mkdir()
-    (folder / NOTEBOOK).write_text(notebook(kind))
+    (folder / NOTEBOOK).write_text(notebook(root, kind))
     (folder / "timestamp.txt").write_text(time)
     (folder / "submission_secret.txt").write_text(f"secret of {student}")
 
 
 def lay_in(root: Path, student: str, kind: str, when: datetime = IN_TIME) -> None:
     """As an instructor puts a notebook that came by mail into its folder."""
-    courses.submit(root, student, json.loads(notebook(kind)), f"{when:%Y-%m-%d %H:%M:%S} UTC")
+    courses.submit(root, student, json.loads(notebook(root, kind)), f"{when:%Y-%m-%d %H:%M:%S} UTC")
 
 
 def mark_proofs(root: Path) -> None:

@@ -28,7 +28,9 @@ def follow(name: str, root: Path, others: Others, files: Mapping[str, str]) -> s
     page, printed, last = Page(name), "", None
     for block in page.blocks:
         if block.language in files:
-            with (root / files[block.language]).open("a", encoding="utf-8") as file:
+            path = root / files[block.language]
+            path.parent.mkdir(mode=0o700, exist_ok=True)
+            with path.open("a", encoding="utf-8") as file:
                 file.write(block.text)
         elif block.language == "text" and last is not None:
             missing = [line for line in block.text.splitlines() if not _is_in(line, last)]

@@ -245,7 +245,6 @@ def test_without_asking_and_without_keeping_nothing_of_last_year_is_left(closed)
     assert main(["archive", "--empty", "--yes", "--to", "year.zip"]) == 0
     left = [path.name for path in (closed / "course").rglob("*")]
     assert left == ["grading.lock"]
-    courses.run(closed, "nbgrader", "generate_assignment", P3)  # and the next year begins
 
 
 def test_a_calendar_whose_names_are_not_found_stops_it_before_anything_is_written(closed, capsys):
