@@ -174,7 +174,12 @@ def test_it_never_takes_the_place_of_another_archive_and_never_lies_in_course(cl
     assert main(["archive", "--to", "year.zip"]) == 2
     assert "is there already: name another file with --to" in capsys.readouterr().err
     assert main(["archive"]) == main(["archive"]) == 0
-    assert len(list((closed / "archive").iterdir())) == 2
+    first, second = sorted((closed / "archive").iterdir())
+    capsys.readouterr()
+    assert main(["forget", "nil-n", "--yes"]) == 0
+    said = capsys.readouterr().out
+    assert f"archive/{first.name} names the student, too, and will be left as it is" in said
+    assert second.exists()
     assert main(["archive", "--to", "course/year.zip"]) == 2
     assert "lies in course/" in capsys.readouterr().err
     assert main(["archive", "--keep-class"]) == 2
