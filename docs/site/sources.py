@@ -53,7 +53,8 @@ def lay_out(source: Path) -> None:
             write_problem(ROOT, folder.name, source / "problems" / folder.name)
     (source / "docs").mkdir()
     for page in (ROOT / "docs").glob("*.md"):
-        shutil.copy(page, source / "docs")
+        text = page.read_text(encoding="utf-8").replace("](../README.md", "](../index.md")
+        (source / "docs" / page.name).write_text(text, encoding="utf-8")
     for page in PAGES:
         shutil.copy(ROOT / page, source)
     modules = _api(source / "api")
