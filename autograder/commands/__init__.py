@@ -4,6 +4,7 @@ What takes long to import is imported in `run`.
 """
 
 from autograder.commands import (
+    archive,
     bundle,
     collect_zip,
     export,
@@ -27,6 +28,7 @@ ALL = (
     collect_zip,
     export,
     forget,
+    archive,
     bundle,
     try_mechanism,
     new_problem,

@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -121,14 +122,34 @@ def _files_of_the_class(root: Path, student: str) -> Iterator[Trace]:
 
 
 def mentions(root: Path, student: str) -> list[Path]:
-    """Tables in the course's folder that name a student, and that no command of ours wrote."""
+    """Tables in the course's folder that name a student, and that no command of ours wrote; and the
+    archives of `autograder archive` that do.
+    """
     ours = _naming(root, student, WRITTEN)
-    return [path for path in _naming(root, student, ("*.csv", "course/*.csv"))
-            if path not in ours and path != root / roster.FILE]  # fmt: skip
+    tables = [path for path in _naming(root, student, ("*.csv", "course/*.csv"))
+              if path not in ours and path != root / roster.FILE]  # fmt: skip
+    return [*tables, *_archives(root, student)]
+
+
+def _archives(root: Path, student: str) -> Iterator[Path]:
+    named = _name(student)
+    for path in sorted(root.glob("archive/*.zip")):
+        try:
+            with zipfile.ZipFile(path) as archive:
+                tables = [name for name in archive.namelist() if name.endswith("/marks.csv")]
+                texts = [archive.read(name).decode("utf-8", errors="replace") for name in tables]
+        except (OSError, zipfile.BadZipFile):
+            continue
+        if any(named.search(text) for text in texts):
+            yield path
+
+
+def _name(student: str) -> re.Pattern[str]:
+    return re.compile(rf"(?<![\w.@-]){re.escape(student)}(?![\w@-])")
 
 
 def _naming(root: Path, student: str, patterns: tuple[str, ...]) -> list[Path]:
-    named = re.compile(rf"(?<![\w.@-]){re.escape(student)}(?![\w@-])")
+    named = _name(student)
     files = (path for pattern in patterns for path in sorted(root.glob(pattern)) if path.is_file())
     return [path for path in files if named.search(path.read_text("utf-8", errors="replace"))]
 

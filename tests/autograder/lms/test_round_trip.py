@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import re
 import shutil
 import zipfile
 from contextlib import chdir, redirect_stdout
@@ -13,7 +12,6 @@ import pytest
 from nbgrader.api import Gradebook
 from nbgrader.utils import notebook_hash
 
-from autograder import roster, term_calendar
 from autograder.cli import main
 from autograder.marking.kept import FIRST, Given, Kept
 from tests.autograder import courses
@@ -336,42 +334,6 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     assert "0 graded, 4 unchanged" in " ".join(capsys.readouterr().out.split())
     assert main(["forget", "bob", "--yes"]) == 1
     assert "keeps nothing about bob" in capsys.readouterr().err
-
-
-def blocks(heading: str) -> list[str]:
-    """The code of a section of the guide."""
-    guide = (courses.ROOT / "docs" / "instructors.md").read_text(encoding="utf-8")
-    section = guide.split(f"## {heading}\n")[1].split("\n## ")[0]
-    return re.findall(r"```\n(.*?)```", section, re.S)
-
-
-def test_what_the_guide_shows_is_read_and_runs(course, monkeypatch, capsys):
-    listed, calendar = blocks("The class list and the calendar")
-    assert roster.Person("bob", "Doe, Jr.", "Bob", "bob@example.org", "4712") in list(
-        roster.read(written(course / "guide.csv", listed)).people.values()
-    )
-    for name in re.findall(r"^\[([\w-]+)\]", calendar, re.M):
-        (course / "solutions" / name).mkdir(exist_ok=True)
-    written(course / "course" / "calendar.toml", calendar)
-    assert term_calendar.read_if_there(course).of("p4-gravity").penalty == term_calendar.ZERO
-
-    written(course / "course" / "calendar.toml", CALENDAR)
-    (course / "all.zip").rename("submissions.zip")
-    course.joinpath("sheet.csv").rename("worksheet.csv")
-    rows = [{"name": NAMES[student], "number": 11 + at} for at, student in enumerate(NAMES)]
-    canvas_sheet(course / "gradebook.csv", rows, {"P3 Pendulum (77)": "15"})
-    shown = [
-        *blocks("Hand-ins from Moodle or Canvas"),
-        *blocks("Grades for Moodle, Canvas or a spreadsheet"),
-    ]
-    lines = [line for block in shown for line in block.splitlines() if "grade p3" not in line]
-    assert len(lines) == 5
-    for line in lines:
-        program, *arguments = line.split()
-        assert program == "autograder"
-        status = 1 if arguments[0] == "collect-zip" else 0  # gus has no notebook
-        assert main(arguments) == status, capsys.readouterr()
-    assert len(table(course / "marks.csv")) == len(NAMES)
 
 
 def written(path, text: str):

@@ -204,8 +204,8 @@ def test_what_the_fallback_stops_too(
 
 
 def test_the_guide_names_what_the_fallback_does_not_stop():
-    """docs/instructors.md says in words what `unstopped` lists: a word for each kind."""
-    guide = (ROOT / "docs" / "instructors.md").read_text(encoding="utf-8")
+    """docs/sandbox.md says in words what `unstopped` lists: a word for each kind."""
+    guide = (ROOT / "docs" / "sandbox.md").read_text(encoding="utf-8")
     (part,) = re.findall(r"Without bubblewrap.*?(?=\nStudents. Markdown)", guide, re.DOTALL)
     for name, said_of_it in unstopped().items():
         assert WORDS_OF_THE_GUIDE[name] in part, said_of_it
