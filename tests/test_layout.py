@@ -139,8 +139,8 @@ MAY_IMPORT = {
     "lesson_checks": ("protocol", "judging", "problems"),
     "stored": ("digest", "protocol", "judging"),
     "bundle": (
-        *("digest", "protocol", "judging", "stored", "problems", "lesson_checks", "notebook"),
-        *("mechanisms", "nbgrader_glue", "lab"),
+        *("digest", "files", "protocol", "judging", "stored", "problems", "lesson_checks"),
+        *("notebook", "mechanisms", "nbgrader_glue", "lab"),
     ),
     "pictures": ("protocol", "judging", "mechanisms", "mutation", "problems"),
     "student": (

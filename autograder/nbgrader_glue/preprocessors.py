@@ -19,6 +19,7 @@ from autograder.notebook.grade import grade, is_judged
 from autograder.notebook.repair import repair
 from autograder.notebook.scores import with_verdicts
 from autograder.notebook.suggestion import suggestion_of
+from autograder.notebook.version import stamp, version_of
 from autograder.terminal import shown_name, shown_note
 
 
@@ -32,6 +33,16 @@ class ContinuePastErrors(NbGraderPreprocessor):
             if "raises-exception" not in tags:
                 tags.append("raises-exception")
         return cell, resources
+
+
+class StampVersion(NbGraderPreprocessor):
+    """For `generate_assignment`: writes into the notebook in which version it is handed out."""
+
+    def preprocess(self, nb, resources):
+        names, course = resources["nbgrader"], self.parent.parent.coursedir
+        source = Path(course.format_path(course.source_directory, ".", names["assignment"]))
+        stamp(nb, version_of(nb, handed_in.mechanisms_beside(source)), names["notebook"])
+        return nb, resources
 
 
 class FromSource(NbGraderPreprocessor):

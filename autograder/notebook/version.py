@@ -33,9 +33,9 @@ def version_of(source: NotebookNode, files: Mapping[str, str]) -> str:
     return digest(json.dumps([asked, arm], sort_keys=True))[:8]
 
 
-def stamp(notebook: NotebookNode, version: str) -> None:
-    """Write into a notebook in which version it is handed out."""
-    notebook.metadata[KEY] = {"version": version}
+def stamp(notebook: NotebookNode, version: str, problem: str) -> None:
+    """Write into a notebook of which problem it is, and in which version it is handed out."""
+    notebook.metadata[KEY] = {"problem": problem, "version": version}
 
 
 def other_version(submission: NotebookNode, source: NotebookNode, files: Mapping[str, str]) -> str:

@@ -58,6 +58,6 @@ def test_a_notebook_without_a_version_is_graded(stamped):
 def test_a_hostile_version_is_quoted_in_short():
     source = problem("p3-pendulum").source
     notebook = copy.deepcopy(source)
-    stamp(notebook, "x\n" * 1000)
+    stamp(notebook, "x\n" * 1000, "p1-inertia")
     assert len(other_version(notebook, source, {})) < 300
     assert "\n" not in other_version(notebook, source, {})

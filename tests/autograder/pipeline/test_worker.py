@@ -29,7 +29,7 @@ def test_a_notebook_of_another_version_is_refused_in_a_sentence():
     setup.source = setup.source.replace("year=2026", "year=2025")
     given = version_of(earlier, {})
     assert given != now
-    stamp(earlier, given)
+    stamp(earlier, given, "p1-inertia")
     refused = judge(nbformat.writes(earlier).encode(), nbformat.writes(source), "seed")["refused"]
     assert f"another version of this problem ({given}; the course has {now})" in refused
     assert "ask the student" in refused
