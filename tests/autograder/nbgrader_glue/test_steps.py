@@ -31,7 +31,12 @@ INSTEAD = {SaveAutoGrades: SaveSuggestions}
     [
         (sanitize_preprocessors, Autograde.sanitize_preprocessors, [RepairCells], 0),
         (autograde_preprocessors, Autograde.autograde_preprocessors, [Judge], 1),
-        (generate_preprocessors, GenerateAssignment.preprocessors, [StampVersion, ContinuePastErrors], 0),
+        (
+            generate_preprocessors,
+            GenerateAssignment.preprocessors,
+            [StampVersion, ContinuePastErrors],
+            0,
+        ),
         (feedback_preprocessors, GenerateFeedback.preprocessors, [GetDecidedGrades], 1),
     ],
 )
