@@ -49,8 +49,9 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     """Judge the function that the check `id` asks for, as this notebook defines it; show the verdict.
 
     The visible check tries a few fixed cases; `fresh=True` draws new ones each time, as the grader
-    does, but in a student's package, which says that it cannot. NotCorrectError, after the card, where the verdict is not "correct", save in a lesson, which
-    goes on; UnknownCheckError where no check has this id.
+    does, but in a student's package, which says that it cannot. NotCorrectError, after the card, where
+    the verdict is not "correct", save in a lesson, which goes on; UnknownCheckError where no check has
+    this id.
     """
     if asked := known_in_lesson(id):
         lesson.show_card(asked, sys._getframe(1).f_globals)
