@@ -119,6 +119,8 @@ class ClassServer:
     def stop(self) -> None:
         """End the hub and its servers, and remove every account and group."""
         if self.hub is not None:
+            # It waits long for each JupyterLab to end by itself.
+            end_processes()
             self.hub.send_signal(signal.SIGINT)
             try:
                 self.hub.wait(20)
@@ -140,17 +142,24 @@ class ClassServer:
 
 def remove_accounts() -> None:
     """Remove what a run has made, also one that was killed; with the processes of these accounts."""
-    import pwd
-
-    for name in ACCOUNTS:
-        try:
-            user = pwd.getpwnam(OURS[name]).pw_uid
-        except KeyError:
-            continue
-        end_processes_of(user)
+    for name in end_processes():
         subprocess.run(["userdel", "--remove", OURS[name]], capture_output=True)
     for name in GROUPS:
         subprocess.run(["groupdel", OURS[name]], capture_output=True)
+
+
+def end_processes() -> list[str]:
+    """End what our accounts run; the accounts that are there."""
+    import pwd
+
+    there = []
+    for name in ACCOUNTS:
+        try:
+            end_processes_of(pwd.getpwnam(OURS[name]).pw_uid)
+            there.append(name)
+        except KeyError:
+            pass
+    return there
 
 
 def end_processes_of(user: int) -> None:

@@ -27,7 +27,7 @@ PROGRESS = {"FullyGraded", "PendingManual", "Pending", "NotReady", "Failed"}
 ACTIVITY = {"Initialized", "Started", "InProgress", "Submitted", "Completed"}
 
 
-class Refusal(Exception):
+class RefusalError(Exception):
     def __init__(self, status: int, said: str, headers: dict[str, str] | None = None):
         super().__init__(said)
         self.status, self.said, self.headers = status, said, headers or {}
@@ -58,16 +58,16 @@ class Platform:
         return f"{self.address}{path}"
 
     def answer(self, method: str, path: str, query: dict, headers, body: bytes):
-        """What a request gets: its content, and headers. Refusal."""
+        """What a request gets: its content, and headers. RefusalError."""
         for own in self.answers:
             if path.endswith(own[0]):
                 self.answers.remove(own)
-                raise Refusal(*own[1:])
+                raise RefusalError(*own[1:])
         if path == "/token":
             return self._token(parse_qs(body.decode())), {}
         scopes = self.tokens.get(headers.get("Authorization", "").removeprefix("Bearer "))
         if scopes is None:
-            raise Refusal(401, "no such token")
+            raise RefusalError(401, "no such token")
         if path == "/members" and MEMBERS in scopes:
             return self._page(self.members, "members", query)
         if path == "/items" and f"{AGS}lineitem" in scopes:
@@ -79,7 +79,7 @@ class Platform:
         if path.endswith("/scores") and method == "POST" and f"{AGS}score" in scopes:
             assert headers["Content-Type"] == "application/vnd.ims.lis.v1.score+json"
             return self._score(path.removesuffix("/scores"), json.loads(body)), {}
-        raise Refusal(403, f"this token is not for {method} {path}")
+        raise RefusalError(403, f"this token is not for {method} {path}")
 
     def _token(self, form: dict):
         assert form["grant_type"] == ["client_credentials"]
@@ -93,12 +93,12 @@ class Platform:
                 options={"require": ["exp", "iat", "jti", "sub", "iss", "aud"]},
             )  # fmt: skip
         except (jwt.InvalidTokenError, KeyError) as error:
-            raise Refusal(400, f"invalid_client: {error!r}") from None
+            raise RefusalError(400, f"invalid_client: {error!r}") from None
         assert held["jti"] not in self.seen
         self.seen.add(held["jti"])
         wanted = set(form["scope"][0].split())
         if not wanted <= self.allowed:
-            raise Refusal(400, "invalid_scope")
+            raise RefusalError(400, "invalid_scope")
         token = secrets.token_urlsafe()
         self.tokens[token] = wanted
         return {"access_token": token, "token_type": "Bearer", "expires_in": self.lifetime,
@@ -124,21 +124,22 @@ class Platform:
     def _score(self, path: str, score: dict):
         user = score["userId"]
         if user in self.refuses:
-            raise Refusal(*self.refuses[user])
+            raise RefusalError(*self.refuses[user])
         if not any(urlsplit(item["id"]).path == path for item in self.items):
-            raise Refusal(404, "no such line item")
+            raise RefusalError(404, "no such line item")
         if user not in {one["user_id"] for one in self.members}:
-            raise Refusal(404, "no such user")
+            raise RefusalError(404, "no such user")
         assert score["gradingProgress"] in PROGRESS
         assert score["activityProgress"] in ACTIVITY
         assert ("scoreGiven" in score) == ("scoreMaximum" in score)
         now = datetime.fromisoformat(score["timestamp"])
-        assert now.tzinfo and "." in score["timestamp"]
+        assert now.tzinfo
+        assert "." in score["timestamp"]
         if "submission" in score:
             assert datetime.fromisoformat(score["submission"]["submittedAt"]).tzinfo
         of_item = self.scores.setdefault(path, {})
         if user in of_item and datetime.fromisoformat(of_item[user]["timestamp"]) >= now:
-            raise Refusal(409, "there is a later score")
+            raise RefusalError(409, "there is a later score")
         of_item[user] = score
         self.posted += 1
 
@@ -163,7 +164,7 @@ def playing(platform: Platform) -> Iterator[None]:
                     self.command, parts.path, parse_qs(parts.query), self.headers, body
                 )
                 status, data = 200, b"" if found is None else json.dumps(found).encode()
-            except Refusal as refusal:
+            except RefusalError as refusal:
                 status, data, headers = refusal.status, refusal.said.encode(), refusal.headers
             except AssertionError as error:
                 status, data, headers = 422, f"not as it should be: {error!r}".encode(), {}
@@ -173,7 +174,7 @@ def playing(platform: Platform) -> Iterator[None]:
             self.end_headers()
             self.wfile.write(data)
 
-        do_POST = do_GET  # noqa: N815
+        do_POST = do_GET
 
         def log_message(self, *_):
             pass

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import stat
 import threading
 from contextlib import chdir
@@ -79,6 +80,14 @@ def scores(platform: Platform, number: int = 1) -> dict:
     """The scores that a line item has, without their times."""
     found = platform.scores.get(f"/items/{number}/lineitem", {})
     return {user: {k: v for k, v in one.items() if k != "timestamp"} for user, one in found.items()}
+
+
+def refusal(root) -> str:
+    """What is said where nothing can be sent."""
+    try:
+        return "\n".join(sending.send(root, marks(), How()).faults)
+    except LtiError as error:
+        return str(error)
 
 
 def test_each_student_gets_the_score_that_the_mark_says(root, platform):
@@ -223,9 +232,7 @@ def test_a_token_is_asked_for_again_when_it_ends(root, platform):
 )  # fmt: skip
 def test_what_is_wrong_with_the_platform_is_said(root, platform, end, status, text, headers, said):
     platform.answers.append((end, status, text, headers))
-    with pytest.raises(LtiError, match=said):
-        done = sending.send(root, marks(), How())
-        raise LtiError("\n".join(done.faults))
+    assert re.search(said, refusal(root))
     assert platform.posted == 0
 
 
@@ -259,7 +266,7 @@ def test_a_redirect_gets_neither_key_nor_token(root, platform):
             heard.append(self.path)
             self.send_error(400)
 
-        do_GET = do_POST  # noqa: N815
+        do_GET = do_POST
 
         def log_message(self, *_):
             pass
@@ -269,9 +276,7 @@ def test_a_redirect_gets_neither_key_nor_token(root, platform):
         to = {"Location": f"http://127.0.0.1:{other.server_address[1]}/"}
         for end in ("/token", "/items"):
             platform.answers.append((end, 307, "", to))
-            with pytest.raises(LtiError, match="leads on to"):
-                done = sending.send(root, marks(), How())
-                raise LtiError("\n".join(done.faults))
+            assert "leads on to" in refusal(root)
         other.shutdown()
     assert heard == []
 
@@ -368,7 +373,7 @@ def test_the_key_is_made_once_and_is_nobody_elses(tmp_path, capsys):
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such permissions")
 def test_a_key_that_others_can_read_is_refused(root):
     (root / key.PRIVATE).chmod(0o640)
-    with pytest.raises(LtiError, match="other accounts can read .*: chmod 600"):
+    with pytest.raises(LtiError, match=r"other accounts can read .*: chmod 600"):
         key.read(root)
 
 
