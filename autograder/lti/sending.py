@@ -84,7 +84,8 @@ def _send_column(
     finally:
         would = "would be sent" if how.dry else "sent"
         new = f", in a new line item{' to be made' if how.dry else ''}" if is_new else ""
-        done.lines.append(f"{column.assignment}: {count} scores {would}{new}")
+        scores = "1 score" if count == 1 else f"{count} scores"
+        done.lines.append(f"{column.assignment}: {scores} {would}{new}")
         if same:
             done.lines.append(f"  as they were sent before: {same}")
         done.lines += [f"  not sent: {n}, {why}" for why, n in sorted(left.items())]

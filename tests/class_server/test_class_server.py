@@ -345,8 +345,8 @@ def test_another_course_has_its_own_class(server, bob):
 
 
 def test_the_students_package_gets_a_problem_more(server, bob):
-    ask = "python -c \"from autograder import hint; hint('p2-C')\""
-    assert "there is no check 'p2-C'" in server.as_account("bob", ask, status=1)
+    ask = "python -c \"from autograder import hint; hint('p4-g_vec')\""
+    assert "there is no check 'p4-g_vec'" in server.as_account("bob", ask, status=1)
     server.run(6, 2)
     server.run(6, 3)
     assert "Hint 1 of 3" in server.as_account("bob", ask)

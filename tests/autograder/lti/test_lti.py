@@ -121,7 +121,7 @@ def test_only_what_has_changed_is_sent_again(root, platform):
     assert again.lines[:2] == [f"{P3}: 0 scores sent", "  as they were sent before: 3"]
     assert platform.posted == 3
     read = OF_P3 | {"cem": Mark(GRADED, 11.0)}
-    assert sending.send(root, marks(read), How()).lines[0] == f"{P3}: 1 scores sent"
+    assert sending.send(root, marks(read), How()).lines[0] == f"{P3}: 1 score sent"
     assert scores(platform)["u-cem"]["scoreGiven"] == 11.0
     assert sending.send(root, marks(read), How(again=True)).lines[0] == f"{P3}: 3 scores sent"
     assert (platform.posted, len(platform.items)) == (7, 1)
@@ -164,7 +164,7 @@ def test_what_the_platform_refuses_of_one_stops_nobody(root, platform):
     assert "\x1b" not in fault
     assert set(scores(platform)) == {"u-ada", "u-cem"}
     platform.refuses.clear()
-    assert sending.send(root, marks(), How()).lines[0] == f"{P3}: 1 scores sent"
+    assert sending.send(root, marks(), How()).lines[0] == f"{P3}: 1 score sent"
 
 
 def test_a_token_that_is_refused_is_said_once(root, platform):
