@@ -14,7 +14,7 @@ from autograder.lti import LtiError
 PRIVATE = Path("course") / "lti-key.pem"
 PUBLIC = Path("course") / "lti-public.pem"
 KEY_SET = Path("course") / "lti-key-set.json"
-BITS = 3072
+BITS = 2048  # what platforms make for themselves
 
 
 @dataclass(frozen=True)
