@@ -41,7 +41,7 @@ def lab(arguments: list[str]) -> int:
     """
     root = Path.cwd()
     if not (root / "lessons").is_dir():
-        if not HANDED_OUT.is_dir():
+        if not (HANDED_OUT / "lessons").is_dir():
             return _fail(
                 f"there is no lessons/ in {root}; change to the course's folder and try again"
             )

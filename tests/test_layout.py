@@ -117,6 +117,7 @@ MAY_IMPORT = {
     "term_calendar": ("roster",),
     "lms": ("protocol", "roster", "term_calendar"),
     "year": ("protocol", "roster", "term_calendar", "lms"),
+    "lti": ("files", "protocol", "roster", "lms"),
     "sandbox/inside": (),
     "terminal": ("protocol",),
     "sandbox": ("protocol",),
@@ -142,8 +143,8 @@ MAY_IMPORT = {
     "lesson_checks": ("protocol", "judging", "problems"),
     "stored": ("digest", "protocol", "judging"),
     "bundle": (
-        *("digest", "protocol", "judging", "stored", "problems", "lesson_checks", "notebook"),
-        *("mechanisms", "nbgrader_glue", "lab"),
+        *("digest", "files", "protocol", "judging", "stored", "problems", "lesson_checks"),
+        *("notebook", "mechanisms", "nbgrader_glue", "lab"),
     ),
     "pictures": ("protocol", "judging", "mechanisms", "mutation", "problems"),
     "student": (
@@ -169,7 +170,7 @@ MAY_IMPORT = {
         *("roster", "term_calendar", "lms"),
     ),
     "commands": (
-        *("arguments", "authoring", "bundle", "files", "lab", "lab_server", "lean", "lms"),
+        *("arguments", "authoring", "bundle", "files", "lab", "lab_server", "lean", "lms", "lti"),
         *("marking", "mechanisms", "mutation", "nbgrader_glue", "pipeline", "report", "roster"),
         *("term_calendar", "terminal", "worked_answers", "year"),
     ),

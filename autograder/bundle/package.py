@@ -28,6 +28,8 @@ WHOLE = (
     *("worked_answers", "pictures/__init__", "lesson_checks/__init__", "lesson_checks/choice"),
     *("lesson_checks/number", "lesson_checks/typed", "problems/__init__", "problems/arm_card"),
     *("problems/material/__init__", "problems/material/described", "checks"),
+    *("nbgrader_glue/exchange/__init__", "nbgrader_glue/exchange/entered"),
+    "nbgrader_glue/exchange/students",
 )
 IN_PARTS = (
     "autograder.problems.",

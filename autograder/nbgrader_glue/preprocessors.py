@@ -24,6 +24,7 @@ from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
 from autograder.notebook.scores import with_verdicts
 from autograder.notebook.suggestion import suggestion_of
+from autograder.notebook.version import questions_of, stamp, version_of
 from autograder.terminal import shown_name, shown_note
 
 
@@ -37,6 +38,17 @@ class ContinuePastErrors(NbGraderPreprocessor):
             if "raises-exception" not in tags:
                 tags.append("raises-exception")
         return cell, resources
+
+
+class StampVersion(NbGraderPreprocessor):
+    """For `generate_assignment`: writes into the notebook in which version it is handed out."""
+
+    def preprocess(self, nb, resources):
+        names, course = resources["nbgrader"], self.parent.parent.coursedir
+        source = Path(course.format_path(course.source_directory, ".", names["assignment"]))
+        files = handed_in.mechanisms_beside(source)
+        stamp(nb, names["notebook"], version_of(nb, files), questions_of(nb, files))
+        return nb, resources
 
 
 class FromSource(NbGraderPreprocessor):

@@ -18,7 +18,8 @@ from autograder.pictures.offers import offer
 from autograder.problems import CHECKS, UnknownCheckError, known_check, own_checks
 from autograder.proofs import derivation_of
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all, no_limit
-from autograder.student import below, failing, in_grading, lesson, progress, worst_case
+from autograder.student import below, failing, in_grading, lesson, progress, version, worst_case
+from autograder.student import fresh as fresh_cases
 from autograder.student.definitions import watched
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for, reminder
@@ -57,14 +58,17 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     """Judge the function that the check `id` asks for, as this notebook defines it; show the verdict.
 
     The visible check tries a few fixed cases; `fresh=True` draws new ones each time, as the grader
-    does. NotCorrectError, after the card, where the verdict is not "correct", save in a lesson, which
-    goes on; UnknownCheckError where no check has this id.
+    does, but in a student's package, which says that it cannot. NotCorrectError, after the card, where
+    the verdict is not "correct", save in a lesson, which goes on; UnknownCheckError where no check has
+    this id.
     """
     if asked := known_in_lesson(id):
         lesson.show_card(asked, sys._getframe(1).f_globals)
         return
     if isinstance(id, str) and derivation_of(id):
         raise UnknownCheckError(f"no check judges {id!r}: call derivation with its lines")
+    if said := version.remark(str(id)):
+        print(said)
     namespace = sys._getframe(1).f_globals
     verdict = _naming_an_old_function(verdict_on(known_check(id).id, namespace, fresh))
     failing.note(verdict)
@@ -76,6 +80,8 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     for broken in own_checks.broken(own_checks.files_here()):
         print(broken)
     _tell_of_no_limit()
+    if fresh and (said := fresh_cases.refusal()):
+        print(said)
     if said := reminder(id):
         print(said)
     told = in_grading.told(verdict.check, _cells)

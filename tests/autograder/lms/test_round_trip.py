@@ -23,6 +23,7 @@ from tests.autograder.lms.platforms import (
     moodle_sheet,
     zipped,
 )
+from tests.autograder.lti.platform import Platform, member, playing, registration
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import blank
 
@@ -339,3 +340,32 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
 def written(path, text: str):
     path.write_text(text, encoding="utf-8")
     return path
+
+
+def test_the_marks_of_the_term_reach_a_platform_by_lti(course, capsys):
+    """By the commands, and once more after ada's proof is marked: then hers alone is sent."""
+    assert main(["lti", "send", P3]) == 2
+    assert "there is no course/lti.toml: write into it" in capsys.readouterr().err
+    assert main(["lti", "key"]) == 0
+    platform = Platform(course / "course" / "lti-key-set.json")
+    platform.members = [member(f"u-{id}", NAMES[id], email=f"{id}@x.org") for id in NAMES]
+    with playing(platform):
+        (course / "course" / "lti.toml").write_text(registration(platform))
+        capsys.readouterr()
+        assert main(["lti", "send", P3]) == 0
+        printed = capsys.readouterr().out
+        assert "p3-pendulum: 5 scores sent, in a new line item" in printed
+        assert "  not sent: 1, could not be read\n  not sent: 1, nothing handed in" in printed
+        (sent,) = platform.scores.values()
+        given = {id: sent.get(f"u-{id}", {}).get("scoreGiven") for id in NAMES}
+        assert given == {id: pytest.approx(ledger(id)) for id in NAMES}
+        assert sent["u-ada"]["gradingProgress"] == "PendingManual"
+        assert sent["u-bob"]["comment"] == "graded, late, −1.3"
+        with Gradebook(courses.database(course)) as gradebook:
+            grade = gradebook.find_grade("p3-derivation", P3, P3, "ada")
+            grade.manual_score, grade.needs_manual_grade = 4, False
+            gradebook.db.commit()
+        assert main(["lti", "send"]) == 0
+        printed = capsys.readouterr().out
+        assert "p3-pendulum: 1 score sent\n  as they were sent before: 4" in printed
+        assert sent["u-ada"]["scoreGiven"] == 14

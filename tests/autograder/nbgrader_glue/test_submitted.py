@@ -53,7 +53,7 @@ def hand_in(root, release):
                        ("a_pipe_of_time", "timestamp.txt")):  # fmt: skip
         os.mkfifo(at[name] / pipe)
     older = p3_pendulum.right(release)
-    stamp(older, "0000")
+    stamp(older, P3, "0000", {})
     submit(root, "of_last_year", older)
     others = submit(root, "z_right", right, "2025-01-31 23:59:59 UTC").parent
     shutil.rmtree(at["a_linked_submission"])
