@@ -11,11 +11,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import chain
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from autograder.judging import changes, dependence, findings, verdict
 from autograder.judging.call_text import given_by
+from autograder.judging.carried.follows import Follows
 from autograder.judging.criterion import Criterion, errors_of, met_by
 from autograder.judging.diagnosis import Catalogue, Mistake, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
@@ -31,6 +33,9 @@ from autograder.judging.verdict import Row, State, Verdict, Witness
 from autograder.judging.witness import witness, worst_entry, wrong_places
 from autograder.judging.wrong_numbers import wrong_numbers
 from autograder.protocol import Call, FaultKind, Reply
+
+if TYPE_CHECKING:
+    from autograder.judging.carried.judge import Carrying
 
 VISIBLE_CASES = 6
 # A visible check tries the same cases each time, so that a student sees how an error changes.
@@ -60,6 +65,7 @@ class Check:
     lesson that prepares it. further: a sentence for whoever has the right answer, which leads on; true
     of every arm that is asked for. pose(call): the joints of the arm in a call, to be drawn beside the
     worst case. returns: what a student calls the returned array, "M", where not by the function's name.
+    follows: from which earlier answers it may be carried on; the first that holds counts.
 
     ValueError where the shares of the criteria do not add up to 1, or where two criteria have one
     text, two mistakes or terms one name, or two hints are the same.
@@ -79,6 +85,7 @@ class Check:
     further: str = ""
     pose: Callable[[Call], list] | None = None
     returns: str = ""
+    follows: tuple[Follows, ...] = ()
 
     def __post_init__(self):
         if not self.criteria:
@@ -106,8 +113,11 @@ class Check:
         """The name of the function."""
         return self.signature.partition("(")[0]
 
-    def run(self, ask: Ask, rng: np.random.Generator, count: int = VISIBLE_CASES) -> Verdict:
-        """Try the student's function and judge it.
+    def run(
+        self, ask: Ask, rng: np.random.Generator, count: int = VISIBLE_CASES,
+        carrying: "Carrying | None" = None,
+    ) -> Verdict:  # fmt: skip
+        """Try the student's function and judge it. carrying: how errors count that are carried on.
 
         An error in the check, or CannotRunError from `ask`, is a verdict of its own: CHECK_FAILED. Any
         other error that `ask` raises goes on to the caller, and so does an interrupt.
@@ -116,7 +126,8 @@ class Check:
             calls = self.calls(rng, count)
         except Exception as error:
             return verdict.check_failed(self.id, error)
-        return self.on(calls, ask)
+        found = self.on(calls, ask)
+        return carrying.judged(self, found, calls, ask, rng) if carrying else found
 
     def on(self, calls: list[Call], ask: Ask) -> Verdict:
         """Try the student's function with these calls; as `run`."""

@@ -9,7 +9,7 @@ import nbformat
 from nbformat import NotebookNode
 from nbgrader import utils
 from nbgrader.nbgraderformat import MetadataValidator
-from traitlets import import_item
+from traitlets import TraitError, import_item
 from traitlets.config import Config
 
 from autograder.nbgrader_glue import names
@@ -58,7 +58,9 @@ class Recorder:
         self._steps = [step(parent=self._converter) for step in steps if step.__name__ in RUN]
         lateness = Lateness(read_if_there(root).of(assignment), config, self._converter)
         course = self._folders.course
-        self._secret = secret_of(Path(course.root) / Judge(parent=self._converter).seed_file)
+        judge = _judge(self._converter)
+        self._secret = secret_of(Path(course.root) / judge.seed_file)
+        self.carried_on: float = judge.carried_on
         self.source = (self._folders.source / f"{assignment}.ipynb").read_text(encoding="utf-8")
         self._rows = Rows(course.db_url, course.course_id, assignment, lateness)
         try:
@@ -185,6 +187,14 @@ def _can_be_put_right(cell: NotebookNode, known, rows: Rows) -> bool:
     if utils.is_grade(cell) and known.name in rows.points:
         cell.metadata["nbgrader"]["points"] = rows.points[known.name]
     return utils.compute_checksum(cell) == known.checksum
+
+
+def _judge(converter) -> Judge:
+    """The step with its settings; ValueError where one is not what it must be."""
+    try:
+        return Judge(parent=converter)
+    except TraitError as error:
+        raise ValueError(f"nbgrader_config.py: {error}") from None
 
 
 def _refuse_other_steps(config: Config, converter) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from nbformat import NotebookNode
 
 from autograder.digest import digest
+from autograder.judging.carried.judge import Carrying
 from autograder.judging.check import HIDDEN_CASES
 from autograder.judging.verdict import State, Verdict
 from autograder.notebook import examples, outputs
@@ -26,6 +27,8 @@ from autograder.terminal import shown_name, shown_note
 log = logging.getLogger(__name__)
 
 NOTHING = Beside()
+# Of the points of an answer that follows from a wrong one, where a course chooses nothing else.
+CARRIED_ON = 0.5
 
 
 @dataclass(frozen=True)
@@ -48,11 +51,13 @@ def grade(
     beside: Beside = NOTHING,
     said: tuple[str, ...] = (),
     student: str | None = None,
+    carried_on: float = CARRIED_ON,
 ) -> Graded:
     """Run the submission's cells in a sandbox and judge its graded functions outside.
 
     beside: files that its cells find. said: notes that come first. student: whose submission it is,
-    where the problem gives each student an own arm; None for the arm of the book.
+    where the problem gives each student an own arm; None for the arm of the book. carried_on: the share
+    of the points that an error gives which is only carried on, in [0, 1].
     seed: decides the random cases, together with the code of the repaired notebook and the files
     beside it. So the same submission gets the same verdicts again, and a changed one meets other
     cases. Each check has its own random numbers, so that a new problem changes no other's cases. A
@@ -60,13 +65,13 @@ def grade(
     not to blame, it is graded once more. OSError if that happens again, or if no sandbox starts.
     """
     try:
-        return _graded(submission, source, seed, beside, said, student)
+        return _graded(submission, source, seed, beside, said, student, carried_on)
     except OSError as error:
         log.warning("%s; grading the notebook once more", shown_note(str(error)))
-        return _graded(submission, source, seed, beside, said, student)
+        return _graded(submission, source, seed, beside, said, student, carried_on)
 
 
-def _graded(submission, source, seed, beside, said, student) -> Graded:
+def _graded(submission, source, seed, beside, said, student, carried_on) -> Graded:
     notebook, notes = repair(submission, source, said, beside.documents)
     verdicts: dict[str, Verdict] = {}
     marks: dict[str, list[Marked]] = {}
@@ -82,6 +87,9 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
 
         def ask(calls):
             return [beside.explained(reply) for reply in sitting.ask(calls)]
+
+        def known(id):
+            return check_for(id, drawn.own if drawn else None, beside.mechanisms)
 
         for cell in notebook.cells:
             if cell.cell_type != "code":
@@ -102,12 +110,14 @@ def _graded(submission, source, seed, beside, said, student) -> Graded:
                 continue
             name = grade_id(cell) or ""
             try:
-                check = check_for(name, drawn.own if drawn else None, beside.mechanisms)
+                check = known(name)
                 problem = ""
             except ValueError as error:  # a broken file of the course's own mechanism
                 check, problem = None, str(error)
             if check is not None:
-                verdict = check.run(ask, stream(seed, name), HIDDEN_CASES)
+                states = {id: judged.state for id, judged in verdicts.items()}
+                carrying = Carrying(known, carried_on, states, sitting.spent)
+                verdict = check.run(ask, stream(seed, name), HIDDEN_CASES, carrying)
                 verdict = sitting.naming_an_earlier(check, verdict)
             else:
                 problem = problem or f"No check belongs to the grade cell {name}."

@@ -28,6 +28,7 @@ class Recorder(Protocol):
     assignment: str
     source: str  # the source notebook, as JSON
     settings: str  # what else decides a grade, besides the submission, the source and the seed
+    carried_on: float  # the share of the points for an error that is carried on
     max_score: float
 
     def submissions(self) -> dict[str, Path]:

@@ -8,7 +8,7 @@ from nbformat import NotebookNode
 
 from autograder.judging.verdict import State
 from autograder.notebook.beside import Beside
-from autograder.notebook.grade import NOTHING, grade
+from autograder.notebook.grade import CARRIED_ON, NOTHING, grade
 from autograder.notebook.scores import with_verdicts
 from autograder.notebook.version import other_version
 from autograder.pipeline.cache import code_version
@@ -30,6 +30,7 @@ def judge(
     beside: Beside = NOTHING,
     said: tuple[str, ...] = (),
     student: str | None = None,
+    carried_on: float = CARRIED_ON,
 ) -> dict:
     """Grade a notebook, and give its cells with outputs that nbgrader can read.
 
@@ -39,7 +40,9 @@ def judge(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # nbformat's are not the instructor's business
-            return _judged(content, source, seed, beside, said, student) | {"code": code_version()}
+            return _judged(content, source, seed, beside, said, student, carried_on) | {
+                "code": code_version()
+            }
     except (UnicodeDecodeError, nbformat.reader.NotJSONError):
         refused = "is not valid JSON: ask the student for it again"
     except OtherVersionError as error:
@@ -61,12 +64,13 @@ def load() -> None:
 
 
 def _judged(
-    content: bytes, source: str, seed: str, beside: Beside, said: tuple, student: str | None
-) -> dict:
+    content: bytes, source: str, seed: str, beside: Beside, said: tuple, student: str | None,
+    carried_on: float,
+) -> dict:  # fmt: skip
     notebook, notes = _read(content.decode("utf-8-sig"))
     if why := other_version(notebook, _source(source), beside.mechanisms):
         raise OtherVersionError(why)
-    graded = grade(notebook, _source(source), seed, beside, said, student)
+    graded = grade(notebook, _source(source), seed, beside, said, student, carried_on)
     notebook = with_verdicts(graded)
     nbformat.validate(notebook, relax_add_props=True)
     states = [verdict.state for verdict in graded.verdicts.values()]

@@ -5,17 +5,20 @@ shows whether Ṁ − 2C is skew-symmetric. For two joints the first and the las
 Christoffel form.
 """
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from autograder.judging.carried import ways
+from autograder.judging.carried.follows import Follows
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.criterion import TOLERANCE, Said, relative_errors
 from autograder.judging.models import Beside
 from autograder.judging.quantities import array, each
 from autograder.judging.section import Section
 from autograder.mutation.generated import Generated
-from autograder.problems.material import planar_2r, sampling
+from autograder.problems.material import following, planar_2r, sampling
 from autograder.problems.p2_energy_skew import mistakes
 from autograder.protocol import Call, Expressions, Symbol
 
@@ -95,6 +98,22 @@ def other(christoffel: Beside, calls, values):
     else:
         counts = np.array(apart)
     return list(zip(torques, counts, strict=True))
+
+
+class Own(Beside):
+    """A student's own answers, call by call, in the place of the right ones."""
+
+    def __init__(self, numbers: dict[int, np.ndarray]):
+        super().__init__(numbers.__getitem__)
+
+    def of(self, call: Call):
+        return self.model(id(call))
+
+
+def _beside_own(calls, numbers):
+    """As `other`, with the student's own C for the right one."""
+    own = {id(call): np.reshape(C, (2, 2)) for call, (C,) in zip(calls, numbers, strict=True)}
+    return partial(other, Own(own))
 
 
 def _inertia_text(rng, coordinates):
@@ -222,6 +241,14 @@ CHECKS = (
         section=Section(
             "02-from-lagrangian-to-matrices", "02-hand", "3 · The 2R arm by hand: all eight h_ijk"
         ),
+        follows=(
+            Follows(
+                ("p2-M_dot",),
+                "This is what the Christoffel form gives with the derivatives of M in your own Ṁ, so "
+                "this step is right. The mistake is in Ṁ: mend it, and C follows.",
+                ways.CHRISTOFFEL_OF_RATES,
+            ),
+        ),
         further=(
             "C is linear in q̇, so C q̇ is quadratic: at twice the speed these torques are four "
             "times as large. So a controller for a slow arm can often leave them out."
@@ -270,6 +297,14 @@ CHECKS = (
             "C_other + C_otherᵀ beside Ṁ: is the first entry still the same?",
         ),
         section=Section("04-coriolis-and-skew-symmetry", "04-not-unique", "1 · C is not unique"),
+        follows=(
+            Follows(
+                ("p2-C",),
+                "Your C_other has the same product with q̇ as your own C, so this step is right. The "
+                "mistake is in C: mend it, and C_other follows.",
+                replace(following.SAME_PRODUCT, quantities=_beside_own),
+            ),
+        ),
         further=(
             "No measured motion can tell your C_other from C, as only the product with q̇ enters "
             "it. A controller that multiplies C by another velocity can."
