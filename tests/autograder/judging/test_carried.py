@@ -1,4 +1,4 @@
-"""Errors carried on: what follows from an own wrong answer is said to, and counts as the course chose."""
+"""Errors carried on: what follows from an own wrong answer is said to, and counts as a course chose."""
 
 from dataclasses import replace
 from types import SimpleNamespace
