@@ -16,15 +16,15 @@ class Way:
     made(call, value, numbers): what the later function should return, by the numbers that these gave;
     None where nothing follows from them. value: what the later function itself returned, where of_own
     says that both need it; otherwise None. still(call): what the later function returns where the
-    earlier one does nothing at all; by default zeros. quantities(calls, numbers): what is judged, where
-    that depends on the earlier answers too; by default the quantities of the check.
+    earlier one does nothing at all; by default zeros. quantities(of_check, calls, numbers): what is
+    judged, where that depends on the earlier answers too; by default the quantities of the check.
     """
 
     asks: Callable[[Call, Any], list[Call]]
     made: Callable[[Call, Any, list], Any]
     of_own: bool = False
     still: Callable[[Call], Any] | None = None
-    quantities: Callable[[list[Call], list], Quantities] | None = None
+    quantities: Callable[[Quantities, list[Call], list], Quantities] | None = None
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,11 @@ class Own:
         made = [way.made(*three) for three in zip(every, values, answers, strict=True)]
         if any(own is None or not is_finite(own) for own in made):
             raise NoneFollowsError
-        by = way.quantities(calls, answers[: len(calls)]) if way.quantities else check.quantities
+        by = (
+            way.quantities(check.quantities, calls, answers[: len(calls)])
+            if way.quantities
+            else check.quantities
+        )
         followed, given = by(calls, made[: len(calls)]), by(calls, theirs)
         right = check._quantities_of(check.reference, calls)
         still = (

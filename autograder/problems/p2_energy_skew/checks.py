@@ -77,11 +77,12 @@ def steps(right: Beside) -> each:
     return parts
 
 
-def other(christoffel: Beside, calls, values):
+def other(christoffel: Beside, calls, values, own=None):
     """C q̇, and how far Ṁ − 2C is from skew-symmetric, up to where that is clear.
 
     One clear case is enough: what fails somewhere is no property. Where C q̇ is not right, no distance
-    counts, and it is put below zero. christoffel: the Christoffel C of the arm.
+    counts, and it is put below zero. christoffel: the Christoffel C of the arm. own: the C of each call
+    whose product with q̇ is the right one, where that is not the Christoffel C.
     """
     given = [_of_arm(christoffel, call, value) for call, value in zip(calls, values, strict=True)]
     right = [christoffel.of(call) for call in calls]
@@ -90,7 +91,7 @@ def other(christoffel: Beside, calls, values):
     enough = np.array([CLEARLY * np.max(np.abs(C)) for C in right])
     # C + Cᵀ of the Christoffel C is Ṁ.
     apart = [np.max(np.abs(C + C.T - R - R.T)) for C, R in zip(given, right, strict=True)]
-    expected = [C @ qd for C, qd in zip(right, velocities, strict=True)]
+    expected = [C @ qd for C, qd in zip(own or right, velocities, strict=True)]
     if np.any(relative_errors(expected, torques) > TOLERANCE):
         counts = -enough
     elif np.any(apart >= enough):
@@ -100,20 +101,9 @@ def other(christoffel: Beside, calls, values):
     return list(zip(torques, counts, strict=True))
 
 
-class Own(Beside):
-    """A student's own answers, call by call, in the place of the right ones."""
-
-    def __init__(self, numbers: dict[int, np.ndarray]):
-        super().__init__(numbers.__getitem__)
-
-    def of(self, call: Call):
-        return self.model(id(call))
-
-
-def _beside_own(calls, numbers):
-    """As `other`, with the student's own C for the right one."""
-    own = {id(call): np.reshape(C, (2, 2)) for call, (C,) in zip(calls, numbers, strict=True)}
-    return partial(other, Own(own))
+def _beside_own(quantities, calls, numbers):
+    """As `other`, with the student's own C for what C_other q̇ shall be."""
+    return partial(quantities, own=[np.reshape(C, (2, 2)) for (C,) in numbers])
 
 
 def _inertia_text(rng, coordinates):
