@@ -200,8 +200,9 @@ class Check:
         remark = changes.remark(self.name, changed, met != right)
         credit = sum(c.share for c, ok in zip(self.criteria, met, strict=True) if ok)
         said: list[tuple[str, ...]] = [()] * len(met)
+        seen = [""] * len(met)
         if all(met):
-            rows = self._rows(met, said)
+            rows = self._rows(met, said, seen)
             return Verdict(self.id, State.CORRECT, 1.0, rows, remark=remark, further=self.further)
         # Only what it does to its arguments is wrong, where a first call is right.
         judged, when = (again, changes.SECOND) if again and all(right) else (given, "")
@@ -213,6 +214,7 @@ class Check:
             worst = self._witness(calls, expected, numbers, told, judged.values, when)
             if not when:
                 said = self._diagnosis(calls, expected, numbers, told, ask)
+                seen = findings.of_cases(self.criteria, expected, numbers, told)
         problem, failed = given.problem, given.failed
         if not problem and again and again.problem:
             problem, failed = f"On the second call, {again.problem}", again.failed
@@ -220,7 +222,7 @@ class Check:
             self.id,
             State.PARTLY_CORRECT if credit > 0 else State.INCORRECT,
             credit,
-            self._rows(met, said),
+            self._rows(met, said, seen),
             worst,
             problem,
             tuple(dict.fromkeys(chain.from_iterable(said))),
@@ -229,10 +231,14 @@ class Check:
             next_step="Change your function, run its cell, then run this cell again.",
         )
 
-    def _rows(self, met: list[bool], said: Sequence[tuple[str, ...]]) -> tuple[Row, ...]:
-        """One a criterion. said: what is known of each."""
-        found = zip(self.criteria, met, said, strict=True)
-        return tuple(Row(c.text, c.share, ok, sentences) for c, ok, sentences in found)
+    def _rows(
+        self, met: list[bool], said: Sequence[tuple[str, ...]], seen: Sequence[str]
+    ) -> tuple[Row, ...]:
+        """One a criterion. said: what is known of each. seen: of its cases, where nothing else is."""
+        found = zip(self.criteria, met, said, seen, strict=True)
+        return tuple(
+            Row(c.text, c.share, ok, known, "" if known else cases) for c, ok, known, cases in found
+        )
 
     def _quantities_of(self, model: Model, calls: list[Call]) -> Numbers:
         return self.quantities(calls, list(evaluated(model, calls)))

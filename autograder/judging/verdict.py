@@ -29,13 +29,15 @@ class State(StrEnum):
 class Row:
     """One criterion: what was asked for, its share of the credit, and whether it was met.
 
-    said: those sentences of the diagnosis that are about this criterion, which is then not met.
+    said: those sentences of the diagnosis that are about this criterion, which is then not met. seen:
+    what is true of its numbers, to be said where nothing else is.
     """
 
     text: str
     share: float
     met: bool
     said: tuple[str, ...] = ()
+    seen: str = ""
 
 
 @dataclass(frozen=True)
@@ -152,7 +154,7 @@ class Verdict:
             is_same = bool(last) and set(last) <= set(row.said)
             said = [AS_ABOVE if is_same and own in last else own for own in row.said]
             last = row.said or last
-            found.append((row, list(dict.fromkeys(said))))
+            found.append((row, list(dict.fromkeys(said)) or [*filter(None, [row.seen])]))
         return found
 
     def lines(self) -> list[str]:
