@@ -228,7 +228,7 @@ class Check:
             tuple(dict.fromkeys(chain.from_iterable(said))),
             remark,
             failed=failed,
-            next_step="Change your function, run its cell, then run this cell again.",
+            next_step=verdict.CHANGE_IT,
         )
 
     def _rows(

@@ -125,7 +125,7 @@ def _graded(submission, source, seed, beside, said, student, carried_on) -> Grad
             if verdict.state is State.CHECK_FAILED:
                 log.error("%s: %s", shown_name(name), shown_note(verdict.problem))
                 notes.append(f"{name} could not be judged: {verdict.problem}")
-            verdicts[name] = verdict.without_inputs()
+            verdicts[name] = verdict.returned()
     return Graded(notebook, verdicts, tuple(notes), marks)
 
 

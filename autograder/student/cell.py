@@ -19,13 +19,14 @@ from autograder.problems import CHECKS, UnknownCheckError, check_for, known_chec
 from autograder.problems.own_mechanisms import files_here
 from autograder.proofs import derivation_of
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all, no_limit
-from autograder.student import below, failing, lesson, progress, worst_case
+from autograder.student import below, failing, lesson, progress, unquoted, worst_case
 from autograder.student.definitions import watched
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for, reminder
 from autograder.student.pasted import as_pasted
 
 _definitions = watched({check.name for check in CHECKS.values()})
+unquoted.watch()
 
 
 class NotCorrectError(Exception):

@@ -17,7 +17,7 @@ from autograder.judging.carried.own import NoneFollowsError, Own
 from autograder.judging.check import Ask, CannotRunError, Check
 from autograder.judging.percent import percent
 from autograder.judging.quantities import UnfitError
-from autograder.judging.verdict import State, Verdict
+from autograder.judging.verdict import RUN_AGAIN, State, Verdict
 from autograder.protocol import Call, Reply
 
 WRONG = (State.INCORRECT, State.PARTLY_CORRECT)
@@ -130,7 +130,7 @@ class Carrying:
             rows[k] = replace(rows[k], said=(said,))
         still_said = chain.from_iterable(row.said for row in rows)
         credit = found.credit + (self.share or 0.0) * sum(rows[k].share for k in counted)
-        step = f"Mend {' and '.join(wrong)} first, then this function, and run this cell again."
+        step = f"Mend {' and '.join(wrong)} first, then this function{RUN_AGAIN}"
         return replace(
             found,
             rows=tuple(rows),
