@@ -10,7 +10,7 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 from nbgrader.preprocessors import GetGrades, NbGraderPreprocessor, SaveAutoGrades
-from traitlets import Unicode
+from traitlets import Float, Unicode
 
 from autograder.files import put_in_place
 from autograder.marking.kept import Kept, KeptError, counting
@@ -19,7 +19,7 @@ from autograder.nbgrader_glue.items import ROWS, UNREAD
 from autograder.nbgrader_glue.kept_editions import kept
 from autograder.notebook.beside import Beside
 from autograder.notebook.editions import Edition, of_release
-from autograder.notebook.grade import grade, is_judged
+from autograder.notebook.grade import CARRIED_ON, grade, is_judged
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.repair import repair
 from autograder.notebook.scores import with_verdicts
@@ -106,6 +106,13 @@ class Judge(FromSource):
         help="The file with the secret that decides the random cases. It is made on first use; keep "
         "it to get the same verdicts again.",
     ).tag(config=True)
+    carried_on = Float(
+        CARRIED_ON,
+        min=0.0,
+        max=1.0,
+        help="The share of its points that a wrong answer gets where it follows, as it should, from an "
+        "earlier wrong answer of the student's own: 0 for none, 1 for all.",
+    ).tag(config=True)
 
     def preprocess(self, nb, resources):
         names = resources["nbgrader"]
@@ -113,7 +120,9 @@ class Judge(FromSource):
         seed = seed_of(secret, names["student"], names["assignment"])
         source, student = self.source_of(resources), names["student"]
         beside, earlier = self.beside(names), self.earlier(names)
-        graded = grade(nb, source, seed, beside, student=student, earlier=earlier)
+        graded = grade(
+            nb, source, seed, beside, student=student, earlier=earlier, carried_on=self.carried_on
+        )
         _warn(self.log, names["student"], graded.notes)
         return with_verdicts(graded), resources
 

@@ -8,7 +8,7 @@ from typing import Self
 import nbformat
 from nbformat import NotebookNode
 from nbgrader.nbgraderformat import MetadataValidator
-from traitlets import import_item
+from traitlets import TraitError, import_item
 from traitlets.config import Config
 
 from autograder.nbgrader_glue import agreement, names
@@ -60,7 +60,9 @@ class Recorder:
         self._steps = [step(parent=self._converter) for step in steps if step.__name__ in RUN]
         lateness = Lateness(read_if_there(root).of(assignment), config, self._converter)
         course = self._folders.course
-        self._secret = secret_of(Path(course.root) / Judge(parent=self._converter).seed_file)
+        judge = _judge(self._converter)
+        self._secret = secret_of(Path(course.root) / judge.seed_file)
+        self.carried_on: float = judge.carried_on
         # Before 100 students are told that a check failed.
         own_checks.refuse_broken(own_checks.files_of(self._folders.source))
         self.source = (self._folders.source / f"{assignment}.ipynb").read_text(encoding="utf-8")
@@ -188,6 +190,14 @@ def _settings(step) -> tuple[str, list]:
     plain = {name: sorted(value, key=repr) if isinstance(value, set) else value
              for name, value in values.items()}  # fmt: skip
     return type(step).__name__, sorted(plain.items())
+
+
+def _judge(converter) -> Judge:
+    """The step with its settings; ValueError where one is not what it must be."""
+    try:
+        return Judge(parent=converter)
+    except TraitError as error:
+        raise ValueError(f"nbgrader_config.py: {error}") from None
 
 
 def _refuse_other_steps(config: Config, converter) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from nbformat import NotebookNode
 
 from autograder.digest import digest
+from autograder.judging.carried.judge import Carrying
 from autograder.judging.check import HIDDEN_CASES
 from autograder.judging.verdict import State, Verdict
 from autograder.notebook import examples, outputs
@@ -30,6 +31,8 @@ from autograder.terminal import shown_name, shown_note
 log = logging.getLogger(__name__)
 
 NOTHING = Beside()
+# Of the points of an answer that follows from a wrong one, where a course chooses nothing else.
+CARRIED_ON = 0.5
 
 
 @dataclass(frozen=True)
@@ -53,12 +56,14 @@ def grade(
     said: tuple[str, ...] = (),
     student: str | None = None,
     earlier: Sequence[Edition] = (),
+    carried_on: float = CARRIED_ON,
 ) -> Graded:
     """Run the submission's cells in a sandbox and judge its graded functions outside.
 
     beside: files that its cells find. said: notes that come first. student: whose submission it is,
     where the problem gives each student an own arm; None for the arm of the book. earlier: editions
-    of the problem that the student may have, the newest first.
+    of the problem that the student may have, the newest first. carried_on: the share of the points that
+    an error gives which is only carried on, in [0, 1].
     seed: decides the random cases, together with the code of the repaired notebook and the files
     beside it. So the same submission gets the same verdicts again, and a changed one meets other
     cases. Each check has its own random numbers, so that a new problem changes no other's cases. What
@@ -67,13 +72,13 @@ def grade(
     is not to blame, it is graded once more. OSError if that happens again, or if no sandbox starts.
     """
     try:
-        return _graded(submission, source, seed, beside, said, student, earlier)
+        return _graded(submission, source, seed, beside, said, student, earlier, carried_on)
     except OSError as error:
         log.warning("%s; grading the notebook once more", shown_note(str(error)))
-        return _graded(submission, source, seed, beside, said, student, earlier)
+        return _graded(submission, source, seed, beside, said, student, earlier, carried_on)
 
 
-def _graded(submission, source, seed, beside, said, student, earlier) -> Graded:
+def _graded(submission, source, seed, beside, said, student, earlier, carried_on) -> Graded:
     notebook, notes = repair(submission, source, said, beside.documents, earlier)
     verdicts: dict[str, Verdict] = {}
     marks: dict[str, list[Marked]] = {}
@@ -93,6 +98,9 @@ def _graded(submission, source, seed, beside, said, student, earlier) -> Graded:
 
         def tested(text: str) -> Outcome:
             return Outcome.read(sitting.run(text, is_students=False), beside) if text else Outcome()
+
+        def check_known(id):
+            return check_for(id, drawn.own if drawn else None, beside.mechanisms)
 
         known, answers = known_cells(source), []
         for cell in notebook.cells:
@@ -116,12 +124,14 @@ def _graded(submission, source, seed, beside, said, student, earlier) -> Graded:
                 continue
             name = grade_id(cell) or ""
             try:
-                check = check_for(name, drawn.own if drawn else None, beside.mechanisms)
+                check = check_known(name)
                 problem = ""
             except ValueError as error:  # a broken file of the course's own mechanism
                 check, problem = None, str(error)
             if check is not None:
-                verdict = check.run(ask, stream(seed, name), HIDDEN_CASES)
+                states = {id: judged.state for id, judged in verdicts.items()}
+                carrying = Carrying(check_known, carried_on, states, sitting.spent)
+                verdict = check.run(ask, stream(seed, name), HIDDEN_CASES, carrying)
                 verdict = sitting.naming_an_earlier(check, verdict)
                 done = tested(plain_test(cell.source, name))
                 verdict = with_test(verdict, done)
@@ -138,7 +148,7 @@ def _graded(submission, source, seed, beside, said, student, earlier) -> Graded:
             if verdict.state is State.CHECK_FAILED:
                 log.error("%s: %s", shown_name(name), shown_note(verdict.problem))
                 notes.append(f"{name} could not be judged: {verdict.problem}")
-            verdicts[name] = verdict.without_inputs()
+            verdicts[name] = verdict.returned()
     return Graded(notebook, verdicts, tuple(notes), marks)
 
 

@@ -117,7 +117,7 @@ class Sitting:
         try:
             room = None if self._is_over() else self._current()
             if room is not None:
-                seconds = NOTEBOOK_SECONDS - self._spent()
+                seconds = NOTEBOOK_SECONDS - self.spent()
                 with self._timed():
                     return room.ask(calls, seconds, PATIENCE * NOTEBOOK_SECONDS - self._clock)
             fault = Fault(FaultKind.DIED)
@@ -162,13 +162,14 @@ class Sitting:
         finally:
             self._clock += time.monotonic() - start
 
-    def _spent(self) -> float:
+    def spent(self) -> float:
+        """The processor time of the student's code so far, s."""
         return self._used + (self._room.used if self._room is not None else 0.0)
 
     def _is_over(self) -> bool:
-        return self._spent() >= NOTEBOOK_SECONDS or self._clock >= PATIENCE * NOTEBOOK_SECONDS
+        return self.spent() >= NOTEBOOK_SECONDS or self._clock >= PATIENCE * NOTEBOOK_SECONDS
 
     def _limit(self) -> float:
         """The limit that the notebook has reached, the processor's or the clock's, s."""
-        of_processor = self._spent() >= NOTEBOOK_SECONDS
+        of_processor = self.spent() >= NOTEBOOK_SECONDS
         return NOTEBOOK_SECONDS if of_processor else PATIENCE * NOTEBOOK_SECONDS

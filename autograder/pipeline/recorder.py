@@ -29,6 +29,7 @@ class Recorder(Protocol):
     source: str  # the source notebook, as JSON
     settings: str  # what else decides a graded notebook, besides these, the submission and the seed
     earlier: tuple[str, ...]  # the editions that students may have, as JSON, the newest first
+    carried_on: float  # the share of the points for an error that is carried on
     max_score: float
 
     def submissions(self) -> dict[str, Path]:

@@ -87,7 +87,10 @@ class _Run:
         self._submissions = recorder.submissions()
         self._standings = recorder.standings()
         # What decides every result; the rest is the submission's own.
-        self._common = digest(recorder.source, *recorder.earlier, recorder.settings, code_version())
+        self._common = digest(
+            *(recorder.source, *recorder.earlier, recorder.settings, str(recorder.carried_on)),
+            code_version(),
+        )
         self._keys: dict[str, str] = {}
         self._lines: dict[str, Line] = {}
 
@@ -136,7 +139,8 @@ class _Run:
             if known:
                 self._settle(student, known, new=False)
                 return None
-        return content, recorder.source, seed, beside, tuple(notes), student, recorder.earlier
+        given = content, recorder.source, seed, beside, tuple(notes), student
+        return *given, recorder.earlier, recorder.carried_on
 
     def _unchanged(self, student: str, key: str) -> bool:
         """Whether this very submission was recorded, and its rows and files are still there."""

@@ -9,7 +9,7 @@ from nbformat import NotebookNode
 from autograder.judging.verdict import State
 from autograder.notebook.beside import Beside
 from autograder.notebook.editions import of_release
-from autograder.notebook.grade import NOTHING, grade
+from autograder.notebook.grade import CARRIED_ON, NOTHING, grade
 from autograder.notebook.reading import UnreadableError, read
 from autograder.notebook.scores import with_verdicts
 from autograder.notebook.version import other_version
@@ -25,6 +25,7 @@ def judge(
     said: tuple[str, ...] = (),
     student: str | None = None,
     earlier: tuple[str, ...] = (),
+    carried_on: float = CARRIED_ON,
 ) -> dict:
     """Grade a notebook, and give its cells with outputs that nbgrader can read.
 
@@ -35,7 +36,7 @@ def judge(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # nbformat's are not the instructor's business
-            judged = _judged(content, source, seed, beside, said, student, earlier)
+            judged = _judged(content, source, seed, beside, said, student, earlier, carried_on)
             return judged | {"code": code_version()}
     except UnreadableError as error:
         refused = str(error)
@@ -61,12 +62,13 @@ def _judged(
     said: tuple[str, ...],
     student: str | None,
     earlier: tuple[str, ...],
+    carried_on: float,
 ) -> dict:
     notebook, notes = read(content)
     if why := other_version(notebook, _source(source), beside.mechanisms):
         raise UnreadableError(why)
     editions = [of_release(text) for text in earlier]
-    graded = grade(notebook, _source(source), seed, beside, said, student, editions)
+    graded = grade(notebook, _source(source), seed, beside, said, student, editions, carried_on)
     notebook = with_verdicts(graded)
     nbformat.validate(notebook, relax_add_props=True)
     states = [verdict.state for verdict in graded.verdicts.values()]

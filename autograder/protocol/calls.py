@@ -5,7 +5,8 @@ import sys
 import time
 import traceback
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -57,7 +58,7 @@ class Call:
     each a mapping from symbol to number, at which the SymPy expression that comes back is evaluated;
     the reply then holds one value a point. parts: whether the function returns several things at once,
     named or in order; the reply then does too. truth: whether it returns True or False, which the reply
-    holds as 1 or 0.
+    holds as 1 or 0. without: the functions of the student's that cannot be called meanwhile.
     """
 
     name: str
@@ -65,6 +66,7 @@ class Call:
     at: tuple[Mapping[str, float], ...] = ()
     parts: bool = False
     truth: bool = False
+    without: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,13 @@ class Reply:
 
 def answer(call: Call, namespace: Mapping) -> Reply:
     """Call the student's function of that name, and read what it returns as numbers."""
+    if not call.without:
+        return _answer(call, namespace)
+    with _closed(namespace, call.without):
+        return _answer(call, namespace)
+
+
+def _answer(call: Call, namespace: Mapping) -> Reply:
     if call.name not in namespace:
         close = difflib.get_close_matches(call.name, own_names(namespace), n=1, cutoff=0.5)
         hint = close[0] if close else ""
@@ -112,6 +121,23 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     # Then the second call had less time than a call may take.
     too_long = again.fault and again.fault.kind in (FaultKind.TIMED_OUT, FaultKind.STARVED)
     return replace(reply, changed=changes, again=None if too_large or too_long else again)
+
+
+@contextmanager
+def _closed(namespace: Mapping, names: tuple[str, ...]) -> Iterator[None]:
+    """Without these functions: what calls one of them meanwhile fails."""
+    kept = {name: namespace[name] for name in names if name in namespace}
+    if not isinstance(namespace, MutableMapping):
+        raise TypeError("functions can be closed only in a namespace that can change")
+
+    def closed(*args, **kwargs):
+        raise RuntimeError("this function is closed while another one is asked")
+
+    try:
+        namespace.update(dict.fromkeys(kept, closed))
+        yield
+    finally:
+        namespace.update(kept)
 
 
 def _called(call: Call, function: Callable, given: list, seconds: float) -> Reply:

@@ -5,20 +5,31 @@ import sys
 import time
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
 from autograder.judging import card
-from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES, VISIBLE_SEED
+from autograder.judging.carried.judge import Carrying
+from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES, VISIBLE_SEED, Check
 from autograder.judging.passages import filled
 from autograder.judging.verdict import State, Verdict
 from autograder.lesson_checks import known as known_in_lesson
 from autograder.pictures.offers import offer
-from autograder.problems import CHECKS, UnknownCheckError, known_check, own_checks
+from autograder.problems import CHECKS, UnknownCheckError, check_for, known_check, own_checks
+from autograder.problems.own_mechanisms import files_here
 from autograder.proofs import derivation_of
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all, no_limit
-from autograder.student import below, failing, in_grading, lesson, progress, version, worst_case
+from autograder.student import (
+    below,
+    failing,
+    in_grading,
+    lesson,
+    progress,
+    unquoted,
+    version,
+    worst_case,
+)
 from autograder.student import fresh as fresh_cases
 from autograder.student.definitions import watched
 from autograder.student.display import show
@@ -27,6 +38,7 @@ from autograder.student.pasted import as_pasted
 
 _definitions = watched({check.name for check in CHECKS.values()} | own_checks.names_here())
 _cells = in_grading.watched()
+unquoted.watch()
 
 
 class NotCorrectError(Exception):
@@ -112,9 +124,14 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
         return replies
 
     started = time.monotonic()
-    verdict = judged.run(ask, rng, count)
+    verdict = judged.run(ask, rng, count, Carrying(partial(_earlier, id)))
     quick = time.monotonic() - started < SLOW
     return as_pasted(verdict, judged, ask, asked, namespace) if quick else verdict
+
+
+def _earlier(later: str, id: str) -> Check | None:
+    """The check of an answer that comes before that of the check `later`, on the same arm."""
+    return check_for(id, drawn_for(later), files_here(id))
 
 
 @cache  # once in a kernel

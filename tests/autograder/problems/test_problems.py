@@ -131,6 +131,8 @@ WRONG = {
     "c8-slotine_li": (0,),
     "c8-V_dot": (0, "damping left out"),
 }
+# Of an answer that follows from a wrong one before it: half of its points, and one sentence.
+CARRIED_ON = "carried on"
 PARTLY_RIGHT = {
     "p1-inertia_from_links": (0.5, "last link only"),
     "p1-M": (0.75, "dropped / the rotation of link 2 / M12"),
@@ -144,24 +146,24 @@ PARTLY_RIGHT = {
     "p2-C": (0.7, "products in the later column"),
     "p2-C_other": (0.5, "C itself"),
     "p3-lagrangian": (0.5, "energy for L"),
-    "p3-g_vec": (0, "sign of the whole"),
+    "p3-g_vec": (0, "cosine for sine / the weight of the body"),
     "p4-potential_energy": (0.5, "dropped / the weight of link 2 at the elbow"),
     "p4-g_vec": (0.5, "dropped / the weight of link 2 beyond the elbow / g1"),
     "p4-equilibria": (0.5, "stretched only"),
     "p5-f": (0.25, "wrong sign / the viscous friction"),
     "p5-rk4_step": (0.25, "Euler"),
-    "p5-simulate": (0.4, "Euler"),
+    "p5-simulate": (0.7, CARRIED_ON),
     "p5-energy_drift": (0.35, "P missing"),
     "c6-regressor": (0.75, "coupling without the factor 2"),
     "c6-rank_of_excitation": (0.35, "joint 1 only"),
-    "c6-identify": (0, "fit: coupling without the factor 2"),
+    "c6-identify": (0.5, CARRIED_ON),
     "c7-rnea": (0.45, "gyroscopic term missing"),
     "c7-terms": (0.7, "friction in C q̇"),
     "c7-gravity_sign": (0.5, "whose torque not asked"),
     "c7-count": (0.5, "n times one link"),
     "c8-gravity_compensation": (0.2, "gravity at the goal"),
     "c8-regressor_r": (0.6, "all of h on the second entry"),
-    "c8-slotine_li": (0.35, "law: all of h on the second entry"),
+    "c8-slotine_li": (0.675, CARRIED_ON),
     "c8-V_dot": (0.4, "skew-symmetry taken for granted"),
 }
 
@@ -336,6 +338,10 @@ def assert_said(given, kind, expected):
             for one in verdict.diagnosis
             if one not in otherwise and "the values depend" not in one
         )
+        if carried := [one for one in said if "error carried on" in one]:
+            (follows,) = CHECKS[check_id].follows
+            assert all(one.startswith(follows.sentence) for one in carried)
+            said, names = tuple(one for one in said if one not in carried), names[1:]
         # On what its numbers depend is said of a criterion that no mistake explains, and nothing else.
         depends = [
             row.said for row in verdict.rows if any("the values depend" in one for one in row.said)
