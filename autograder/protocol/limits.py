@@ -121,7 +121,7 @@ class _Stopping(Limit):
         return min(PATIENCE * self.seconds - self._waiting.look(), far)
 
     def _swallowed(self, found: Any) -> None:
-        """A destructor lets no error out, and Python would print it. So the code that goes on gets it."""
+        """A destructor lets no error out, and Python would print it. The code that goes on gets it."""
         if not isinstance(found.exc_value, TimeLimitError):
             self._unreported(found)
         elif self._armed:
@@ -177,7 +177,9 @@ class _BySignals(_Stopping):
         for timer, (left, again) in self._timers.items():
             if left:
                 clock = timer == signal.ITIMER_REAL
-                since = time.monotonic() - self._start if clock else time.process_time() - self._begin
+                since = (
+                    time.monotonic() - self._start if clock else time.process_time() - self._begin
+                )
                 signal.setitimer(timer, max(left - since, 0.001), again)
 
     def _came(self, number: int, frame: FrameType | None) -> None:

@@ -16,7 +16,8 @@ import os
 import select
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from typing import NoReturn
 
@@ -83,7 +84,7 @@ class Room:
         self._buffer = bytearray()
         self._process = started(self.way)
         os.set_blocking(self._process.requests, False)
-        self._before = self._used = self._idle = 0.0
+        self._before = self._used = self._idle = self._waited = 0.0
         try:
             hello = self._receive(math.inf, START_SECONDS, MOST_BYTES, MOST_VALUES)
             if not hello.get("ready"):
@@ -122,22 +123,23 @@ class Room:
 
     @property
     def idle(self) -> float:
-        """How long no process of the room computed or was ready to, s, when it was last asked for."""
-        return self._idle
+        """How long, while the room had something to do, no process of it computed or was ready to, s."""
+        return self._waited
 
     def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
         """Run a cell, and return its outputs.
 
         seconds: of processor time, for the cell; with the programs it starts, STARTED times as many.
         """
-        self._send({"run": source, "seconds": seconds})
         idle = PATIENCE * seconds + GRACE_SECONDS
         most = STARTED * seconds + GRACE_SECONDS
-        message = self._receive(most, idle, MOST_BYTES, MOST_VALUES)
-        outputs = message.get("outputs")
-        if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
-            self._lost("it sent no outputs")
-        self._sweep()
+        with self._working():
+            self._send({"run": source, "seconds": seconds})
+            message = self._receive(most, idle, MOST_BYTES, MOST_VALUES)
+            outputs = message.get("outputs")
+            if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
+                self._lost("it sent no outputs")
+            self._sweep()
         return outputs[:MOST_OUTPUTS]
 
     def ask(
@@ -148,24 +150,34 @@ class Room:
         seconds, idle: the processor time and the time of waiting for all of them together. Each call
         also has limits of its own, inside the room and, for code that ignores those, here.
         """
-        self._look()
-        ends, most = self._idle + idle, self._used + seconds
-        self._send({"ask": [encode_call(call) for call in calls]})
         replies: list[Reply] = []
-        while len(replies) < len(calls):
-            message = self._receive(
-                min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
-                min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - self._idle),
-                BYTES_A_NUMBER * MOST_NUMBERS,
-                4 * MOST_NUMBERS,
-            )
-            if "reply" not in message:
-                self._lost("it sent no reply")
-            replies.append(decode_reply(message["reply"]))
-            if replies[-1].fault:
-                break
-        self._sweep()
+        with self._working():
+            ends, most = self._idle + idle, self._used + seconds
+            self._send({"ask": [encode_call(call) for call in calls]})
+            while len(replies) < len(calls):
+                message = self._receive(
+                    min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
+                    min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - self._idle),
+                    BYTES_A_NUMBER * MOST_NUMBERS,
+                    4 * MOST_NUMBERS,
+                )
+                if "reply" not in message:
+                    self._lost("it sent no reply")
+                replies.append(decode_reply(message["reply"]))
+                if replies[-1].fault:
+                    break
+            self._sweep()
         return replies
+
+    @contextmanager
+    def _working(self) -> Iterator[None]:
+        """Count the time of waiting in the block; between requests, a room waits for the judge."""
+        self._look()
+        idle = self._idle
+        try:
+            yield
+        finally:
+            self._waited += self._idle - idle
 
     @property
     def closed(self) -> bool:
