@@ -12,7 +12,7 @@ from nbgrader.preprocessors import GetGrades, NbGraderPreprocessor, SaveAutoGrad
 from traitlets import Unicode
 
 from autograder.files import put_in_place
-from autograder.nbgrader_glue import handed_in
+from autograder.nbgrader_glue import handed_in, times
 from autograder.nbgrader_glue.items import UNREAD
 from autograder.notebook.beside import Beside
 from autograder.notebook.grade import grade, is_judged
@@ -69,7 +69,9 @@ class RepairCells(FromSource):
 
     def preprocess(self, nb, resources):
         names, source = resources["nbgrader"], self.source_of(resources)
-        _, notes = handed_in.counted(self.submitted(names), names["notebook"], source)
+        folder = self.submitted(names)
+        _, notes = handed_in.counted(folder, names["notebook"], source)
+        notes = [*filter(None, [times.note(folder)]), *notes]
         nb, notes = repair(nb, source, notes, self.beside(names).documents)
         _warn(self.log, names["student"], notes)
         return nb, resources

@@ -8,6 +8,8 @@ from traitlets.config import Config, PyFileConfigLoader
 
 from autograder.files import put_in_place
 
+PLAIN = "assignment"  # a name that is no pattern
+
 
 def configuration(root: Path) -> Config:
     """The settings of nbgrader_config.py in the course's folder."""
@@ -26,7 +28,8 @@ def write_problem(root: Path, assignment: str, to: Path) -> None:
 def _generate(root: Path, assignment: str, course: Path) -> Path:
     """Make a course with only this assignment, and return the folder of the student version in it.
 
-    The real course does not serve, as its path may contain what nbgrader takes for a pattern.
+    The real course does not serve, as its path, and the assignment's name, may contain what nbgrader
+    takes for a pattern.
     """
     from nbgrader.converters import GenerateAssignment  # takes seconds
     from nbgrader.coursedir import CourseDirectory
@@ -34,13 +37,13 @@ def _generate(root: Path, assignment: str, course: Path) -> Path:
     config = configuration(root)
     own = CourseDirectory(config=config)
     shutil.copytree(
-        own.format_path(own.source_directory, ".", assignment), course / "source" / assignment
+        own.format_path(own.source_directory, ".", assignment), course / "source" / PLAIN
     )
-    config.CourseDirectory = Config(root=str(course), assignment_id=assignment)
+    config.CourseDirectory = Config(root=str(course), assignment_id=PLAIN)
     config.GenerateAssignment.no_database = True
     config.SaveCells.enabled = False
     GenerateAssignment(coursedir=CourseDirectory(config=config), config=config).start()
-    return course / "release" / assignment
+    return course / "release" / PLAIN
 
 
 def _copy_new(folder: Path, to: Path) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import nbformat
 from nbconvert.exporters import NotebookExporter
 
+from autograder.nbgrader_glue import times
 from autograder.nbgrader_glue.handed_in import counted, mechanisms_beside
 from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.nbgrader_glue.start import can_start
@@ -55,21 +56,18 @@ def _check_entry(path: Path, shown: str, folder: Path) -> None:
         raise RefusedError(f"{shown} is a folder: {again}")
 
 
-def timestamp(course, folder: Path) -> datetime | None:
+def timestamp(folder: Path) -> datetime | None:
     """When a submission was handed in, in UTC; None if that is not known.
 
-    RefusedError if its timestamp.txt holds no time.
+    RefusedError if its timestamp.txt holds no time, and cannot be put aside.
     """
-    path = folder / "timestamp.txt"
     try:
-        if path.is_file() or not os.path.lexists(path):
-            return course.get_existing_timestamp(str(folder))
-    except Exception:  # nbgrader fails while it reports the error
-        pass
-    raise RefusedError(
-        "timestamp.txt holds no time, such as 2025-01-31 23:59:59 UTC: "
-        "put the time of the submission into it, or delete it"
-    )
+        return times.of(folder)
+    except OSError as error:
+        raise RefusedError(
+            f"{times.FILE} cannot be read, or written as {times.AS} ({error.strerror}): "
+            "put the time of the submission into it, or delete it"
+        ) from None
 
 
 class SubmissionExporter(NotebookExporter):
@@ -85,6 +83,7 @@ class SubmissionExporter(NotebookExporter):
         leave_out_unfit(self.parent)
         can_start(self.parent, lambda: Room().close())
         for folder, notebooks in getattr(self.parent, "assignments", {}).items():
+            self._read_time(Path(folder))
             name = self._course.assignment_id
             if (
                 f"{name}.ipynb" not in map(os.path.basename, notebooks)
@@ -96,6 +95,14 @@ class SubmissionExporter(NotebookExporter):
     def _course(self):
         assert self.parent is not None  # `autograde` makes the exporter
         return self.parent.coursedir
+
+    def _read_time(self, folder: Path) -> None:
+        """Have nbgrader find a time that it can read, or none."""
+        try:
+            self._check(folder)
+            timestamp(folder)
+        except (OSError, RefusedError) as error:
+            self.log.warning("%s: %s", folder, error)
 
     def _look_for(self, folder: Path, name: str, notebooks: list[str]) -> None:
         try:

@@ -18,7 +18,7 @@ from autograder.pipeline.alike import alike
 from autograder.pipeline.cache import Cache, code_version
 from autograder.pipeline.executors import Cluster, Processes, outcomes
 from autograder.pipeline.lock import locked
-from autograder.pipeline.recorder import Recorder, Standing
+from autograder.pipeline.recorder import BusyError, Recorder, Standing
 from autograder.pipeline.worker import judge, load
 from autograder.protocol import one_line
 from autograder.sandbox.room import share
@@ -123,6 +123,8 @@ class _Run:
                 task = self._task(student)
             except FileNotFoundError as error:
                 self._refuse(student, str(error))
+            except BusyError:
+                raise
             except Exception as error:
                 self._fail(student, error)
             else:
@@ -192,6 +194,8 @@ class _Run:
             if certain:
                 entry = self._state(student, standing) | {"states": states, "notes": notes}
                 self._cache.store(_done(recorder.assignment, student), entry)
+        except BusyError:
+            raise
         except Exception as error:
             self._fail(student, error)
         else:
@@ -209,6 +213,8 @@ class _Run:
         """Note a submission that cannot be graded as it is, and remove an earlier graded notebook."""
         try:
             self._recorder.refuse(student)
+        except BusyError:
+            raise
         except Exception as error:
             self._recorder.forget()
             why = f"{why}; {type(error).__name__}: {one_line(str(error))}"
