@@ -33,7 +33,7 @@ def describe_fault(fault: Fault, name: str, signature: str, needed: str = NUMBER
         stopped, fix = f"stopped because {fault.message}", "Fix that cell"
     elif NOT_RUN in fault.message:
         why = fault.message.partition(NOT_RUN)[2]
-        stopped, fix = f"was not run, as {why}", "Make those cells quicker, or delete them"
+        stopped, fix = f"was not run, as {why}", "Make those cells quicker"
     else:
         stopped, fix = f"stopped with {fault.message}{where}", "Fix that line"
     renamed = f" Did you mean {fault.message}?" if fault.message else ""

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from autograder.judging.faults import NOT_RUN
 from autograder.protocol import Fault, FaultKind, one_line
 
 # A cell may hold any text; only this much of it, and of each line, is read.
@@ -75,7 +76,9 @@ def _with_cell_of_name(fault: Fault, cells: list[Ran]) -> Fault:
     failed = [cell for cell in _defining(missing[1], cells) if cell.error] if missing else []
     if not failed:
         return fault
-    why = f"{fault.message}; the cell that defines it stopped with {failed[-1].error}"
+    error = failed[-1].error
+    how = f"was {error[error.index(NOT_RUN) :]}" if NOT_RUN in error else f"stopped with {error}"
+    why = f"{fault.message}; the cell that defines it {how}"
     return replace(fault, message=one_line(why, 2 * MOST_CHARACTERS))
 
 
