@@ -154,7 +154,16 @@ class Room:
         with self._working():
             ends, most = self._idle + idle, self._used + seconds
             self._send({"ask": [encode_call(call) for call in calls]})
+            looked = time.monotonic()
             while len(replies) < len(calls):
+                # Quick replies leave no silence in which to look.
+                if time.monotonic() - looked > LOOK_SECONDS:
+                    self._look()
+                    looked = time.monotonic()
+                if self._used > most:
+                    self._lost(f"no reply within {seconds:g} s of processor time", TooLongError)
+                if self._idle > ends:
+                    self._lost(f"no reply within {max(idle, 0):g} s", StarvedError)
                 message = self._receive(
                     min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
                     min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - self._idle),
