@@ -15,9 +15,9 @@ from nbgrader import api, utils
 from sqlalchemy import select
 
 from autograder.lms.marks import lateness as lateness_in_words
-from autograder.nbgrader_glue.busy import patiently
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.late import Lateness, seconds_late, settle_one
+from autograder.nbgrader_glue.locked import patiently
 from autograder.notebook.suggestion import suggestion_of
 from autograder.terminal import say
 

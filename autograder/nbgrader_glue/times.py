@@ -5,12 +5,14 @@ stops the formgrader. So such a file is written again as nbgrader writes it. Wha
 beside it.
 """
 
+import errno
+import os
 import re
 from datetime import UTC, datetime, timedelta, timezone, tzinfo
 from pathlib import Path
 from zoneinfo import ZoneInfo
 
-from dateutil import parser
+from dateutil import parser  # type: ignore[import-untyped]
 from nbgrader import utils
 
 from autograder.files import put_in_place
@@ -94,8 +96,10 @@ def of(folder: Path) -> datetime | None:
     aside. ValueError, or OSError, if that cannot be done.
     """
     path = folder / FILE
-    if not path.exists():
+    if not os.path.lexists(path):
         return None
+    if not path.is_file():  # to read a pipe would wait for ever
+        raise OSError(errno.EINVAL, "it is no plain file")
     with path.open("rb") as file:
         held = file.read(MOST_BYTES)
     try:
@@ -104,7 +108,7 @@ def of(folder: Path) -> datetime | None:
         path.replace(folder / ORIGINAL)
         return None
     if found is not None and _of_nbgrader(path) != found:
-        (folder / ORIGINAL).write_bytes(held)
+        put_in_place(folder / ORIGINAL, held)  # never through a link of a student's
         put_in_place(path, f"{found:%Y-%m-%d %H:%M:%S} UTC\n")
     return found
 

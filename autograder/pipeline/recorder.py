@@ -7,10 +7,6 @@ from typing import Protocol
 from autograder.notebook.beside import Beside
 
 
-class BusyError(OSError):
-    """Grades cannot be recorded now, as another program is at it; what is judged is kept."""
-
-
 class Standing(Protocol):
     """What is recorded about one student: points, the number of cells that a person still has to read,
     the rows as text, and in words how late the submission is.

@@ -13,12 +13,13 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from autograder.busy import BusyError
 from autograder.digest import digest
 from autograder.pipeline.alike import alike
 from autograder.pipeline.cache import Cache, code_version
 from autograder.pipeline.executors import Cluster, Processes, outcomes
 from autograder.pipeline.lock import locked
-from autograder.pipeline.recorder import BusyError, Recorder, Standing
+from autograder.pipeline.recorder import Recorder, Standing
 from autograder.pipeline.worker import judge, load
 from autograder.protocol import one_line
 from autograder.sandbox.room import share

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from sqlalchemy.exc import OperationalError
 
-from autograder.pipeline.recorder import BusyError
+from autograder.busy import BusyError
 from autograder.terminal import say
 
 WAIT_SECONDS = 120.0
