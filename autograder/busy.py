@@ -2,4 +2,4 @@
 
 
 class BusyError(OSError):
-    """Another program is at the gradebook; what is judged is kept, and a later run goes on from there."""
+    """Another program is at the gradebook. What is judged is kept, and a later run goes on."""
