@@ -5,7 +5,6 @@ function runs (`ask`) and in how many cases are drawn.
 """
 
 import math
-import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -22,7 +21,7 @@ from autograder.judging.criterion import Criterion, errors_of, met_by
 from autograder.judging.diagnosis import Catalogue, Mistake, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
 from autograder.judging.given import Describe, Given, NoNumbersError, Reading
-from autograder.judging.loops import Loop, asked
+from autograder.judging.loops import Loop, asked, seconds_of
 from autograder.judging.models import Model, evaluated
 from autograder.judging.places import NOWHERE, place
 from autograder.judging.quantities import Numbers, Quantities, each, one_number
@@ -139,9 +138,10 @@ class Check:
         except Exception as error:
             return verdict.check_failed(self.id, error)
         try:
-            started = time.monotonic()
+            seconds = seconds_of(ask)
+            started = seconds()
             calls, replies = asked(calls, ask)
-            ask_again = ask if time.monotonic() - started < SLOW else None
+            ask_again = ask if seconds() - started < SLOW else None
         except CannotRunError as error:
             return verdict.check_failed(self.id, error)
         try:

@@ -17,7 +17,7 @@ from traitlets.config import Config
 
 from autograder import hints_seen
 from autograder.digest import digest
-from autograder.nbgrader_glue import handed_in, names, submitted
+from autograder.nbgrader_glue import handed_in, names, submitted, times
 from autograder.nbgrader_glue.source import beside_source
 from autograder.notebook.beside import Beside
 
@@ -64,7 +64,9 @@ class Folders:
 
     def counted(self, student: str, source: NotebookNode) -> tuple[Path, list[str]]:
         """The notebook of a submission that is graded, and notes on the others."""
-        return handed_in.counted(self.submitted(student), self.assignment, source)
+        folder = self.submitted(student)
+        path, notes = handed_in.counted(folder, self.assignment, source)
+        return path, [*filter(None, [times.note(folder)]), *notes]
 
     def laid_in(self, student: str) -> Beside:
         """The files that the notebook's cells find beside it."""
@@ -76,8 +78,8 @@ class Folders:
         return beside_source(self.source, self.course.ignore)
 
     def timestamp(self, student: str):
-        """When it was handed in, in UTC, or None; RefusedError if its timestamp.txt holds no time."""
-        return submitted.timestamp(self.course, self.submitted(student))
+        """When it was handed in, in UTC, or None; RefusedError if its timestamp.txt cannot be read."""
+        return submitted.timestamp(self.submitted(student))
 
     def check(self, student: str) -> None:
         """RefusedError if the grader must not read the submission."""

@@ -17,6 +17,7 @@ from autograder.lms.marks import lateness as lateness_in_words
 from autograder.nbgrader_glue.agreement import of_gradebook
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.late import Lateness, seconds_late, settle_one
+from autograder.nbgrader_glue.locked import patiently
 from autograder.notebook.suggestion import suggestion_of
 from autograder.terminal import say
 
@@ -42,15 +43,15 @@ class Rows:
     """
 
     def __init__(self, url: str, course: str, assignment: str, lateness: Lateness | None = None):
-        self._gradebook = api.Gradebook(url, course)
+        self._gradebook = patiently(lambda: api.Gradebook(url, course))
         self._db = self._gradebook.db
         self._lateness = lateness
         try:
-            self._read_cells(assignment)
+            patiently(lambda: self._read_cells(assignment), self._db.rollback)
         except BaseException:
             self.close()
             raise
-        self._students = set(self._db.scalars(select(api.Student.id)))
+        self._students = self._known()
 
     def close(self) -> None:
         self._gradebook.close()
@@ -100,10 +101,15 @@ class Rows:
     def record(
         self, student: str, timestamp: datetime | None, graded: NotebookNode, unchanged: Set[str]
     ) -> Standing:
-        """Enter a submission and its scores, and commit them.
+        """Enter a submission and its scores, and commit them. BusyError if the gradebook stays locked.
 
         unchanged: the cells whose answers have not changed since they were last graded.
         """
+        return patiently(lambda: self._recorded(student, timestamp, graded, unchanged), self.forget)
+
+    def _recorded(
+        self, student: str, timestamp: datetime | None, graded: NotebookNode, unchanged: Set[str]
+    ) -> Standing:
         submission, notebook, grades, comments = self.enter(student, timestamp)
         grade_of = {self._names[grade.cell_id]: grade for grade in grades}
         comment_of = {self._names[comment.cell_id]: comment for comment in comments}
@@ -131,10 +137,19 @@ class Rows:
         notebook.late_submission_penalty = self._late_penalty(student, submission, notebook.id)
         self._db.flush()
         standing = self._standing(submission, notebook, grades, comments)
-        self.commit()
+        self._commit()
         return standing
 
-    def commit(self) -> None:
+    def enter_alone(self, student: str, timestamp: datetime | None) -> None:
+        """Enter a submission without scores, and commit it. BusyError as in `record`."""
+
+        def work() -> None:
+            self.enter(student, timestamp)
+            self._commit()
+
+        patiently(work, self.forget)
+
+    def _commit(self) -> None:
         self._db.commit()
         self._db.expunge_all()  # so that the last submission takes no longer than the first one
 
@@ -142,10 +157,16 @@ class Rows:
         """Drop what was not committed, after an error."""
         self._db.rollback()
         self._db.expunge_all()
-        self._students = set(self._db.scalars(select(api.Student.id)))
+        self._students = self._known()
+
+    def _known(self) -> set[str]:
+        return patiently(lambda: set(self._db.scalars(select(api.Student.id))), self._db.rollback)
 
     def standings(self) -> dict[str, Standing]:
         """What the gradebook holds, by student."""
+        return patiently(self._read_standings, self._db.rollback)
+
+    def _read_standings(self) -> dict[str, Standing]:
         mine = api.SubmittedNotebook.notebook_id == self._notebook
         rows: dict[type, dict[str, list]] = {}
         for table in (api.Grade, api.Comment):

@@ -10,6 +10,7 @@ import nbformat
 from nbformat import NotebookNode
 from nbgrader import utils
 
+from autograder.nbgrader_glue import times
 from autograder.notebook.beside import DEFINES, Beside, choose
 from autograder.notebook.recognise import Likeness, likeness
 from autograder.problems import own_checks
@@ -19,8 +20,8 @@ from autograder.protocol import one_line
 MOST_LOOKED_AT = 20
 MOST_BYTES = 32 << 20
 MOST_NAMES = 5
-# What nbgrader's exchange puts beside each submission.
-OF_THE_EXCHANGE = ("timestamp.txt", "submission_secret.txt")
+# What nbgrader's exchange puts beside each submission, and what we put beside that.
+OF_THE_EXCHANGE = (times.FILE, times.ORIGINAL, "submission_secret.txt")
 UNREADABLE = Likeness(known=False, answered=True)
 
 

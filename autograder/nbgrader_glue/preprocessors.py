@@ -14,7 +14,7 @@ from traitlets import Float, Unicode
 
 from autograder.files import put_in_place
 from autograder.marking.kept import Kept, KeptError, counting
-from autograder.nbgrader_glue import handed_in
+from autograder.nbgrader_glue import handed_in, times
 from autograder.nbgrader_glue.items import ROWS, UNREAD
 from autograder.nbgrader_glue.kept_editions import kept
 from autograder.notebook.beside import Beside
@@ -91,7 +91,9 @@ class RepairCells(FromSource):
 
     def preprocess(self, nb, resources):
         names, source = resources["nbgrader"], self.source_of(resources)
-        _, notes = handed_in.counted(self.submitted(names), names["notebook"], source)
+        folder = self.submitted(names)
+        _, notes = handed_in.counted(folder, names["notebook"], source)
+        notes = [*filter(None, [times.note(folder)]), *notes]
         documents = self.beside(names).documents
         nb, notes = repair(nb, source, notes, documents, self.earlier(names))
         _warn(self.log, names["student"], notes)

@@ -13,7 +13,7 @@ from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.nbgrader_glue.regrading import Regrading
 from autograder.nbgrader_glue.source import UnsoundError, refuse_unsound, tell
 from autograder.nbgrader_glue.start import can_start
-from autograder.nbgrader_glue.submitted import RefusedError, check
+from autograder.nbgrader_glue.submitted import RefusedError, check, timestamp
 from autograder.notebook.version import other_version
 from autograder.sandbox.room import Room
 
@@ -36,6 +36,7 @@ class SubmissionExporter(NotebookExporter):
             self._agree()
             self.regrading = Regrading(self.parent)
         for folder, notebooks in getattr(self.parent, "assignments", {}).items():
+            self._read_time(Path(folder))
             name = self._course.assignment_id
             if (
                 f"{name}.ipynb" not in map(os.path.basename, notebooks)
@@ -71,6 +72,14 @@ class SubmissionExporter(NotebookExporter):
     def _course(self):
         assert self.parent is not None  # `autograde` makes the exporter
         return self.parent.coursedir
+
+    def _read_time(self, folder: Path) -> None:
+        """Have nbgrader find a time that it can read, or none."""
+        try:
+            self._check(folder)
+            timestamp(folder)
+        except (OSError, RefusedError) as error:
+            self.log.warning("%s: %s", folder, error)
 
     def _look_for(self, folder: Path, name: str, notebooks: list[str]) -> None:
         try:

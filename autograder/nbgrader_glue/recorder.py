@@ -156,8 +156,7 @@ class Recorder:
                 timestamp = self._folders.timestamp(student)
             except RefusedError:
                 timestamp = None
-            self._rows.enter(student, timestamp)
-            self._rows.commit()
+            self._rows.enter_alone(student, timestamp)
         self._folders.remove(student)
 
     def forget(self) -> None:

@@ -10,6 +10,8 @@ from traitlets.config import Config, PyFileConfigLoader
 from autograder.files import put_in_place
 from autograder.nbgrader_glue.kept_editions import keep
 
+PLAIN = "assignment"  # a name that is no pattern
+
 
 def configuration(root: Path) -> Config:
     """The settings of nbgrader_config.py in the course's folder."""
@@ -31,7 +33,7 @@ def generate(root: Path, assignment: str, course: Path, log: logging.Logger | No
     """Make a course with only this assignment, and return the folder of the student version in it.
 
     course: an empty folder. log: where nbgrader writes what it does. The real course does not serve, as
-    its path may contain what nbgrader takes for a pattern.
+    its path, and the assignment's name, may contain what nbgrader takes for a pattern.
     """
     from nbgrader.converters import GenerateAssignment  # takes seconds
     from nbgrader.coursedir import CourseDirectory
@@ -39,14 +41,14 @@ def generate(root: Path, assignment: str, course: Path, log: logging.Logger | No
     config = configuration(root)
     own = CourseDirectory(config=config)
     shutil.copytree(
-        own.format_path(own.source_directory, ".", assignment), course / "source" / assignment
+        own.format_path(own.source_directory, ".", assignment), course / "source" / PLAIN
     )
-    config.CourseDirectory = Config(root=str(course), assignment_id=assignment)
+    config.CourseDirectory = Config(root=str(course), assignment_id=PLAIN)
     config.GenerateAssignment.no_database = True
     config.SaveCells.enabled = False
     more = {} if log is None else {"log": log}
     GenerateAssignment(coursedir=CourseDirectory(config=config), config=config, **more).start()
-    return course / "release" / assignment
+    return course / "release" / PLAIN
 
 
 def _copy_new(folder: Path, to: Path) -> None:

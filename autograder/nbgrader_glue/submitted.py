@@ -5,6 +5,7 @@ import stat
 from datetime import datetime
 from pathlib import Path
 
+from autograder.nbgrader_glue import times
 from autograder.protocol import one_line
 
 
@@ -47,18 +48,15 @@ def _check_entry(path: Path, shown: str, folder: Path) -> None:
         raise RefusedError(f"{shown} is a folder: {again}")
 
 
-def timestamp(course, folder: Path) -> datetime | None:
+def timestamp(folder: Path) -> datetime | None:
     """When a submission was handed in, in UTC; None if that is not known.
 
-    RefusedError if its timestamp.txt holds no time.
+    RefusedError if its timestamp.txt holds no time, and cannot be put aside.
     """
-    path = folder / "timestamp.txt"
     try:
-        if path.is_file() or not os.path.lexists(path):
-            return course.get_existing_timestamp(str(folder))
-    except Exception:  # nbgrader fails while it reports the error
-        pass
-    raise RefusedError(
-        "timestamp.txt holds no time, such as 2025-01-31 23:59:59 UTC: "
-        "put the time of the submission into it, or delete it"
-    )
+        return times.of(folder)
+    except OSError as error:
+        raise RefusedError(
+            f"{times.FILE} cannot be read, or written as {times.AS} ({error.strerror}): "
+            "put the time of the submission into it, or delete it"
+        ) from None

@@ -19,12 +19,13 @@ from autograder.notebook.editions import Edition
 from autograder.notebook.own_arm import drawn_for
 from autograder.notebook.plain_tests import Outcome, by_value, checks_called, plain_test, with_test
 from autograder.notebook.recognise import grade_id, known_cells
-from autograder.notebook.released import is_as_released
+from autograder.notebook.released import essence, is_as_released
 from autograder.notebook.repair import repair
 from autograder.notebook.sitting import Sitting
 from autograder.problems import check_for, own_checks
 from autograder.proofs import derivation_of, mark
 from autograder.proofs.marks import Marked
+from autograder.protocol import Call, Reply
 from autograder.sandbox.room import Room
 from autograder.terminal import shown_name, shown_note
 
@@ -33,19 +34,23 @@ log = logging.getLogger(__name__)
 NOTHING = Beside()
 # Of the points of an answer that follows from a wrong one, where a course chooses nothing else.
 CARRIED_ON = 0.5
+UNCERTAIN = "a clock and not the limit on processor time stopped"
+MOST_NAMED = 3
 
 
 @dataclass(frozen=True)
 class Graded:
     """A judged notebook: its cells with the outputs of this run, a verdict for each grade cell by
     grade_id, and notes for the instructor on what was put right. marks: the marked derivations of
-    each answer that a person reads, by its grade_id.
+    each answer that a person reads, by its grade_id. uncertain: whether a clock ended something, and not
+    the limit on processor time; on a machine with more time, the verdicts may be others.
     """
 
     notebook: NotebookNode
     verdicts: dict[str, Verdict]
     notes: tuple[str, ...]
     marks: dict[str, list[Marked]] = field(default_factory=dict)
+    uncertain: bool = False
 
 
 def grade(
@@ -93,8 +98,7 @@ def _graded(submission, source, seed, beside, said, student, earlier, carried_on
         if laid := examples.prelude(notebook, drawn.own if drawn else None, beside.mechanisms):
             sitting.run(laid)
 
-        def ask(calls):
-            return [beside.explained(reply) for reply in sitting.ask(calls)]
+        ask = _Asking(sitting, beside)
 
         def tested(text: str) -> Outcome:
             return Outcome.read(sitting.run(text, is_students=False), beside) if text else Outcome()
@@ -102,7 +106,7 @@ def _graded(submission, source, seed, beside, said, student, earlier, carried_on
         def check_known(id):
             return check_for(id, drawn.own if drawn else None, beside.mechanisms)
 
-        known, answers = known_cells(source), []
+        known, given, answers = known_cells(source), _essences(source), []
         for cell in notebook.cells:
             if cell.cell_type != "code":
                 continue
@@ -110,15 +114,15 @@ def _graded(submission, source, seed, beside, said, student, earlier, carried_on
                 answers.append(cell)
             cell.outputs, cell.execution_count = [], None
             if not is_judged(cell):
-                cell.outputs = allowance.shown(sitting.run(cell.source))
+                cell.outputs = allowance.shown(sitting.run(cell.source, own=_is_own(cell, given)))
                 cell.outputs += _explanations(cell.outputs, beside)
                 if drawn is not None and grade_id(cell) == drawn.set_up.cell:
                     cell.outputs.append(drawn.shown)
                 if derivation := derivation_of(grade_id(cell) or ""):
                     # Nothing else: what a cell prints may look like the card.
                     cell.outputs = [out for out in cell.outputs if out.output_type == "error"]
-                    given = sitting.lines_of(derivation.id)
-                    marked = mark(derivation, given, stream(seed, derivation.id))
+                    handed_in = sitting.lines_of(derivation.id)
+                    marked = mark(derivation, handed_in, stream(seed, derivation.id))
                     cell.outputs.append(outputs.of_marks(marked))
                     marks.setdefault(derivation.cell, []).append(marked)
                 continue
@@ -130,7 +134,7 @@ def _graded(submission, source, seed, beside, said, student, earlier, carried_on
                 check, problem = None, str(error)
             if check is not None:
                 states = {id: judged.state for id, judged in verdicts.items()}
-                carrying = Carrying(check_known, carried_on, states, sitting.spent)
+                carrying = Carrying(check_known, carried_on, states, sitting.seconds)
                 verdict = check.run(ask, stream(seed, name), HIDDEN_CASES, carrying)
                 verdict = sitting.naming_an_earlier(check, verdict)
                 done = tested(plain_test(cell.source, name))
@@ -149,7 +153,32 @@ def _graded(submission, source, seed, beside, said, student, earlier, carried_on
                 log.error("%s: %s", shown_name(name), shown_note(verdict.problem))
                 notes.append(f"{name} could not be judged: {verdict.problem}")
             verdicts[name] = verdict.returned()
-    return Graded(notebook, verdicts, tuple(notes), marks)
+    if sitting.uncertain:
+        what = ", ".join(sitting.uncertain[:MOST_NAMED])
+        notes.append(f"{UNCERTAIN} {what}{' …' if len(sitting.uncertain) > MOST_NAMED else ''}")
+    return Graded(notebook, verdicts, tuple(notes), marks, bool(sitting.uncertain))
+
+
+class _Asking:
+    """Asks a sitting; `seconds` is the processor time of the notebook so far."""
+
+    def __init__(self, sitting: Sitting, beside: Beside):
+        self._sitting, self._beside = sitting, beside
+
+    def __call__(self, calls: list[Call]) -> list[Reply]:
+        return [self._beside.explained(reply) for reply in self._sitting.ask(calls)]
+
+    def seconds(self) -> float:
+        return self._sitting.seconds()
+
+
+def _essences(source: NotebookNode) -> set[str]:
+    return {essence(cell.source) for cell in source.cells} | set(known_cells(source))
+
+
+def _is_own(cell: NotebookNode, given: set[str]) -> bool:
+    """Whether a cell is neither one of the source's graded cells nor the same as another of its."""
+    return grade_id(cell) not in given and essence(cell.source) not in given
 
 
 def _explanations(shown, beside) -> list[NotebookNode]:

@@ -30,8 +30,9 @@ def judge(
     """Grade a notebook, and give its cells with outputs that nbgrader can read.
 
     earlier: the editions of the problem that students may have, as JSON, the newest first.
-    The result holds notebook, states, notes, certain (whether every check could judge) and code, which
-    shows whether a worker has other code; or refused (why the file cannot be graded) and code.
+    The result holds notebook, states, notes, graded (whether every check could judge), certain (whether
+    it would do so again, on a busy machine too) and code, which shows whether a worker has other code;
+    or refused (why the file cannot be graded) and code.
     """
     try:
         with warnings.catch_warnings():
@@ -76,7 +77,8 @@ def _judged(
         "notebook": notebook,
         "states": [state.value for state in states],
         "notes": [*notes, *graded.notes],
-        "certain": State.CHECK_FAILED not in states,
+        "graded": State.CHECK_FAILED not in states,
+        "certain": State.CHECK_FAILED not in states and not graded.uncertain,
     }
 
 

@@ -24,6 +24,7 @@ from .readings import (
     read_numbers,
     read_parts,
 )
+from .waiting import Stopwatch
 from .words import shortened
 
 # Of the processor's time. A browser's Python is slower, and knows only the time that passes.
@@ -104,16 +105,16 @@ def _answer(call: Call, namespace: Mapping) -> Reply:
     if not callable(function):
         return Reply(fault=Fault(FaultKind.NOT_CALLABLE, type(function).__name__))
     given: list = []
-    started, clock = time.process_time(), time.monotonic()
+    watch = Stopwatch()
     reply = _called(call, function, given, CALL_SECONDS)
     if not reply.fault and riddles.uses_caret(function):
         reply = replace(reply, caret=True)
     changes = () if reply.fault else _changes(call.args, given)
     # Both calls together get the time of one, so that the judge waits no longer for the reply.
-    took = max(time.process_time() - started, (time.monotonic() - clock) / PATIENCE)
+    took = watch.seconds(PATIENCE)
     if not (reply.fault or is_finite(reply.value)) and took < QUICK:
         reply = replace(reply, cause=_cause(call, function, QUICK - took))
-        took = max(time.process_time() - started, (time.monotonic() - clock) / PATIENCE)
+        took = watch.seconds(PATIENCE)
     if not changes:
         return reply
     again = _called(call, function, given, max(CALL_SECONDS - took, 0.01))
@@ -143,7 +144,7 @@ def _closed(namespace: Mapping, names: tuple[str, ...]) -> Iterator[None]:
 def _called(call: Call, function: Callable, given: list, seconds: float) -> Reply:
     """One call with the arguments in `given`; an empty list gets new ones first."""
     try:
-        with time_limit(seconds), warnings.catch_warnings(), np.errstate(all="ignore"):
+        with warnings.catch_warnings(), np.errstate(all="ignore"), time_limit(seconds):
             warnings.simplefilter("ignore")
             given += [] if given else map(real, call.args)
             result = function(*given)
@@ -170,7 +171,7 @@ def _cause(call: Call, function: Callable, seconds: float) -> causes.Cause | Non
     """Where in the function a number comes up that is not finite."""
     found: list[causes.Cause] = []
     try:
-        with time_limit(seconds), causes.heard() as found:
+        with causes.heard() as found, time_limit(seconds):
             function(*map(real, call.args))
     except (Exception, SystemExit, TimeLimitError):
         pass  # what was heard until then

@@ -221,7 +221,9 @@ class RoomShell(InteractiveShell):
         try:
             return self._loop.run_until_complete(task)
         finally:
-            if not task.done():  # at its time limit: it must not go on while the next cell runs
+            # At its time limit: it must not go on while the next cell runs.
+            if not task.done() or self._loop.is_running():
+                asyncio._set_running_loop(None)
                 self._abandoned.append((self._loop, task))
                 self._loop = None
 
