@@ -14,8 +14,7 @@ import numpy as np
 
 from autograder.protocol import Call, Fault, FaultKind, Reply
 
-# All steps of a check's loops together may take so long on the clock, s. On a busy machine each step of
-# honest code waits for its turn some 20 ms.
+# All steps of a check's loops together may use so much of the processor's time, s.
 LONGEST = 30.0
 
 
