@@ -45,9 +45,13 @@ c.Exchange.assignment_dir = str(problems)
 c.ExchangeFetchAssignment.replace_missing_files = True
 
 c.GenerateAssignment.preprocessors = nbgrader_glue.generate_preprocessors()
+c.GenerateAssignment.exporter_class = nbgrader_glue.RELEASE_EXPORTER
 c.Autograde.sanitize_preprocessors = nbgrader_glue.sanitize_preprocessors()
 c.Autograde.autograde_preprocessors = nbgrader_glue.autograde_preprocessors()
 c.Autograde.exporter_class = nbgrader_glue.SUBMISSION_EXPORTER
+# The right gradient of one's own wrong P is a wrong g, but no second mistake. It gets this share of its
+# points: 0 for none, 1 for all. The card says so either way.
+c.Judge.carried_on = 0.5
 c.GenerateFeedback.preprocessors = nbgrader_glue.feedback_preprocessors()
 c.GenerateFeedback.exporter_class = nbgrader_glue.FEEDBACK_EXPORTER
 # The formgrader's pages and the feedback pages hold their formulas and pictures, and ask nothing of

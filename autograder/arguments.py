@@ -30,6 +30,12 @@ def scheduler(text: str) -> str:
     return text
 
 
+def port(text: str) -> int:
+    if not re.fullmatch(r"\d{1,5}", text) or not 1024 <= int(text) <= 65535:
+        raise ArgumentTypeError(f"{text!r} is no port from 1024 to 65535, such as 8899")
+    return int(text)
+
+
 def time(text: str) -> datetime:
     """A time, with its zone."""
     try:

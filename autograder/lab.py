@@ -41,7 +41,7 @@ def lab(arguments: list[str]) -> int:
     """
     root = Path.cwd()
     if not (root / "lessons").is_dir():
-        if not HANDED_OUT.is_dir():
+        if not (HANDED_OUT / "lessons").is_dir():
             return _fail(
                 f"there is no lessons/ in {root}; change to the course's folder and try again"
             )
@@ -139,7 +139,7 @@ def _settings(root: Path, state: Path, opens: str) -> list[str]:
     ]
     if hasattr(os, "geteuid") and os.geteuid() == 0:
         settings.append("--allow-root")
-    if not _has_display():
+    if not has_display():
         settings.append("--no-browser")
     return settings
 
@@ -153,7 +153,8 @@ def _address(server: "ServerApp") -> str:
     return address
 
 
-def _has_display() -> bool:
+def has_display() -> bool:
+    """Whether a browser can open a window here."""
     if not sys.platform.startswith("linux"):
         return True
     return any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"))

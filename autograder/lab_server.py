@@ -23,6 +23,7 @@ NOT_FOR_STUDENTS = (
     "Makefile",
     "README.md",
     "SECURITY.md",
+    "archive",
     "armdyn.egg-info",
     "armdyn.json",
     "autograder",

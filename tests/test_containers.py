@@ -5,7 +5,9 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tomllib
+import zipfile
 from fnmatch import fnmatch
 from pathlib import Path
 
@@ -39,7 +41,8 @@ class Stage:
             to = to / source.name if target.endswith("/") else to
             to.parent.mkdir(parents=True, exist_ok=True)
             if source.is_dir():
-                shutil.copytree(source, to, dirs_exist_ok=True, ignore=ignored)
+                outside = source.is_relative_to(ROOT)  # what an image has, it keeps
+                shutil.copytree(source, to, dirs_exist_ok=True, ignore=ignored if outside else None)
             else:
                 shutil.copy(source, to)
 
@@ -72,9 +75,14 @@ def built(path: Path, folder: Path) -> list[Stage]:
     for program in PROGRAMS:
         (stand_ins / program).write_text(f'#!/bin/sh\necho "{program} $*" >>"$TOLD"\n')
         (stand_ins / program).chmod(0o755)
-    # What it writes is known by its sources; here it is enough that it has been there.
+    # What it writes, other tests know; here it is enough that it has been there.
+    with zipfile.ZipFile(folder / "made.zip", "w") as archive:
+        for name in ("armdyn-1.0+0-py3-none-any.whl", "constraints.txt", "lessons/a", "problems/a"):
+            archive.writestr(f"armdyn/{name}", "")
     with (stand_ins / "autograder").open("a") as file:
-        file.write('[ "$1" = problems ] && mkdir -p problems && touch problems/made\n')
+        file.write(f'[ "$1 $2" = "bundle --to" ] && mkdir -p "$3" && cp {folder}/made.zip "$3"\n')
+    with (stand_ins / "python").open("a") as file:
+        file.write(f'[ "$2" != zipfile ] || exec {sys.executable} "$@"\n')
     stages: dict[str, Stage] = {}
     for number, (instruction, given) in enumerate(steps(path)):
         if instruction == "FROM":
@@ -85,7 +93,7 @@ def built(path: Path, folder: Path) -> list[Stage]:
             *sources, target = re.sub(r"--\w+=\S+ ", "", given).split()
             origin = stages[options["from"]] if "from" in options else None
             found = [origin.here(s) if origin else ROOT / s for s in sources]
-            stage.copy([path for path in found if "/usr/local" not in str(path)], target)
+            stage.copy(found, target)
         elif instruction == "RUN":
             stage.run(given, stand_ins)
         elif instruction == "WORKDIR":
@@ -110,8 +118,10 @@ def test_there_is_one_for_students_and_one_for_graders():
 
 def test_what_is_installed_is_pinned_and_the_user_is_not_root(image):
     _, stages = image
-    (install,) = [line for stage in stages for line in stage.ran if line.startswith("python")]
-    assert install.startswith("python -m pip install --no-cache-dir -c constraints.txt .[")
+    installed = [line for stage in stages for line in stage.ran if line.startswith("python -m pip")]
+    assert installed
+    for install in installed:
+        assert install.startswith("python -m pip install --no-cache-dir -c constraints.txt .")
     assert stages[-1].user != "root"
     assert any(f"useradd --create-home --uid 1000 {stages[-1].user}" == r for r in stages[-1].ran)
 
@@ -129,11 +139,13 @@ def test_a_students_image_holds_no_solution_and_nothing_of_the_class(image):
     assert not [file for file in files if "solutions" in file or "/course/course" in file]
     if name == "students":
         course = stages[-1].here(".")
+        (wheel,) = course.glob("*.whl")
         assert {path.name for path in course.iterdir()} == {
-            *("nbgrader_config.py", "lessons", "problems")
+            *(wheel.name, "constraints.txt", "lessons", "problems")
         }
-        assert (course / "problems" / "made").exists()
-        assert (course / "lessons" / "00-start-here.ipynb").exists()
+        (install,) = [line for line in stages[-1].ran if line.startswith("python")]
+        assert install.endswith(f" ./{wheel.name}[lab]")
+        assert not [file for file in files if file.startswith(("usr/local", "course"))]
         assert stages[-1].command[:2] == ["autograder", "lab"]
 
 
@@ -148,5 +160,5 @@ def test_the_graders_have_the_sandboxs_program_and_work_where_the_course_is_moun
 def test_peoples_work_stays_out_of_the_build():
     work = (ROOT / ".gitignore").read_text(encoding="utf-8").partition("never commit")[2]
     folders = re.findall(r"^/(\w+)/$", work, re.M)
-    assert len(folders) == 3
+    assert len(folders) == 4
     assert set(folders) <= set(IGNORED)

@@ -12,6 +12,8 @@ from autograder.cli import main
 from autograder.mechanisms import MECHANISMS
 from autograder.mechanisms.file import mechanism_of
 from autograder.mutation.checks import check_of
+from autograder.problems import check_for
+from tests.autograder.verdicts import judged_by
 
 ROOT = Path(__file__).parents[1]
 README = ROOT / "README.md"
@@ -57,14 +59,19 @@ def test_every_command_that_a_guide_shows_is_one(program):
 
 
 def test_feedback_reaches_students_by_the_commands_of_the_readme():
-    commands = re.findall(r"^nbgrader (\w+)", README.read_text(encoding="utf-8"), re.M)
-    steps = ["generate_assignment", "release_assignment", "collect", "autograde"]
-    assert commands == [*steps, "generate_feedback", "release_feedback", "export"]
+    commands = re.findall(
+        r"^(?:nbgrader|autograder) (\w+)", README.read_text(encoding="utf-8"), re.M
+    )
+    shown = ["problems", "lab"]
+    assert [one for one in commands if one not in shown] == [
+        *("generate_assignment", "release_assignment", "collect", "grade"),
+        *("generate_feedback", "release_feedback", "export", "archive"),
+    ]
 
 
 def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
     guide = (ROOT / "docs" / "own-problem.md").read_text(encoding="utf-8")
-    example, sentences, ways_on, changed = re.findall(r"```python\n(.*?)```", guide, re.S)
+    example, sentences, ways_on, changed, mistakes = re.findall(r"```python\n(.*?)```", guide, re.S)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "lessons").symlink_to(ROOT / "lessons")
     given = re.findall(r"`(?:Mechanism` also `)?((?:\w+=[A-Z]+(?:, )?)+)`", guide)
@@ -77,6 +84,10 @@ def test_the_mechanism_of_the_guide_is_tried(tmp_path, monkeypatch, capsys):
     for sentence in re.findall(r': "(.+)",', sentences):
         assert f"  {sentence}\n" in shown
     for name in MECHANISMS:
-        assert name in guide
+        assert name in guide, f"docs/own-problem.md does not list the mechanism {name}"
     cart = mechanism_of(changed, "cart-pole.py", "cart-pole")
     assert check_of(cart, "M").further in changed
+    files = {"checks/p3-pendulum.py": mistakes}
+    in_pounds = "0.4536 * pend.m * pend.g * pend.lc * np.sin(q)"
+    said = judged_by(check_for("p3-g_vec", None, files), in_pounds)
+    assert said.diagnosis[0] in mistakes

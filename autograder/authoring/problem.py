@@ -85,14 +85,14 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
             new_code_cell(
                 _answer(mechanism, answer, doc),
                 id=f"{name}-{answer}-answer",
-                metadata=_cell(f"answer-{answer}", solution=True),
+                metadata=cell_of(f"answer-{answer}", solution=True),
             ),
             new_code_cell(
                 f"# Checks {ANSWERS[answer].signature} at random positions of random mechanisms.\n"
                 f'check("{name}-{answer}")\n### BEGIN HIDDEN TESTS\n'
                 f'check("{name}-{answer}", fresh=True)\n### END HIDDEN TESTS',
                 id=f"{name}-{answer}-check",
-                metadata=_cell(f"{name}-{answer}", locked=True, grade=True, points=points),
+                metadata=cell_of(f"{name}-{answer}", locked=True, grade=True, points=points),
             ),
         ]
     if has_proof:
@@ -104,6 +104,11 @@ def notebook(mechanism: Mechanism, asks: list[str]) -> nbformat.NotebookNode:
             id=f"{name}-end",
         ),
     ]
+    return as_notebook(cells)
+
+
+def as_notebook(cells: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:
+    """A notebook of these cells, for every student's Python."""
     kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
     return new_notebook(
         cells=cells, metadata={"kernelspec": kernel, "language_info": {"name": "python"}}
@@ -122,7 +127,7 @@ def _proof(name: str, letter: str, friction: bool) -> list[nbformat.NotebookNode
             new_code_cell(
                 lines.answer,
                 id=f"{lines.id}-answer",
-                metadata=_cell(f"answer-{lines.id}", solution=True),
+                metadata=cell_of(f"answer-{lines.id}", solution=True),
             ),
             new_code_cell(lines.call, id=f"{lines.id}-lines", metadata=_locked(lines.id)),
         ]
@@ -131,7 +136,7 @@ def _proof(name: str, letter: str, friction: bool) -> list[nbformat.NotebookNode
         new_markdown_cell(
             f"### BEGIN SOLUTION\n{proof.text_of(friction)}\n### END SOLUTION",
             id=f"{name}-proof",
-            metadata=_cell(f"{name}-proof", solution=True, grade=True, points=proof.POINTS),
+            metadata=cell_of(f"{name}-proof", solution=True, grade=True, points=proof.POINTS),
         ),
     ]
 
@@ -200,10 +205,11 @@ def _answer(mechanism: Mechanism, answer: str, doc: str) -> str:
 
 
 def _locked(grade_id: str) -> dict:
-    return _cell(grade_id, locked=True)
+    return cell_of(grade_id, locked=True)
 
 
-def _cell(grade_id: str, *, solution=False, locked=False, grade=False, points=None) -> dict:
+def cell_of(grade_id: str, *, solution=False, locked=False, grade=False, points=None) -> dict:
+    """The metadata of a cell that nbgrader knows."""
     cell = {
         "grade": grade,
         "grade_id": grade_id,

@@ -11,7 +11,8 @@ from nbformat import NotebookNode
 
 from autograder.authoring.model_answer import model_answer
 from autograder.authoring.problem import notebook
-from autograder.judging.check import HIDDEN_CASES
+from autograder.judging.carried.judge import Carrying
+from autograder.judging.check import HIDDEN_CASES, Check
 from autograder.judging.verdict import State, Verdict
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS
@@ -19,7 +20,7 @@ from autograder.mutation.checks import check_of
 from autograder.mutation.operators import OF_ENERGIES, rewritings
 from autograder.mutation.trial import Line, nothing_to_ask
 from autograder.notebook.beside import Beside
-from autograder.notebook.grade import grade
+from autograder.notebook.grade import CARRIED_ON, grade
 from autograder.proofs import card
 from autograder.protocol.calls import answer_all
 
@@ -99,9 +100,11 @@ def mistaken(
         graded = grade(_with(source, bodies), source, "rehearsal", Beside(mechanisms=files))
         said: list[str] = []
         differ: list[str] = []
-        for answer, body in bodies.items():
-            expected = _judged_here(mechanism, answer, body)
-            got = graded.verdicts[f"{mechanism.name}-{answer}"]
+        namespace = _namespace(bodies)
+        states: dict[str, State] = {}
+        for id, got in graded.verdicts.items():
+            expected = _judged_here(mechanism, id.rpartition("-")[2], namespace, states)
+            states[id] = expected.state
             said += got.diagnosis
             if (got.state, got.diagnosis) != (expected.state, expected.diagnosis):
                 differ.append(f"{got}\n  where it should be:\n{expected}")
@@ -141,13 +144,25 @@ def _derived(wrong: Mechanism, answer: str, mechanism: Mechanism) -> list[str]:
         return model_answer(mechanism, answer)
 
 
-def _judged_here(mechanism: Mechanism, answer: str, body: Sequence[str]) -> Verdict:
-    """The verdict on a function with this body, which is ours, without a sandbox."""
+def _namespace(bodies: Mapping[str, Sequence[str]]) -> dict:
+    """Functions with these bodies, which are ours."""
     namespace: dict = {"np": np}
-    exec(_function(answer, body), namespace)
+    for answer, body in bodies.items():
+        exec(_function(answer, body), namespace)
+    return namespace
+
+
+def _judged_here(
+    mechanism: Mechanism, answer: str, namespace: dict, states: Mapping[str, State]
+) -> Verdict:
+    """The verdict on one of these functions, without a sandbox. states: of those before it."""
+
+    def known(id: str) -> Check:
+        return check_of(mechanism, id.rpartition("-")[2])
 
     ask = partial(answer_all, namespace=namespace)
-    return check_of(mechanism, answer).run(ask, np.random.default_rng(1), HIDDEN_CASES)
+    carrying = Carrying(known, CARRIED_ON, states)
+    return known(f"-{answer}").run(ask, np.random.default_rng(1), HIDDEN_CASES, carrying)
 
 
 def _function(answer: str, body: Sequence[str]) -> str:

@@ -5,10 +5,10 @@ function of the names that it has from around it: `_made_2(ids)` gives the lambd
 """
 
 import ast
-import inspect
-import sys
 from functools import cache
 from types import CodeType, FunctionType
+
+from autograder.bundle.shaking import source_of
 
 
 class Makers:
@@ -72,4 +72,4 @@ def _is_in(place: tuple[int, int], node) -> bool:
 
 @cache
 def _tree(module: str) -> ast.Module:
-    return ast.parse(inspect.getsource(sys.modules[module]))
+    return ast.parse(source_of(module))

@@ -5,8 +5,8 @@ A module is in the package as it is, or in parts (`shaking`), or another one sta
 """
 
 import json
-from collections.abc import Iterable, Iterator
-from pathlib import Path
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path, PurePosixPath
 
 import autograder
 from autograder import lesson_checks
@@ -15,7 +15,7 @@ from autograder.bundle.makers import Makers
 from autograder.bundle.shaking import Shaking, path_of
 from autograder.bundle.storing import in_numbers
 from autograder.judging.check import Check
-from autograder.problems import MODULES, families
+from autograder.problems import MODULES, families, own_checks
 from autograder.problems.material import given
 from autograder.problems.material.conventions import FAMILY
 
@@ -27,27 +27,39 @@ WHOLE = (
     *("__init__", "digest", "files", "hints_seen", "lab", "lab_server", "lean", "terminal"),
     *("worked_answers", "pictures/__init__", "lesson_checks/__init__", "lesson_checks/choice"),
     *("lesson_checks/number", "lesson_checks/typed", "problems/__init__", "problems/arm_card"),
-    *("problems/material/__init__", "problems/material/described"),
+    *("problems/material/__init__", "problems/material/described", "checks"),
+    *("nbgrader_glue/exchange/__init__", "nbgrader_glue/exchange/entered"),
+    "nbgrader_glue/exchange/students",
 )
 IN_PARTS = (
     "autograder.problems.",
     "autograder.lesson_checks.lesson_",
     "autograder.mutation.answers.",
+    f"{own_checks.PACKAGE}.",
 )
 CHECKS = '\nfrom autograder.stored.checks import checks\n\nCHECKS = checks("{name}")\n'
 START = "start_here"  # lesson 00 has its check
 
 
-def package(problems: Iterable[str], mechanisms: Iterable[Check] = ()) -> dict[str, bytes]:
+def _as_it_is(check: Check) -> Check:
+    return check
+
+
+def package(
+    problems: Iterable[str],
+    own: Iterable[Check] = (),
+    completed: Callable[[Check], Check] = _as_it_is,
+) -> dict[str, bytes]:
     """By its path in the wheel: each file.
 
-    problems: names of the problems' folders, as "p3_pendulum", whose checks can be asked. mechanisms:
-    the checks of problems about mechanisms. DescribingError, ShakingError where something of a check
-    cannot be stored.
+    problems: names of the problems' folders, as "p3_pendulum", whose checks can be asked. own: the
+    checks of problems about mechanisms, and those of the course's own. completed: gives a problem's
+    check the mistakes that the course adds to it. DescribingError, ShakingError where something of a
+    check cannot be stored.
     """
     files = dict(_whole())
     describing = Describing(Makers())
-    data = dict(_stored({START, *problems}, mechanisms, describing))
+    data = dict(_stored({START, *problems}, own, completed, describing))
     files |= {
         f"autograder/stored/data/{name}.json": json.dumps(of).encode() for name, of in data.items()
     }
@@ -73,7 +85,10 @@ def _files(folder: Path) -> list[Path]:
 
 
 def _stored(
-    problems: set[str], mechanisms: Iterable[Check], describing: Describing
+    problems: set[str],
+    own_ones: Iterable[Check],
+    completed: Callable[[Check], Check],
+    describing: Describing,
 ) -> Iterator[tuple[str, dict]]:
     """By their names: the files of the checks and of their numbers."""
 
@@ -91,13 +106,14 @@ def _stored(
 
     asked = [module for module in MODULES if _folder(module) in problems]
     for module in asked:
-        yield from stored(module.CHECKS, _folder(module))
-        for check in module.CHECKS:
+        checks = [completed(check) for check in module.CHECKS]
+        yield from stored(checks, _folder(module))
+        for check in checks:
             for own in FAMILY if check.id in families.OF_THE_ARM else ():
                 yield from stored([families.on(own, check)], f"{check.id}@{own.name}")
     for number in lesson_checks.numbers():
         yield from stored(lesson_checks.of_lesson(number).CHECKS, f"lesson_{number}")
-    yield from stored(mechanisms, "mechanisms")
+    yield from stored(own_ones, "mechanisms")
     short = {_folder(module).partition("_")[0] for module in asked}
     yield (
         "given",
@@ -116,6 +132,8 @@ def _in_parts(describing: Describing) -> Iterator[tuple[str, bytes]]:
     shaking = Shaking(lambda module: module.startswith(IN_PARTS), _has)
     for name in sorted(describing.names):
         shaking.need(*name.split(":"))
+    for known in MODULES:
+        shaking.need(known.__name__, "READ")
     for module in describing.makers.sources:
         shaking.need_source(module, describing.makers.written(module))
     of_checks = {module.__name__: _folder(module) for module in MODULES} | {
@@ -127,14 +145,11 @@ def _in_parts(describing: Describing) -> Iterator[tuple[str, bytes]]:
         if module in shaking.modules:
             source += f"{shaking.source(module)}\n\n\n{describing.makers.written(module)}"
         source += CHECKS.format(name=of_checks[module]) if module in of_checks else ""
-        path = path_of(module)
-        yield f"autograder/{path.relative_to(AUTOGRADER).as_posix()}", source.encode()
-        package = path.parent
-        while package != AUTOGRADER:
-            inside = (package / "__init__.py").relative_to(AUTOGRADER).as_posix()
-            if not _has(f"autograder.{inside[:-12].replace('/', '.')}"):
-                yield f"autograder/{inside}", b""  # it may import what holds answers
-            package = package.parent
+        path = PurePosixPath(*module.split("."))
+        yield f"{path}.py", source.encode()
+        for package in path.parents[:-2]:
+            if not _has(".".join(package.parts)):
+                yield f"{package}/__init__.py", b""  # it may import what holds answers
 
 
 def _has(module: str) -> bool:

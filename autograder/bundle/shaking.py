@@ -9,6 +9,7 @@ import builtins
 import dis
 import importlib.util
 from collections.abc import Callable
+from importlib.abc import InspectLoader
 from pathlib import Path
 from types import CodeType
 
@@ -94,7 +95,7 @@ class Shaking:
 
     def _tree(self, module: str) -> ast.Module:
         if module not in self._trees:
-            self._trees[module] = ast.parse(path_of(module).read_text(encoding="utf-8"))
+            self._trees[module] = ast.parse(source_of(module))
         return self._trees[module]
 
 
@@ -104,6 +105,18 @@ def path_of(module: str) -> Path:
     if spec is None or spec.origin is None:
         raise ModuleNotFoundError(module)
     return Path(spec.origin)
+
+
+def source_of(module: str) -> str:
+    """The text of a module, also of one that is made of a course's own file; ModuleNotFoundError where
+    there is none.
+    """
+    spec = importlib.util.find_spec(module)
+    loader = spec.loader if spec else None
+    source = loader.get_source(module) if isinstance(loader, InspectLoader) else None
+    if source is None:
+        raise ModuleNotFoundError(module)
+    return source
 
 
 def _is_module(name: str) -> bool:

@@ -1,7 +1,7 @@
 """Writes a check in numbers: what is asked, and what right answers and wrong models give."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -51,6 +51,8 @@ def _in_numbers(check: Check, name: str, describing: Describing) -> InNumbers:
         for own in ASKED
         if own not in left and (value := getattr(check, own)) is not defaults[own]
     }
+    if check.follows:  # how an answer follows from another would give it away
+        asked["follows"] = describing.of(tuple(replace(own, way=None) for own in check.follows))
     said = {"asked": asked, "numbers": name, "left_out": why, "mistakes": [], "generated": False}
     calls = visible_calls(check)
     if why:

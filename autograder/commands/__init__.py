@@ -4,11 +4,14 @@ What takes long to import is imported in `run`.
 """
 
 from autograder.commands import (
+    archive,
     bundle,
     collect_zip,
     export,
     forget,
     grade,
+    lti,
+    mark,
     new_problem,
     open_solution,
     problems,
@@ -20,11 +23,14 @@ from autograder.commands import (
 ALL = (
     problems,
     grade,
+    mark,
     report,
     open_solution,
     collect_zip,
     export,
+    lti,
     forget,
+    archive,
     bundle,
     try_mechanism,
     new_problem,

@@ -26,6 +26,11 @@ def add_to(commands) -> None:
         metavar="FOLDER",
         help="where to write it (default: build/)",
     )
+    bundling.add_argument(
+        "--package",
+        action="store_true",
+        help="write the student's package alone, for a class server: no lessons, no problems",
+    )
     bundling.set_defaults(run=run)
 
 
@@ -43,9 +48,13 @@ def run(root: Path, given: argparse.Namespace) -> int:
         if why := unknown(root, name):
             return complain(why)
     try:
-        made = write_bundle(root, names, root / given.to, write_problem)
+        made = write_bundle(root, names, root / given.to, write_problem, given.package)
     except (BundleError, DescribingError, ShakingError, MechanismFileError, OSError) as error:
         return complain(str(error))
+    if given.package:
+        say(f"{made.path}: written, with the checks of {', '.join(made.assignments)}.")
+        say("Install it where students work. It holds no answers to these problems.")
+        return 0
     say(f"{made.path}: written, with {', '.join(made.assignments)}.")
     say("Students unpack it and read START-HERE.txt. It holds no answers to these problems.")
     return 0

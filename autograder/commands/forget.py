@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from autograder.commands.saying import complain
+from autograder.commands.saying import agreed, complain
 from autograder.terminal import say, shown_name, shown_note
 
 
@@ -37,7 +37,7 @@ def run(root: Path, given: argparse.Namespace) -> int:
                 say(f"  {shown_note(trace.what)}")
             for path in mentions(root, student):
                 say(f"  {path.relative_to(root)} names the student, too, and will be left as it is")
-            if not given.yes and not _agreed("Remove all of it? It cannot be undone. [y/N] "):
+            if not given.yes and not agreed("Remove all of it? It cannot be undone. [y/N] "):
                 return complain("nothing was removed", 1)
             for trace in found:
                 trace.remove()
@@ -45,10 +45,3 @@ def run(root: Path, given: argparse.Namespace) -> int:
         return complain(str(error))
     say("Removed. Copies that you made elsewhere, and what the student fetched, are still there.")
     return 0
-
-
-def _agreed(question: str) -> bool:
-    try:
-        return input(question).strip().casefold() in ("y", "yes")
-    except EOFError:
-        return False

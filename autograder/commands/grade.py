@@ -1,12 +1,12 @@
 """Grades all submissions of an assignment."""
 
 import argparse
-import os
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from autograder import arguments as argument
+from autograder import processors
 from autograder.commands.assignments import name_of, unknown
 from autograder.commands.saying import complain
 from autograder.terminal import say
@@ -25,8 +25,8 @@ def add_to(commands) -> None:
     grading.add_argument(
         "--jobs",
         type=argument.processes,
-        default=os.cpu_count(),
-        help="number of processes (default: one per core)",
+        default=processors.usable(),
+        help="number of processes (default: one per processor that this machine or container may use)",
     )
     grading.add_argument(
         "--scheduler",

@@ -1,6 +1,7 @@
 """Writes a mechanism's problem."""
 
 import argparse
+import re
 from pathlib import Path
 
 from autograder import arguments as argument
@@ -10,12 +11,18 @@ from autograder.terminal import say
 
 def add_to(commands) -> None:
     new = commands.add_parser(
-        "new-problem", help="write the problem of a mechanism to solutions/, ready to be released"
+        "new-problem",
+        help="write the problem of a mechanism, or of checks of your own, to solutions/",
     )
     new.add_argument(
         "mechanism",
         type=argument.mechanism,
         help="its name, such as cart-pole; for a name that is new, its file to fill in is written",
+    )
+    new.add_argument(
+        "--checks",
+        action="store_true",
+        help="write checks/NAME.py to fill in, for checks or mistakes of your own, without a mechanism",
     )
     new.add_argument(
         "--asks",
@@ -27,12 +34,15 @@ def add_to(commands) -> None:
 
 
 def run(root: Path, given: argparse.Namespace) -> int:
-    """Write a mechanism's problem to solutions/, or first the file of a new mechanism."""
+    """Write a problem to solutions/, or first the file to fill in, of a mechanism or of checks."""
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.authoring.course import FillInError, NoMechanismError, own
+    from autograder.authoring.own_problem import checks_file
     from autograder.authoring.problem import ProblemError, usual_asks, write_problem
     from autograder.mechanisms.file import MechanismFileError
 
+    if given.checks or checks_file(root, given.mechanism).is_file():
+        return _of_checks(root, given)
     try:
         mechanism = own(root, given.mechanism)
         asked = usual_asks(mechanism) if given.asks is None else given.asks
@@ -46,4 +56,36 @@ def run(root: Path, given: argparse.Namespace) -> int:
     say("Read it, write the story at its top, and try it:")
     say(f"  autograder try {mechanism.name}")
     say(f"  nbgrader generate_assignment {mechanism.name}")
+    return 0
+
+
+def _of_checks(root: Path, given: argparse.Namespace) -> int:
+    """Write checks/NAME.py to fill in, or the notebook of the checks that it has."""
+    from autograder.authoring.own_problem import OwnChecksError, write_checks, write_own_problem
+    from autograder.authoring.problem import ProblemError
+
+    name = given.mechanism
+    if not re.fullmatch("[a-z0-9]+(-[a-z0-9]+)*", name):
+        return complain(
+            f"a problem's name has small letters, digits and hyphens, as crane-1; not {name!r}"
+        )
+    if given.asks is not None:
+        return complain(
+            "--asks is for a mechanism; what is asked here stands in the file of checks"
+        )
+    try:
+        if given.checks:
+            path = write_checks(root, name)
+            say(f"{path.relative_to(root)}: written, for you to fill in. Then run")
+            say(f"  autograder try {name}")
+            if not (root / "solutions" / name / f"{name}.ipynb").exists():
+                say(f"  autograder new-problem {name}")
+            return 0
+        path = write_own_problem(root, name)
+    except (OwnChecksError, ProblemError, OSError) as error:
+        return complain(str(error))
+    say(f"{path.relative_to(root)}: written.")
+    say("Write its story, its tasks and the model answers, set the points, and try it:")
+    say(f"  autograder try {name}")
+    say(f"  nbgrader generate_assignment {name}")
     return 0

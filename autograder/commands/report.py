@@ -6,7 +6,7 @@ from pathlib import Path
 from autograder import arguments as argument
 from autograder.commands.assignments import name_of, unknown
 from autograder.commands.saying import complain
-from autograder.terminal import say
+from autograder.terminal import say, shown_note
 
 
 def add_to(commands) -> None:
@@ -27,11 +27,14 @@ def run(root: Path, given: argparse.Namespace) -> int:
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.files import put_in_place
     from autograder.nbgrader_glue.class_list import read_class, read_term
+    from autograder.nbgrader_glue.late import settle_course
     from autograder.report import page, summary, term_page, term_summary
 
     assignment: str | None = given.assignment
     name = "term" if assignment is None else name_of(assignment)
     try:
+        for line in settle_course(root):
+            say(shown_note(line))
         if assignment is None:
             classes, left_out = read_term(root)
             for why in left_out:

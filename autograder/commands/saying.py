@@ -17,3 +17,11 @@ def to_be_looked_at(faults: list[str]) -> int:
     for fault in faults:
         say(f"  {shown_note(fault)}")
     return 1 if faults else 0
+
+
+def agreed(question: str) -> bool:
+    """Whether somebody at the terminal says yes."""
+    try:
+        return input(question).strip().casefold() in ("y", "yes")
+    except EOFError:
+        return False

@@ -1,4 +1,4 @@
-"""Tries the checks of a mechanism, as `autograder try`."""
+"""Tries the checks of a mechanism, or of the course's own, as `autograder try`."""
 
 import argparse
 from itertools import chain
@@ -12,12 +12,13 @@ from autograder.terminal import say
 def add_to(commands) -> None:
     trying = commands.add_parser(
         "try",
-        help="try the checks of a mechanism: right answers, every mistake, and what students read",
+        help="try the checks of a mechanism, or of checks/NAME.py: right answers, every mistake, and "
+        "what students read",
     )
     trying.add_argument(
         "mechanism",
         type=argument.mechanism,
-        help="its name, such as cart-pole, or a file with MECHANISM",
+        help="its name, such as cart-pole; a file with MECHANISM; or the name of a file in checks/",
     )
     trying.add_argument(
         "--asks", type=argument.answers, help="try these answers alone, as M,C (default: all)"
@@ -47,12 +48,15 @@ def run(root: Path, given: argparse.Namespace) -> int:
     from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.authoring.course import NoMechanismError, files_of, found
     from autograder.authoring.leads_on import led_on
+    from autograder.authoring.own_problem import checks_file
     from autograder.authoring.rehearsal import mistaken, rehearsed
     from autograder.files import put_in_place
     from autograder.mechanisms.file import MechanismFileError
     from autograder.mutation.answers import ANSWERS
     from autograder.mutation.trial import Line, Tried, summary, tried
 
+    if checks_file(root, given.mechanism).is_file():
+        return _of_checks(root, given.mechanism)
     try:
         mechanism = found(root, given.mechanism)
         files = files_of(root, given.mechanism, mechanism)
@@ -86,3 +90,19 @@ def run(root: Path, given: argparse.Namespace) -> int:
     if failed := sum(not line.good for line in shown if not line.detail):
         return complain(f"{failed} lines, marked with !, are not as they should be", 1)
     return 0
+
+
+def _of_checks(root: Path, name: str) -> int:
+    """Try checks/NAME.py."""
+    from autograder.authoring.own_problem import OwnChecksError, checks_file
+    from autograder.authoring.own_trial import tried
+
+    failed = 0
+    try:
+        text = checks_file(root, name).read_text(encoding="utf-8", errors="replace")
+        for line in tried(root, name, text):
+            say(line.text if line.good else f"! {line.text}")
+            failed += not line.good
+    except (OwnChecksError, OSError) as error:
+        return complain(str(error))
+    return complain(f"{failed} lines, marked with !, are not as they should be", 1) if failed else 0

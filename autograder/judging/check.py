@@ -5,22 +5,23 @@ function runs (`ask`) and in how many cases are drawn.
 """
 
 import math
-import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import chain
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from autograder.judging import changes, dependence, findings, verdict
 from autograder.judging.call_text import given_by
+from autograder.judging.carried.follows import Follows
 from autograder.judging.criterion import Criterion, errors_of, met_by
 from autograder.judging.diagnosis import Catalogue, Mistake, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
 from autograder.judging.given import Describe, Given, NoNumbersError, Reading
-from autograder.judging.loops import Loop, asked
+from autograder.judging.loops import Loop, asked, seconds_of
 from autograder.judging.models import Model, evaluated
 from autograder.judging.places import NOWHERE, place
 from autograder.judging.quantities import Numbers, Quantities, each, one_number
@@ -31,6 +32,9 @@ from autograder.judging.verdict import Row, State, Verdict, Witness
 from autograder.judging.witness import witness, worst_entry, wrong_places
 from autograder.judging.wrong_numbers import wrong_numbers
 from autograder.protocol import Call, FaultKind, Reply
+
+if TYPE_CHECKING:
+    from autograder.judging.carried.judge import Carrying
 
 VISIBLE_CASES = 6
 # A visible check tries the same cases each time, so that a student sees how an error changes.
@@ -60,6 +64,7 @@ class Check:
     lesson that prepares it. further: a sentence for whoever has the right answer, which leads on; true
     of every arm that is asked for. pose(call): the joints of the arm in a call, to be drawn beside the
     worst case. returns: what a student calls the returned array, "M", where not by the function's name.
+    follows: from which earlier answers it may be carried on; the first that holds counts.
 
     ValueError where the shares of the criteria do not add up to 1, or where two criteria have one
     text, two mistakes or terms one name, or two hints are the same.
@@ -79,6 +84,7 @@ class Check:
     further: str = ""
     pose: Callable[[Call], list] | None = None
     returns: str = ""
+    follows: tuple[Follows, ...] = ()
 
     def __post_init__(self):
         if not self.criteria:
@@ -106,8 +112,11 @@ class Check:
         """The name of the function."""
         return self.signature.partition("(")[0]
 
-    def run(self, ask: Ask, rng: np.random.Generator, count: int = VISIBLE_CASES) -> Verdict:
-        """Try the student's function and judge it.
+    def run(
+        self, ask: Ask, rng: np.random.Generator, count: int = VISIBLE_CASES,
+        carrying: "Carrying | None" = None,
+    ) -> Verdict:  # fmt: skip
+        """Try the student's function and judge it. carrying: how errors count that are carried on.
 
         An error in the check, or CannotRunError from `ask`, is a verdict of its own: CHECK_FAILED. Any
         other error that `ask` raises goes on to the caller, and so does an interrupt.
@@ -116,7 +125,8 @@ class Check:
             calls = self.calls(rng, count)
         except Exception as error:
             return verdict.check_failed(self.id, error)
-        return self.on(calls, ask)
+        found = self.on(calls, ask)
+        return carrying.judged(self, found, calls, ask, rng) if carrying else found
 
     def on(self, calls: list[Call], ask: Ask) -> Verdict:
         """Try the student's function with these calls; as `run`."""
@@ -128,9 +138,10 @@ class Check:
         except Exception as error:
             return verdict.check_failed(self.id, error)
         try:
-            started = time.monotonic()
+            seconds = seconds_of(ask)
+            started = seconds()
             calls, replies = asked(calls, ask)
-            ask_again = ask if time.monotonic() - started < SLOW else None
+            ask_again = ask if seconds() - started < SLOW else None
         except CannotRunError as error:
             return verdict.check_failed(self.id, error)
         try:
@@ -189,8 +200,9 @@ class Check:
         remark = changes.remark(self.name, changed, met != right)
         credit = sum(c.share for c, ok in zip(self.criteria, met, strict=True) if ok)
         said: list[tuple[str, ...]] = [()] * len(met)
+        seen = [""] * len(met)
         if all(met):
-            rows = self._rows(met, said)
+            rows = self._rows(met, said, seen)
             return Verdict(self.id, State.CORRECT, 1.0, rows, remark=remark, further=self.further)
         # Only what it does to its arguments is wrong, where a first call is right.
         judged, when = (again, changes.SECOND) if again and all(right) else (given, "")
@@ -202,6 +214,7 @@ class Check:
             worst = self._witness(calls, expected, numbers, told, judged.values, when)
             if not when:
                 said = self._diagnosis(calls, expected, numbers, told, ask)
+                seen = findings.of_cases(self.criteria, expected, numbers, told)
         problem, failed = given.problem, given.failed
         if not problem and again and again.problem:
             problem, failed = f"On the second call, {again.problem}", again.failed
@@ -209,19 +222,23 @@ class Check:
             self.id,
             State.PARTLY_CORRECT if credit > 0 else State.INCORRECT,
             credit,
-            self._rows(met, said),
+            self._rows(met, said, seen),
             worst,
             problem,
             tuple(dict.fromkeys(chain.from_iterable(said))),
             remark,
             failed=failed,
-            next_step="Change your function, run its cell, then run this cell again.",
+            next_step=verdict.CHANGE_IT,
         )
 
-    def _rows(self, met: list[bool], said: Sequence[tuple[str, ...]]) -> tuple[Row, ...]:
-        """One a criterion. said: what is known of each."""
-        found = zip(self.criteria, met, said, strict=True)
-        return tuple(Row(c.text, c.share, ok, sentences) for c, ok, sentences in found)
+    def _rows(
+        self, met: list[bool], said: Sequence[tuple[str, ...]], seen: Sequence[str]
+    ) -> tuple[Row, ...]:
+        """One a criterion. said: what is known of each. seen: of its cases, where nothing else is."""
+        found = zip(self.criteria, met, said, seen, strict=True)
+        return tuple(
+            Row(c.text, c.share, ok, known, "" if known else cases) for c, ok, known, cases in found
+        )
 
     def _quantities_of(self, model: Model, calls: list[Call]) -> Numbers:
         return self.quantities(calls, list(evaluated(model, calls)))

@@ -67,13 +67,13 @@ def sentence(text: str, k: int, at: Tried, elsewhere: Callable[[], Tried | None]
     """
     tried, right, theirs = at.probes, at.right, at.theirs
     # What moves a little, as friction of a joint that creeps, is said neither to move nor not to.
-    needed, used = (_moving(k, tried, numbers, TOLERANCE) for numbers in (right, theirs))
-    may_need, may_use = (_moving(k, tried, numbers, ROUNDING) for numbers in (right, theirs))
+    needed, used = (moving(k, tried, numbers, TOLERANCE) for numbers in (right, theirs))
+    may_need, may_use = (moving(k, tried, numbers, ROUNDING) for numbers in (right, theirs))
     extra = [of for of in used if of not in may_need]
     missing = [of for of in needed if of not in may_use]
     if missing:
         other = elsewhere()
-        may_use += _moving(k, other.probes, other.theirs, ROUNDING) if other else missing
+        may_use += moving(k, other.probes, other.theirs, ROUNDING) if other else missing
         missing = [of for of in missing if of not in may_use]
     fields = {of for of in needed if "." in of}
     if fields and not any("." in of for of in may_use):
@@ -91,7 +91,7 @@ def sentence(text: str, k: int, at: Tried, elsewhere: Callable[[], Tried | None]
     return f"In your {text}, {', and '.join(said)}." if said else ""
 
 
-def _moving(k: int, tried: list[Probe], numbers: Numbers, least: float) -> list[str]:
+def moving(k: int, tried: list[Probe], numbers: Numbers, least: float) -> list[str]:
     """The arguments whose change moves quantity k by more than this share, each once, in their order."""
     before = np.asarray(numbers[0][k])
     found: dict[str, None] = {}

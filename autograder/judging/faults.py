@@ -7,6 +7,7 @@ from autograder.protocol import Fault, FaultKind, sentence_of
 NUMBERS = "numbers"
 # Why a cell stopped, in place of the error that stops most.
 PYTHON_ENDED = "Python itself ended"
+NOT_RUN = "not run: "
 # What helps where a function returned something else than numbers, by how that is described.
 INSTEAD = {
     "the function ": "Call it: write its arguments behind it, in round brackets.",
@@ -30,6 +31,9 @@ def describe_fault(fault: Fault, name: str, signature: str, needed: str = NUMBER
     left_out = f" Before that, {fault.line}." if fault.line else ""
     if fault.message.startswith(PYTHON_ENDED):
         stopped, fix = f"stopped because {fault.message}", "Fix that cell"
+    elif NOT_RUN in fault.message:
+        why = fault.message.partition(NOT_RUN)[2]
+        stopped, fix = f"was not run, as {why}", "Make those cells quicker"
     else:
         stopped, fix = f"stopped with {fault.message}{where}", "Fix that line"
     renamed = f" Did you mean {fault.message}?" if fault.message else ""
@@ -45,8 +49,8 @@ def describe_fault(fault: Fault, name: str, signature: str, needed: str = NUMBER
         FaultKind.RAISED: f"{signature} raised {fault.message}{where}.{means}",
         FaultKind.TIMED_OUT: f"{signature} did not return within {fault.message}. "
         "Is there a loop that never ends?",
-        FaultKind.STARVED: f"{signature} did not return within {fault.message}, and slept most of "
-        "that time. Does it wait for something?",
+        FaultKind.STARVED: f"{signature} did not return within {fault.message}, and hardly computed "
+        "in that time. Does it wait for something?",
         FaultKind.SLOW_LOOP: f"The check called {name} step by step in a closed loop, and after "
         f"{fault.message} it had not come to the end. Which of its lines takes so long?",
         FaultKind.NO_TOOLS: f"{name} is written in a language that cannot run here. "

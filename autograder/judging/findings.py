@@ -5,10 +5,12 @@ with its known terms. It is said only where it holds to rounding in every case.
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
-from autograder.judging.criterion import TOLERANCE, Criterion, relative_errors
+from autograder.judging.criterion import TOLERANCE, Criterion, errors_of, relative_errors
+from autograder.judging.quantities import Numbers
 from autograder.judging.terms import SURPLUS, Term, in_words, percent_off, terms_off
 
 # A formula is exact to rounding; within this it is approximated.
@@ -51,6 +53,23 @@ def of_numbers(
             "approximate: with a difference for a derivative, a small angle, a rounded constant?"
         )
     return ""
+
+
+def of_cases(
+    criteria: Sequence[Criterion], expected: Numbers, given: Numbers, met: list[bool]
+) -> list[str]:
+    """Of each criterion that is not met, in how many cases it is wrong: all that is known of an answer
+    that nothing explains.
+    """
+    found = []
+    for k, errors in enumerate(errors_of(criteria, expected, given)):
+        wrong = int(np.sum(errors > criteria[k].tolerance))
+        tried = sum(np.size(case[k]) > 0 for case in expected)
+        cases = "the only case" if tried == 1 else f"{wrong} of {tried} cases"
+        start = " Begin with the worst case." if k == met.index(False) else ""
+        said = f"None of the mistakes that this check knows explains it. It is wrong in {cases}.{start}"
+        found.append("" if met[k] else said)
+    return found
 
 
 def of_repeats(criterion: Criterion, first: list, second: list) -> str:

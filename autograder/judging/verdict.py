@@ -1,5 +1,7 @@
 """The verdict on one answer, and how it reads as plain text."""
 
+import os
+import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -9,6 +11,17 @@ from autograder.judging.percent import percent
 from autograder.protocol import Call, shortened
 
 AS_ABOVE = "For the same reason as above."
+# The ends of what a student can do now, and what stands in their place on a page that comes back.
+CHANGE_IT = "Change your function, run its cell, then run this cell again."
+RUN_AGAIN = ", and run this cell again."
+FIX_IT = "Fix this first: until then the check can't look at the physics."
+OF_A_RETURNED = {
+    CHANGE_IT: "To try it again, change your function in your own copy of this notebook, and run its "
+    "check there.",
+    RUN_AGAIN: ", in your own copy of this notebook, and run the checks there.",
+    FIX_IT: "So the grader could not look at the physics. Your own copy of this notebook shows the "
+    "error, too.",
+}
 
 
 class State(StrEnum):
@@ -29,13 +42,15 @@ class State(StrEnum):
 class Row:
     """One criterion: what was asked for, its share of the credit, and whether it was met.
 
-    said: those sentences of the diagnosis that are about this criterion, which is then not met.
+    said: those sentences of the diagnosis that are about this criterion, which is then not met. seen:
+    what is true of its numbers, to be said where nothing else is.
     """
 
     text: str
     share: float
     met: bool
     said: tuple[str, ...] = ()
+    seen: str = ""
 
 
 @dataclass(frozen=True)
@@ -100,12 +115,19 @@ class Verdict:
     next_step: str = ""
     failed: Failed | None = None
 
-    def without_inputs(self) -> "Verdict":
-        """The same verdict for a feedback page: the worst case without the inputs that showed it."""
+    def returned(self) -> "Verdict":
+        """The same verdict for a page that comes back: the worst case without the inputs that showed it,
+        and nothing to be run on the page.
+        """
         witness = self.witness and replace(
             self.witness, call="", pose=(), given_by="", by_name="", of=None
         )
-        return replace(self, witness=witness, failed=None)
+        step = self.next_step
+        if self.state is State.NOT_ATTEMPTED:
+            step = "In what was handed in, nothing had been written here yet."
+        for end, on_page in OF_A_RETURNED.items():
+            step = step.replace(end, on_page)
+        return replace(self, witness=witness, failed=None, next_step=step)
 
     @property
     def worst(self) -> Call | None:
@@ -152,7 +174,7 @@ class Verdict:
             is_same = bool(last) and set(last) <= set(row.said)
             said = [AS_ABOVE if is_same and own in last else own for own in row.said]
             last = row.said or last
-            found.append((row, list(dict.fromkeys(said))))
+            found.append((row, list(dict.fromkeys(said)) or [*filter(None, [row.seen])]))
         return found
 
     def lines(self) -> list[str]:
@@ -199,8 +221,7 @@ def not_attempted(check: str, signature: str) -> Verdict:
 
 def error(check: str, problem: str, failed: Failed | None) -> Verdict:
     """Of code that gives nothing to judge. failed: the call because of which; None for none."""
-    step = "Fix this first: until then the check can't look at the physics."
-    return Verdict(check, State.ERROR, problem=problem, next_step=step, failed=failed)
+    return Verdict(check, State.ERROR, problem=problem, next_step=FIX_IT, failed=failed)
 
 
 def check_failed(check: str, error: Exception) -> Verdict:
@@ -208,9 +229,16 @@ def check_failed(check: str, error: Exception) -> Verdict:
     return Verdict(
         check,
         State.CHECK_FAILED,
-        problem=f"{type(error).__name__} in the check {check}: {shortened(str(error))}.",
+        problem=f"{type(error).__name__} in the check {check}{_at(error)}: {shortened(str(error))}.",
         next_step="This is not your fault. Please tell your instructor.",
     )
+
+
+def _at(error: Exception) -> str:
+    """Where in a course's own file, which alone runs under a name that is no whole path."""
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [f for f in frames if f.filename.endswith(".py") and not os.path.isabs(f.filename)]
+    return f" ({own[-1].filename}, line {own[-1].lineno})" if own else ""
 
 
 def plain(verdict: Verdict, lines: Sequence[str] = (), last: Sequence[str] = ()) -> str:

@@ -13,7 +13,7 @@ from autograder.roster import Person
 MOST_FILES = 500
 MOST_BYTES = 200 << 20
 # nbgrader's own files beside a submission: a student's would pretend to be them.
-RESERVED = {"timestamp.txt", "submission_secret.txt"}
+RESERVED = {"timestamp.txt", "timestamp-original.txt", "submission_secret.txt"}
 UNFIT = re.compile(r"[\x00-\x1f\x7f]|^\.\.?$|^.{201}")
 
 

@@ -6,6 +6,7 @@ from autograder.judging.check import Check
 from autograder.judging.terms import Term
 from autograder.mechanisms import Mechanism
 from autograder.mutation.answers import ANSWERS, Answer
+from autograder.mutation.following import follows
 from autograder.mutation.further import further
 from autograder.mutation.generated import Generated
 from autograder.mutation.mistakes import parts_of
@@ -31,6 +32,7 @@ def check_of(mechanism: Mechanism, answer: str) -> Check:
         hints=_hints(mechanism, asked),
         section=section(mechanism, answer),
         further=further(mechanism, answer),
+        follows=follows(mechanism, answer),
         pose=lambda call: list(mechanism.points(asked.position(call.args), call.args[-1])),
     )
 

@@ -15,7 +15,10 @@ from autograder.nbgrader_glue.gradebook import Rows, Standing
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.submitted import RefusedError
 from autograder.notebook.own_arm import drawn_for
+from autograder.notebook.reading import UnreadableError, read
+from autograder.notebook.version import other_version
 from autograder.problems import families
+from autograder.protocol import one_line
 from autograder.report import Class, Student, read_graded
 from autograder.roster import Roster
 from autograder.term_calendar import read_if_there
@@ -35,6 +38,7 @@ def read_class(root: Path, assignment: str) -> Class:
     rows = Rows(folders.course.db_url, folders.course.course_id, assignment)
     try:
         standings, most = rows.standings(), sum(rows.points.values())
+        of_checks = sum(rows.of_checks.values())
     finally:
         rows.close()
     source = _source(folders, assignment)
@@ -44,7 +48,8 @@ def read_class(root: Path, assignment: str) -> Class:
     ]
     there = {one.name for one in students}
     missing = [one.name for id, one in people.people.items() if id not in there] if people else []
-    return Class(assignment, most, students, tuple(missing), calendar.counts(assignment))
+    counts = calendar.counts(assignment)
+    return Class(assignment, most, students, tuple(missing), counts, of_checks)
 
 
 def read_term(root: Path) -> tuple[list[Class], list[str]]:
@@ -87,7 +92,7 @@ def _student(
         return Student(shown_name(name), note=why)
     notebook, when = folders.autograded(name), _handed_in(folders, name)
     if standing is None or not notebook.exists():
-        return Student(name, note="not graded yet, or it could not be graded", handed_in=when)
+        return Student(name, note=_why_not(folders, name, source), handed_in=when)
     score, to_read = standing.score, standing.to_read
     try:
         verdicts, answers, derivations = read_graded(notebook)
@@ -104,7 +109,30 @@ def _student(
         derivations=derivations,
         arms=_arms(source, name, list(verdicts)),
         late=standing.late,
+        of_checks=standing.of_checks,
     )
+
+
+def _why_not(folders: Folders, student: str, source: NotebookNode | None) -> str:
+    """Why there is no graded notebook."""
+    if not folders.holds_notebook(student):
+        return "there is no notebook in what was handed in: ask the student for it"
+    path = folders.submitted(student)
+    try:
+        folders.check(student)
+        if source is not None:
+            path, _ = folders.counted(student, source)
+            notebook, _ = read(path.read_bytes())
+            files = folders.laid_in(student).mechanisms
+            if why := other_version(notebook, source, files):
+                return f"{one_line(path.name)} {why}"
+    except RefusedError as error:
+        return str(error)
+    except UnreadableError as error:
+        return f"{one_line(path.name)} {error}"
+    except OSError as error:
+        return f"{one_line(path.name)} cannot be read: {error.strerror}"
+    return f"not graded yet: run `autograder grade {folders.assignment}`, which says what is wrong"
 
 
 def _arms(source: NotebookNode | None, name: str, checks: list[str]) -> dict[str, str]:

@@ -8,6 +8,8 @@ import nbformat
 from nbformat import NotebookNode
 from nbgrader import utils
 
+from autograder.notebook.letter import is_letter
+from autograder.notebook.own_cells import without_pointer
 from autograder.notebook.recognise import grade_id
 
 
@@ -28,12 +30,23 @@ def same_answers(before: bytes, now: NotebookNode) -> set[str]:
 
 
 def _answers(notebook: NotebookNode) -> dict[str, tuple]:
-    """What students write or draw in, by grade_id; and all cells of their own, by none."""
+    """What students write or draw in, by grade_id; and all cells of their own, by none.
+
+    What the grader wrote into a notebook is no part of it. Where it pointed from an empty answer to a
+    cell of the student's own, all of these are the answer.
+    """
     answers: dict[str, tuple] = {"": ()}
+    elsewhere = []
     for cell in notebook.cells:
-        content = (cell.cell_type, cell.source, cell.get("attachments", {}))
-        if not utils.is_locked(cell) and not grade_id(cell):
+        if is_letter(cell):
+            continue
+        text = without_pointer(cell.source)
+        content = (cell.cell_type, text.rstrip(), cell.get("attachments", {}))
+        name = grade_id(cell)
+        if not utils.is_locked(cell) and not name:
             answers[""] += (content,)
-        elif utils.is_solution(cell) or utils.is_task(cell):
-            answers[grade_id(cell) or ""] = content
-    return answers
+        elif name and (utils.is_solution(cell) or utils.is_task(cell)):
+            answers[name] = content
+            if text != cell.source:
+                elsewhere.append(name)
+    return answers | {name: (answers[name], answers[""]) for name in elsewhere}

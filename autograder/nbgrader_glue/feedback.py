@@ -12,11 +12,13 @@ from nbformat import NotebookNode
 from pygments.formatters import HtmlFormatter
 
 from autograder.nbgrader_glue.items import arranged, number, title_of
+from autograder.nbgrader_glue.kept_editions import kept
 from autograder.nbgrader_glue.late import settle_before
 from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.nbgrader_glue.renewal import Renewal
 from autograder.nbgrader_glue.start import can_start
 from autograder.nbgrader_glue.worked import with_answers
+from autograder.notebook.editions import Edition, of_release
 
 MARKER = re.compile(r"^\s*### (BEGIN|END) HIDDEN TESTS[^\S\n]*\n?", re.MULTILINE)
 HEADING = re.compile(r"<(/?)h([1-6])\b([^>]*)>")
@@ -65,7 +67,7 @@ class FeedbackExporter(HTMLExporter):
         source = self._source(names)
         late = names.get("late_penalty")
         title = title_of(source or nb) or names.get("notebook", "")
-        nb, items = arranged(nb, source)
+        nb, items = arranged(nb, source, self._earlier(names))
         resources["page"] = SimpleNamespace(
             title=title,
             items=items,
@@ -74,7 +76,7 @@ class FeedbackExporter(HTMLExporter):
             penalty=number(float(late)) if late else "",
             unread=sum(item.kind == "open" for item in items),
             made_of=self._made_of(names),
-            code_style=_code_style(),
+            code_style=code_style(),
         )
         return nb, resources
 
@@ -82,6 +84,12 @@ class FeedbackExporter(HTMLExporter):
         if self._renewal is None or "student" not in names:
             return ""
         return self._renewal.made_of(names["assignment"], names["student"])
+
+    def _earlier(self, names) -> list[Edition]:
+        if self.parent is None or "assignment" not in names:
+            return []
+        root = Path(self.parent.coursedir.root)
+        return [of_release(text) for text in kept(root, names["assignment"])]
 
     def _source(self, names) -> NotebookNode | None:
         """The assignment's own notebook, if it is still there."""
@@ -93,7 +101,7 @@ class FeedbackExporter(HTMLExporter):
         return nbformat.read(path, as_version=4) if path.is_file() else None
 
 
-def _code_style() -> str:
+def code_style() -> str:
     """Colours of code, by day and by night."""
     light, dark = (HtmlFormatter(style=name).get_style_defs(".highlight")
                    for name in ("default", "github-dark"))  # fmt: skip

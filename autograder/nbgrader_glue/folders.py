@@ -17,7 +17,8 @@ from traitlets.config import Config
 
 from autograder import hints_seen
 from autograder.digest import digest
-from autograder.nbgrader_glue import handed_in, names, submitted
+from autograder.nbgrader_glue import handed_in, names, submitted, times
+from autograder.nbgrader_glue.source import beside_source
 from autograder.notebook.beside import Beside
 
 QUIET = logging.getLogger("autograder.nbgrader")
@@ -29,12 +30,17 @@ Files = dict[str, tuple[int, int]]  # path in its folder → size, time in ns
 
 
 class Folders:
-    """Where submissions are, and where their graded notebooks go."""
+    """Where submissions are, and where their graded notebooks go.
 
-    def __init__(self, config: Config, assignment: str):
+    converter: nbgrader's, if its command is running.
+    """
+
+    def __init__(self, config: Config, assignment: str, converter: Autograde | None = None):
         self.assignment = assignment
-        self.course = CourseDirectory(config=config, log=QUIET)
-        self.converter = Autograde(coursedir=self.course, config=config, log=QUIET)
+        if converter is None:
+            course = CourseDirectory(config=config, log=QUIET)
+            converter = Autograde(coursedir=course, config=config, log=QUIET)
+        self.course, self.converter = converter.coursedir, converter
         self.source = Path(self.course.format_path(self.course.source_directory, ".", assignment))
         self.beside_source = self._files(self.source)
         self._not_copied = {os.path.join("", name) for name in
@@ -58,16 +64,22 @@ class Folders:
 
     def counted(self, student: str, source: NotebookNode) -> tuple[Path, list[str]]:
         """The notebook of a submission that is graded, and notes on the others."""
-        return handed_in.counted(self.submitted(student), self.assignment, source)
+        folder = self.submitted(student)
+        path, notes = handed_in.counted(folder, self.assignment, source)
+        return path, [*filter(None, [times.note(folder)]), *notes]
 
     def laid_in(self, student: str) -> Beside:
         """The files that the notebook's cells find beside it."""
         kept = self.converter.exclude_overwriting.get(self.assignment, [])
         return handed_in.beside(self.submitted(student), self.source, self.course.ignore, kept)
 
+    def laid_in_source(self) -> Beside:
+        """The files that the source's own cells find beside it."""
+        return beside_source(self.source, self.course.ignore)
+
     def timestamp(self, student: str):
-        """When it was handed in, in UTC, or None; RefusedError if its timestamp.txt holds no time."""
-        return submitted.timestamp(self.course, self.submitted(student))
+        """When it was handed in, in UTC, or None; RefusedError if its timestamp.txt cannot be read."""
+        return submitted.timestamp(self.submitted(student))
 
     def check(self, student: str) -> None:
         """RefusedError if the grader must not read the submission."""

@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -14,6 +15,7 @@ from traitlets.config import Config
 
 from autograder import roster, term_calendar
 from autograder.files import put_in_place
+from autograder.marking.kept import Kept
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.shelf import REPLACED
@@ -110,20 +112,44 @@ def _files_of_the_class(root: Path, student: str) -> Iterator[Trace]:
         if count:
             what = f"{count} extensions in {term_calendar.FILE}"
             yield Trace(what, partial(put_in_place, calendar, rest))
+    kept = Kept(root)
+    for path in kept.naming(student):
+        what = f"{_shown(root, path)}, where the student's proofs are marked"
+        yield Trace(what, partial(kept.forget, path, student))
     for path in _naming(root, student, WRITTEN):
         what = f"{_shown(root, path)}, which names the student: write it again"
         yield Trace(what, partial(_remove, path))
 
 
 def mentions(root: Path, student: str) -> list[Path]:
-    """Tables in the course's folder that name a student, and that no command of ours wrote."""
+    """Tables in the course's folder that name a student, and that no command of ours wrote; and the
+    archives of `autograder archive` that do.
+    """
     ours = _naming(root, student, WRITTEN)
-    return [path for path in _naming(root, student, ("*.csv", "course/*.csv"))
-            if path not in ours and path != root / roster.FILE]  # fmt: skip
+    tables = [path for path in _naming(root, student, ("*.csv", "course/*.csv"))
+              if path not in ours and path != root / roster.FILE]  # fmt: skip
+    return [*tables, *_archives(root, student)]
+
+
+def _archives(root: Path, student: str) -> Iterator[Path]:
+    named = _name(student)
+    for path in sorted(root.glob("archive/*.zip")):
+        try:
+            with zipfile.ZipFile(path) as archive:
+                tables = [name for name in archive.namelist() if name.endswith("/marks.csv")]
+                texts = [archive.read(name).decode("utf-8", errors="replace") for name in tables]
+        except (OSError, zipfile.BadZipFile):
+            continue
+        if any(named.search(text) for text in texts):
+            yield path
+
+
+def _name(student: str) -> re.Pattern[str]:
+    return re.compile(rf"(?<![\w.@-]){re.escape(student)}(?![\w@-])")
 
 
 def _naming(root: Path, student: str, patterns: tuple[str, ...]) -> list[Path]:
-    named = re.compile(rf"(?<![\w.@-]){re.escape(student)}(?![\w@-])")
+    named = _name(student)
     files = (path for pattern in patterns for path in sorted(root.glob(pattern)) if path.is_file())
     return [path for path in files if named.search(path.read_text("utf-8", errors="replace"))]
 

@@ -8,31 +8,31 @@ import sys
 from collections.abc import Set
 from dataclasses import dataclass
 from datetime import datetime
-from types import SimpleNamespace
 
 from nbformat import NotebookNode
 from nbgrader import api, utils
 from sqlalchemy import select
 
 from autograder.lms.marks import lateness as lateness_in_words
+from autograder.nbgrader_glue.agreement import of_gradebook
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.late import Lateness, seconds_late, settle_one
+from autograder.nbgrader_glue.locked import patiently
 from autograder.notebook.suggestion import suggestion_of
 from autograder.terminal import say
-
-COPIED = ("name", "cell_type", "locked", "source", "checksum")
 
 
 @dataclass(frozen=True)
 class Standing:
-    """A submission in the gradebook: its automatic rows as text, its points, its cells to be read, and
-    how late it is, in words.
+    """A submission in the gradebook: its automatic rows as text, its points, its cells to be read, how
+    late it is, in words, and the points of the checks alone, without a penalty.
     """
 
     rows: str
     score: float
     to_read: int
     late: str = ""
+    of_checks: float = 0.0
 
 
 class Rows:
@@ -43,15 +43,15 @@ class Rows:
     """
 
     def __init__(self, url: str, course: str, assignment: str, lateness: Lateness | None = None):
-        self._gradebook = api.Gradebook(url, course)
+        self._gradebook = patiently(lambda: api.Gradebook(url, course))
         self._db = self._gradebook.db
         self._lateness = lateness
         try:
-            self._read_cells(assignment)
+            patiently(lambda: self._read_cells(assignment), self._db.rollback)
         except BaseException:
             self.close()
             raise
-        self._students = set(self._db.scalars(select(api.Student.id)))
+        self._students = self._known()
 
     def close(self) -> None:
         self._gradebook.close()
@@ -101,10 +101,15 @@ class Rows:
     def record(
         self, student: str, timestamp: datetime | None, graded: NotebookNode, unchanged: Set[str]
     ) -> Standing:
-        """Enter a submission and its scores, and commit them.
+        """Enter a submission and its scores, and commit them. BusyError if the gradebook stays locked.
 
         unchanged: the cells whose answers have not changed since they were last graded.
         """
+        return patiently(lambda: self._recorded(student, timestamp, graded, unchanged), self.forget)
+
+    def _recorded(
+        self, student: str, timestamp: datetime | None, graded: NotebookNode, unchanged: Set[str]
+    ) -> Standing:
         submission, notebook, grades, comments = self.enter(student, timestamp)
         grade_of = {self._names[grade.cell_id]: grade for grade in grades}
         comment_of = {self._names[comment.cell_id]: comment for comment in comments}
@@ -132,10 +137,19 @@ class Rows:
         notebook.late_submission_penalty = self._late_penalty(student, submission, notebook.id)
         self._db.flush()
         standing = self._standing(submission, notebook, grades, comments)
-        self.commit()
+        self._commit()
         return standing
 
-    def commit(self) -> None:
+    def enter_alone(self, student: str, timestamp: datetime | None) -> None:
+        """Enter a submission without scores, and commit it. BusyError as in `record`."""
+
+        def work() -> None:
+            self.enter(student, timestamp)
+            self._commit()
+
+        patiently(work, self.forget)
+
+    def _commit(self) -> None:
         self._db.commit()
         self._db.expunge_all()  # so that the last submission takes no longer than the first one
 
@@ -143,10 +157,16 @@ class Rows:
         """Drop what was not committed, after an error."""
         self._db.rollback()
         self._db.expunge_all()
-        self._students = set(self._db.scalars(select(api.Student.id)))
+        self._students = self._known()
+
+    def _known(self) -> set[str]:
+        return patiently(lambda: set(self._db.scalars(select(api.Student.id))), self._db.rollback)
 
     def standings(self) -> dict[str, Standing]:
         """What the gradebook holds, by student."""
+        return patiently(self._read_standings, self._db.rollback)
+
+    def _read_standings(self) -> dict[str, Standing]:
         mine = api.SubmittedNotebook.notebook_id == self._notebook
         rows: dict[type, dict[str, list]] = {}
         for table in (api.Grade, api.Comment):
@@ -183,6 +203,7 @@ class Rows:
             sum(map(_points, grades)) - (penalty or 0.0),
             sum(bool(row.needs_manual_grade) for row in grades),
             lateness_in_words(penalty or 0.0) if late else "",
+            sum(_points(grade) for grade in grades if self._names[grade.cell_id] in self.of_checks),
         )
 
     def _late_penalty(self, student: str, submission, notebook: str) -> float | None:
@@ -223,16 +244,15 @@ class Rows:
             self._db.commit()
         notebook = assignment.notebooks[0]
         self._assignment, self._notebook, self._due = assignment.id, notebook.id, assignment.duedate
-        self.source_cells = {
-            cell.name: SimpleNamespace(**{key: getattr(cell, key) for key in COPIED})
-            for cell in notebook.source_cells
-        }
+        self.cells = of_gradebook(notebook)
         graded = [*notebook.grade_cells, *notebook.task_cells]
         commented = [*notebook.solution_cells, *notebook.task_cells]
         self._with_grade = [cell.id for cell in graded]
         self._with_comment = [cell.id for cell in commented]
         self._names = {cell.id: cell.name for cell in [*graded, *commented]}
         self.points = {cell.name: float(cell.max_score) for cell in graded}
+        by_person = {cell.name for cell in commented}
+        self.of_checks = {name: most for name, most in self.points.items() if name not in by_person}
         self._db.expunge_all()
 
 

@@ -10,16 +10,18 @@ import nbformat
 from nbformat import NotebookNode
 from nbgrader import utils
 
+from autograder.nbgrader_glue import times
 from autograder.notebook.beside import DEFINES, Beside, choose
 from autograder.notebook.recognise import Likeness, likeness
+from autograder.problems import own_checks
 from autograder.protocol import one_line
 
 # Limits on notebooks that are only looked at; the smallest come first.
 MOST_LOOKED_AT = 20
 MOST_BYTES = 32 << 20
 MOST_NAMES = 5
-# What nbgrader's exchange puts beside each submission.
-OF_THE_EXCHANGE = ("timestamp.txt", "submission_secret.txt")
+# What nbgrader's exchange puts beside each submission, and what we put beside that.
+OF_THE_EXCHANGE = (times.FILE, times.ORIGINAL, "submission_secret.txt")
 UNREADABLE = Likeness(known=False, answered=True)
 
 
@@ -69,12 +71,15 @@ def beside(folder: Path, source: Path, ignore: list[str], kept: list[str]) -> Be
     notebooks = dict.fromkeys(found.keys() - theirs.keys(), "it is a notebook")
     judging = dict.fromkeys(mechanisms, "the checks alone use a mechanism's file")
     left_out = {**chosen.left_out, **notebooks, **judging}
-    return replace(chosen, left_out=left_out, mechanisms=mechanisms)
+    return replace(chosen, left_out=left_out, mechanisms=mechanisms | own_checks.files_of(source))
 
 
 def mechanisms_beside(folder: Path) -> dict[str, str]:
-    """The mechanisms of the course that stand beside a problem's source, by the names of their files."""
-    return _mechanisms({path.name: path for path in folder.glob("*.py")})
+    """The course's own files of which a problem's checks are made: the mechanisms beside its source, by
+    the names of their files, and checks/NAME.py.
+    """
+    beside = _mechanisms({path.name: path for path in folder.glob("*.py")})
+    return beside | own_checks.files_of(folder)
 
 
 def _mechanisms(files: dict[str, Path]) -> dict[str, str]:

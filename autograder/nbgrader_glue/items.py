@@ -4,19 +4,22 @@ what went wrong before what is right, and the problem's own text at the end.
 
 import copy
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from nbformat import NotebookNode
 
+from autograder.notebook.editions import Edition, texts_of
 from autograder.notebook.grade import is_judged
 from autograder.notebook.letter import HEAD, is_letter
 from autograder.notebook.outputs import read_verdict
 from autograder.notebook.recognise import grade_id
+from autograder.notebook.released import essence
 from autograder.notebook.scores import could_not_be_judged
-from autograder.problems import CHECKS
+from autograder.problems import check_here
 
 UNREAD = "unread"  # in a graded cell's settings: a person has not decided on it yet
+ROWS = "rows"  # there: the rows of the rubric, with the points that a person gave for each
 NO_RESPONSE = "No response."  # as nbgrader says it
 HEADING = re.compile(r"^#{1,6}[ \t]+(.+?)[ \t#]*$", re.MULTILINE)
 # "A. The matrix of the arm (4 points)": only the words are the title.
@@ -35,7 +38,8 @@ FIRST, WRONG, RIGHT, REST, TEXT = (
 class Item:
     """A graded answer: the cells from the answer to the cell that has its points.
 
-    kind: "wrong", "open" (a person still has to read it) or "right".
+    kind: "wrong", "open" (a person still has to read it) or "right". rows: of the rubric, each with its
+    text, points and what was given.
     """
 
     id: str
@@ -46,20 +50,22 @@ class Item:
     points: str
     cells: list[NotebookNode] = field(default_factory=list)
     comments: list[str] = field(default_factory=list)
+    rows: list[dict] = field(default_factory=list)
 
 
 def arranged(
-    notebook: NotebookNode, source: NotebookNode | None
+    notebook: NotebookNode, source: NotebookNode | None, earlier: Sequence[Edition] = ()
 ) -> tuple[NotebookNode, list[Item]]:
     """A copy of a notebook that holds its grades, its cells in the order of the page, and the items.
 
-    source: the assignment's own notebook; without it, each text counts as a student's. Each cell's
-    metadata say, under "page", what begins and ends with it.
+    source: the assignment's own notebook; without it, each text counts as a student's, but for those of
+    the editions that students may have. Each cell's metadata say, under "page", what begins and ends
+    with it.
     """
     notebook = copy.deepcopy(notebook)
     for cell in notebook.cells:
         cell.metadata["page"] = NotebookNode()
-    given, headings = _given(source), _headings(source or notebook)
+    given, headings = _given(source) | texts_of(earlier), titles_above(source or notebook)
     items, taken = _items(notebook.cells, given, headings)
     others = [cell for cell in notebook.cells if id(cell) not in taken]
     letters = [cell for cell in others if is_letter(cell)]
@@ -141,6 +147,7 @@ def _item(cell: NotebookNode, cells: list[NotebookNode], headings: dict[str, str
         number(points),
         cells,
         comments,
+        list(claims.get(ROWS) or []),
     )
 
 
@@ -149,7 +156,7 @@ def _title(cell: NotebookNode, heading: str) -> str:
     name = grade_id(cell) or ""
     if not is_judged(cell):
         return heading or name
-    check = CHECKS.get(name)
+    check = check_here(name)
     function = check.name if check else name.rpartition("-")[2]
     asked = check.criteria[0].text if check and len(check.criteria) == 1 else heading
     return f"{function}: {asked}" if asked else function
@@ -178,10 +185,10 @@ def _section(title: str, cells: list[NotebookNode], folded: bool = False) -> lis
 
 
 def _given(source: NotebookNode | None) -> set[str]:
-    return {cell.source.strip() for cell in source.cells} if source else set()
+    return {essence(cell.source) for cell in source.cells} if source else set()
 
 
-def _headings(notebook: NotebookNode) -> dict[str, str]:
+def titles_above(notebook: NotebookNode) -> dict[str, str]:
     """grade_id → the heading above the cell, without its letter and its points."""
     found: dict[str, str] = {}
     heading = ""
@@ -209,7 +216,7 @@ def _name_places(
 
 
 def _is_given(cell: NotebookNode, given: set[str]) -> bool:
-    return not grade_id(cell) and cell.source.strip() in given
+    return not grade_id(cell) and essence(cell.source) in given
 
 
 def _shows(cell: NotebookNode, given: set[str]) -> bool:

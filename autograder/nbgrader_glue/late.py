@@ -82,6 +82,15 @@ def settle(root: Path, gradebook: api.Gradebook) -> list[str]:
     return lines
 
 
+def settle_course(root: Path) -> list[str]:
+    """`settle` for the course in the folder `root`."""
+    config = configuration(root)
+    config.CourseDirectory.assignment_id = "of the term"
+    course = CourseDirectory(config=config, log=QUIET)
+    with api.Gradebook(course.db_url, course.course_id) as gradebook:
+        return settle(root, gradebook)
+
+
 def settle_before(converter) -> None:
     """For nbgrader's command that writes pages: settle what these will show."""
     course = converter.coursedir

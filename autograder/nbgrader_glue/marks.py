@@ -69,13 +69,13 @@ def _column(db, course: CourseDirectory, assignment) -> Column:
         if student not in marks:
             readable = any(Path(folder).glob("*.ipynb"))
             state = UNGRADED if readable else UNREADABLE
-            marks[student] = Mark(state, handed_in=_time(course, Path(folder)))
+            marks[student] = Mark(state, handed_in=_time(Path(folder)))
     return Column(assignment.name, assignment.max_score, assignment.duedate, marks)
 
 
-def _time(course: CourseDirectory, folder: Path) -> datetime | None:
+def _time(folder: Path) -> datetime | None:
     try:
-        return timestamp(course, folder)
+        return timestamp(folder)
     except RefusedError:
         return None
 

@@ -1,21 +1,21 @@
 """Does what `nbgrader autograde` does around the judging, for many submissions of one assignment."""
 
-import copy
+import sys
 from functools import cached_property
 from pathlib import Path
 from typing import Self
 
 import nbformat
 from nbformat import NotebookNode
-from nbgrader import utils
 from nbgrader.nbgraderformat import MetadataValidator
-from traitlets import import_item
+from traitlets import TraitError, import_item
 from traitlets.config import Config
 
-from autograder.nbgrader_glue import names
+from autograder.nbgrader_glue import agreement, names
 from autograder.nbgrader_glue.decided import same_answers
 from autograder.nbgrader_glue.folders import Folders
 from autograder.nbgrader_glue.gradebook import Rows, Standing
+from autograder.nbgrader_glue.kept_editions import kept
 from autograder.nbgrader_glue.late import Lateness
 from autograder.nbgrader_glue.preprocessors import Judge, secret_of, seed_of
 from autograder.nbgrader_glue.release import configuration
@@ -23,7 +23,9 @@ from autograder.nbgrader_glue.steps import autograde_preprocessors, sanitize_pre
 from autograder.nbgrader_glue.submitted import RefusedError
 from autograder.notebook.beside import Beside
 from autograder.notebook.recognise import grade_id
+from autograder.problems import own_checks
 from autograder.term_calendar import read_if_there
+from autograder.terminal import say
 
 # This module or `repair` does the work of these steps, whatever their settings.
 REPLACED = (
@@ -58,7 +60,11 @@ class Recorder:
         self._steps = [step(parent=self._converter) for step in steps if step.__name__ in RUN]
         lateness = Lateness(read_if_there(root).of(assignment), config, self._converter)
         course = self._folders.course
-        self._secret = secret_of(Path(course.root) / Judge(parent=self._converter).seed_file)
+        judge = _judge(self._converter)
+        self._secret = secret_of(Path(course.root) / judge.seed_file)
+        self.carried_on: float = judge.carried_on
+        # Before 100 students are told that a check failed.
+        own_checks.refuse_broken(own_checks.files_of(self._folders.source))
         self.source = (self._folders.source / f"{assignment}.ipynb").read_text(encoding="utf-8")
         self._rows = Rows(course.db_url, course.course_id, assignment, lateness)
         try:
@@ -67,8 +73,10 @@ class Recorder:
             self._rows.close()
             raise
         self.max_score: float = sum(self._rows.points.values())
-        # What else decides a grade, besides the submission, the source and the seed.
-        self.settings = repr((config, self._rows.source_cells, self._rows.points))
+        # What else decides a graded notebook. A path, an export or a penalty does not.
+        cells = sorted(self._rows.cells.items())
+        self.settings = repr(([_settings(step) for step in self._steps], cells))
+        self.earlier = kept(root, assignment)
 
     def __enter__(self) -> Self:
         return self
@@ -107,6 +115,10 @@ class Recorder:
         """The files that the notebook's cells find beside it."""
         return self._folders.laid_in(student)
 
+    def laid_in_source(self) -> Beside:
+        """The files that the source's own cells find beside it."""
+        return self._folders.laid_in_source()
+
     def seed_of(self, student: str) -> str:
         return seed_of(self._secret, student, self.assignment)
 
@@ -118,8 +130,8 @@ class Recorder:
         """Write a judged submission's rows and files; if that fails, the earlier ones stay."""
         notebook: NotebookNode = nbformat.from_dict(judged)
         for cell in notebook.cells:
-            if grade_id(cell):
-                checksum = self._rows.source_cells[grade_id(cell)].checksum
+            if (name := grade_id(cell)) in self._rows.cells:
+                checksum = self._rows.cells[name].checksum
                 cell.metadata["nbgrader"]["checksum"] = checksum
         for step in self._steps:
             notebook, _ = step(notebook, {})
@@ -144,8 +156,7 @@ class Recorder:
                 timestamp = self._folders.timestamp(student)
             except RefusedError:
                 timestamp = None
-            self._rows.enter(student, timestamp)
-            self._rows.commit()
+            self._rows.enter_alone(student, timestamp)
         self._folders.remove(student)
 
     def forget(self) -> None:
@@ -159,32 +170,33 @@ class Recorder:
             )
 
     def _agree_with_source(self) -> None:
-        """Check once what nbgrader would check in each repaired submission."""
-        where = f"solutions/{self.assignment}"
-        again = f"run `nbgrader generate_assignment {self.assignment} --force`"
-        source = nbformat.reads(self.source, as_version=4)
+        """Check once what nbgrader would check in each repaired submission, and more."""
         try:
-            MetadataValidator().validate_nb(source)
+            MetadataValidator().validate_nb(self._source)
         except Exception as error:
-            raise ValueError(f"{where}: its nbgrader settings are not valid: {error}") from None
-        for cell in source.cells:
-            name = grade_id(cell)
-            if name and name not in self._rows.source_cells:
-                raise ValueError(f"{where} has a cell {name}, but the gradebook does not: {again}")
-            if name and not _can_be_put_right(cell, self._rows.source_cells[name], self._rows):
-                raise ValueError(f"Inconsistent checksums: {name} has changed in {where}: {again}")
+            raise ValueError(
+                f"solutions/{self.assignment}: its nbgrader settings are not valid: {error}"
+            ) from None
+        agreement.require(self._source, self._rows.cells, self.assignment)
+        released = agreement.released(self._folders.course, self.assignment)
+        if said := agreement.said_of_release(self._source, released, self.assignment):
+            say(said, sys.stderr)
 
 
-def _can_be_put_right(cell: NotebookNode, known, rows: Rows) -> bool:
-    """Whether nbgrader's OverwriteCells can make a locked cell the one in the gradebook again."""
-    if not known.locked:
-        return True
-    cell = copy.deepcopy(cell)
-    cell.source, cell.cell_type = known.source, known.cell_type
-    cell.metadata["nbgrader"]["locked"] = True
-    if utils.is_grade(cell) and known.name in rows.points:
-        cell.metadata["nbgrader"]["points"] = rows.points[known.name]
-    return utils.compute_checksum(cell) == known.checksum
+def _settings(step) -> tuple[str, list]:
+    """A step's settings, whatever the rest of nbgrader_config.py says."""
+    values = {name: getattr(step, name) for name in step.class_trait_names(config=True)}
+    plain = {name: sorted(value, key=repr) if isinstance(value, set) else value
+             for name, value in values.items()}  # fmt: skip
+    return type(step).__name__, sorted(plain.items())
+
+
+def _judge(converter) -> Judge:
+    """The step with its settings; ValueError where one is not what it must be."""
+    try:
+        return Judge(parent=converter)
+    except TraitError as error:
+        raise ValueError(f"nbgrader_config.py: {error}") from None
 
 
 def _refuse_other_steps(config: Config, converter) -> None:

@@ -1,5 +1,6 @@
 """Writes the student version of an assignment, without the gradebook."""
 
+import logging
 import shutil
 import tempfile
 from pathlib import Path
@@ -7,6 +8,9 @@ from pathlib import Path
 from traitlets.config import Config, PyFileConfigLoader
 
 from autograder.files import put_in_place
+from autograder.nbgrader_glue.kept_editions import keep
+
+PLAIN = "assignment"  # a name that is no pattern
 
 
 def configuration(root: Path) -> Config:
@@ -20,13 +24,16 @@ def write_problem(root: Path, assignment: str, to: Path) -> None:
     root: the course's folder. The gradebook stays as it is.
     """
     with tempfile.TemporaryDirectory(prefix="release-") as folder:
-        _copy_new(_generate(root, assignment, Path(folder)), to)
+        made = generate(root, assignment, Path(folder))
+        keep(root, assignment, made / f"{assignment}.ipynb")
+        _copy_new(made, to)
 
 
-def _generate(root: Path, assignment: str, course: Path) -> Path:
+def generate(root: Path, assignment: str, course: Path, log: logging.Logger | None = None) -> Path:
     """Make a course with only this assignment, and return the folder of the student version in it.
 
-    The real course does not serve, as its path may contain what nbgrader takes for a pattern.
+    course: an empty folder. log: where nbgrader writes what it does. The real course does not serve, as
+    its path, and the assignment's name, may contain what nbgrader takes for a pattern.
     """
     from nbgrader.converters import GenerateAssignment  # takes seconds
     from nbgrader.coursedir import CourseDirectory
@@ -34,13 +41,14 @@ def _generate(root: Path, assignment: str, course: Path) -> Path:
     config = configuration(root)
     own = CourseDirectory(config=config)
     shutil.copytree(
-        own.format_path(own.source_directory, ".", assignment), course / "source" / assignment
+        own.format_path(own.source_directory, ".", assignment), course / "source" / PLAIN
     )
-    config.CourseDirectory = Config(root=str(course), assignment_id=assignment)
+    config.CourseDirectory = Config(root=str(course), assignment_id=PLAIN)
     config.GenerateAssignment.no_database = True
     config.SaveCells.enabled = False
-    GenerateAssignment(coursedir=CourseDirectory(config=config), config=config).start()
-    return course / "release" / assignment
+    more = {} if log is None else {"log": log}
+    GenerateAssignment(coursedir=CourseDirectory(config=config), config=config, **more).start()
+    return course / "release" / PLAIN
 
 
 def _copy_new(folder: Path, to: Path) -> None:

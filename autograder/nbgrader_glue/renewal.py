@@ -11,6 +11,7 @@ from nbgrader import utils
 from nbgrader.api import Gradebook, MissingEntry
 
 from autograder.digest import digest
+from autograder.marking.kept import COUNTS, FIRST, Kept, KeptError
 from autograder.nbgrader_glue import worked
 
 # nbconvert writes a tag's settings in an order of its own.
@@ -47,9 +48,21 @@ class Renewal:
                 if path.is_file()
             ]
             opened = worked.settings(Path(self._course.root)).get(assignment)
-            marks = self._marks(assignment, student)
-            self._made_of[key] = digest(self._layout, repr((files, opened, marks)))
+            marks, rows = self._marks(assignment, student), self._rows(assignment, student)
+            self._made_of[key] = digest(self._layout, repr((files, opened, marks, rows)))
         return self._made_of[key]
+
+    def _rows(self, assignment: str, student: str) -> list:
+        """The rows of rubrics by which a person marked; none where they cannot be read."""
+        kept = Kept(Path(self._course.root))
+        try:
+            found = {cell: kept.of(assignment, cell).get(student, {})
+                     for cell in sorted(kept.cells(assignment))}  # fmt: skip
+        except KeptError:
+            return []
+        return [
+            (cell, entry.get(FIRST), entry.get(COUNTS)) for cell, entry in found.items() if entry
+        ]
 
     def _marks(self, assignment: str, student: str) -> list:
         with Gradebook(self._course.db_url, self._course.course_id) as gradebook:

@@ -35,7 +35,7 @@ class Submissions:
         if not folder.is_dir():
             return None
         submitted.check(folder, Path(self._course.root) / self._course.submitted_directory)
-        when = submitted.timestamp(self._course, folder)
+        when = submitted.timestamp(folder)
         files = {
             path.relative_to(folder).as_posix(): path.read_bytes()
             for path in sorted(folder.rglob("*"))

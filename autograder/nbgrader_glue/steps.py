@@ -6,9 +6,13 @@ Each list of preprocessors is that of nbgrader 0.9.6 with ours put in; a test co
 from importlib.util import find_spec
 from pathlib import Path
 
+from autograder.nbgrader_glue.exchange import OF_GRADERS, OF_STUDENTS
+
 OURS = "autograder.nbgrader_glue.preprocessors"
 # For `autograde`: what reads a submission.
-SUBMISSION_EXPORTER = "autograder.nbgrader_glue.submitted.SubmissionExporter"
+SUBMISSION_EXPORTER = "autograder.nbgrader_glue.reading.SubmissionExporter"
+# For `generate_assignment`: what looks at a source and writes its release.
+RELEASE_EXPORTER = "autograder.nbgrader_glue.generating.ReleaseExporter"
 # For `generate_feedback`: what writes its pages.
 FEEDBACK_EXPORTER = "autograder.nbgrader_glue.feedback.FeedbackExporter"
 # For `export`.
@@ -22,18 +26,7 @@ PAGE_FILTERS = {
     "pictures_beside": "autograder.nbgrader_glue.markdown.pictures_beside",
 }
 # For `ExchangeFactory`, on a student's side and on the graders': nbgrader's exchange, closed.
-EXCHANGE = {
-    name: f"autograder.nbgrader_glue.exchange.{ours}"
-    for name, ours in {
-        "collect": "Collect",
-        "fetch_assignment": "FetchAssignment",
-        "fetch_feedback": "FetchFeedback",
-        "list": "List",
-        "release_assignment": "ReleaseAssignment",
-        "release_feedback": "ReleaseFeedback",
-        "submit": "Submit",
-    }.items()
-}
+EXCHANGE = OF_STUDENTS | OF_GRADERS
 
 
 def page_templates() -> list[str]:
@@ -77,8 +70,9 @@ def autograde_preprocessors() -> list[str]:
 
 
 def generate_preprocessors() -> list[str]:
-    """nbgrader's own, with ContinuePastErrors first."""
+    """nbgrader's own, with ours first, and SaveChangedCells instead of SaveCells."""
     return [
+        f"{OURS}.StampVersion",
         f"{OURS}.ContinuePastErrors",
         "nbgrader.preprocessors.IncludeHeaderFooter",
         "nbgrader.preprocessors.InstantiateTests",
@@ -87,7 +81,7 @@ def generate_preprocessors() -> list[str]:
         "nbgrader.preprocessors.ClearOutput",
         "nbgrader.preprocessors.CheckCellMetadata",
         "nbgrader.preprocessors.ComputeChecksums",
-        "nbgrader.preprocessors.SaveCells",
+        "autograder.nbgrader_glue.new_cells.SaveChangedCells",
         "nbgrader.preprocessors.ClearHiddenTests",
         "nbgrader.preprocessors.ClearMarkScheme",
         "nbgrader.preprocessors.ComputeChecksums",

@@ -5,15 +5,8 @@ import stat
 from datetime import datetime
 from pathlib import Path
 
-import nbformat
-from nbconvert.exporters import NotebookExporter
-
-from autograder.nbgrader_glue.handed_in import counted, mechanisms_beside
-from autograder.nbgrader_glue.names import leave_out_unfit
-from autograder.nbgrader_glue.start import can_start
-from autograder.notebook.version import other_version
+from autograder.nbgrader_glue import times
 from autograder.protocol import one_line
-from autograder.sandbox.room import Room
 
 
 class RefusedError(ValueError):
@@ -55,86 +48,15 @@ def _check_entry(path: Path, shown: str, folder: Path) -> None:
         raise RefusedError(f"{shown} is a folder: {again}")
 
 
-def timestamp(course, folder: Path) -> datetime | None:
+def timestamp(folder: Path) -> datetime | None:
     """When a submission was handed in, in UTC; None if that is not known.
 
-    RefusedError if its timestamp.txt holds no time.
+    RefusedError if its timestamp.txt holds no time, and cannot be put aside.
     """
-    path = folder / "timestamp.txt"
     try:
-        if path.is_file() or not os.path.lexists(path):
-            return course.get_existing_timestamp(str(folder))
-    except Exception:  # nbgrader fails while it reports the error
-        pass
-    raise RefusedError(
-        "timestamp.txt holds no time, such as 2025-01-31 23:59:59 UTC: "
-        "put the time of the submission into it, or delete it"
-    )
-
-
-class SubmissionExporter(NotebookExporter):
-    """For `autograde`: reads a submission, with or without a BOM, after checking it.
-
-    The converter goes by file names. If a submission has no notebook of the assignment's name, this
-    class tells the converter that there is one, and reads the one that counts instead.
-    nbgrader makes it when it has found the submissions, and before it changes anything.
-    """
-
-    def __init__(self, config=None, **kw):
-        super().__init__(config=config, **kw)
-        leave_out_unfit(self.parent)
-        can_start(self.parent, lambda: Room().close())
-        for folder, notebooks in getattr(self.parent, "assignments", {}).items():
-            name = self._course.assignment_id
-            if (
-                f"{name}.ipynb" not in map(os.path.basename, notebooks)
-                and self._source(name).exists()
-            ):
-                self._look_for(Path(folder), name, notebooks)
-
-    @property
-    def _course(self):
-        assert self.parent is not None  # `autograde` makes the exporter
-        return self.parent.coursedir
-
-    def _look_for(self, folder: Path, name: str, notebooks: list[str]) -> None:
-        try:
-            self._check(folder)
-            self._counted(folder, name)
-        except (OSError, RefusedError) as error:
-            self.log.warning("%s: %s", folder, error)
-        else:
-            notebooks.append(str(folder / f"{name}.ipynb"))
-
-    def _counted(self, folder: Path, name: str) -> Path:
-        return counted(folder, name, nbformat.read(self._source(name), as_version=4))[0]
-
-    def _source(self, name: str) -> Path:
-        course = self._course
-        folder = course.format_path(course.source_directory, ".", course.assignment_id)
-        return Path(folder) / f"{name}.ipynb"
-
-    def _check(self, folder: Path) -> None:
-        course = self._course
-        check(folder, Path(course.root) / course.submitted_directory)
-
-    def from_filename(self, filename, resources=None, **kw):
-        course, names = self._course, resources["nbgrader"]
-        folder = Path(
-            course.format_path(course.submitted_directory, names["student"], names["assignment"])
-        )
-        self._check(folder)
-        if not os.path.exists(filename):
-            filename = str(self._counted(folder, names["notebook"]))
-        return super().from_filename(filename, resources=resources, **kw)
-
-    def from_file(self, file_stream, resources=None, **kw):
-        text = file_stream.read().removeprefix("\ufeff")  # Windows editors write it
-        notebook = nbformat.reads(text, as_version=4)
-        name = self._course.assignment_id
-        source = self._source(name)
-        if source.is_file():
-            present = nbformat.read(source, as_version=4)
-            if why := other_version(notebook, present, mechanisms_beside(source.parent)):
-                raise RefusedError(f"{name}.ipynb {why}")
-        return self.from_notebook_node(notebook, resources=resources, **kw)
+        return times.of(folder)
+    except OSError as error:
+        raise RefusedError(
+            f"{times.FILE} cannot be read, or written as {times.AS} ({error.strerror}): "
+            "put the time of the submission into it, or delete it"
+        ) from None

@@ -7,7 +7,7 @@ from nbformat import NotebookNode
 
 from autograder.notebook.grade import is_judged
 from autograder.notebook.recognise import grade_id
-from autograder.problems import check_for
+from autograder.problems import check_here
 from autograder.proofs import derivation_of
 
 MARK = re.compile(r"[ \t]*### (BEGIN|END) SOLUTION[ \t]*(\n|$)")
@@ -18,7 +18,7 @@ def answers_to(checks: Iterable[str], cells: list[NotebookNode]) -> dict[str, st
     sources = [cell.source for cell in cells if cell.cell_type == "code"]
     found = {}
     for check in checks:
-        known = check_for(check)
+        known = check_here(check)
         name = re.escape(known.name if known else check.rpartition("-")[2])
         defines = re.compile(rf"^(def\s+{name}\s*\(|{name}\s*=[^=])", re.MULTILINE)
         defining = [source for source in sources if defines.search(source)]

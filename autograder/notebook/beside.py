@@ -46,8 +46,8 @@ class Beside:
     """The files beside a notebook, by their path from it.
 
     laid: those that its cells find. left_out: why its cells do not find the others. documents: a
-    student's own pictures and texts. mechanisms: the course's own, as texts, of which checks are made;
-    they are the source's, and no cell finds them.
+    student's own pictures and texts. mechanisms: the course's own files, as texts, of which checks are
+    made: mechanisms, and checks/NAME.py; they are the source's, and no cell finds them.
     """
 
     laid: Mapping[str, bytes] = field(default_factory=dict)

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from autograder.judging.faults import NOT_RUN
 from autograder.protocol import Fault, FaultKind, one_line
 
 # A cell may hold any text; only this much of it, and of each line, is read.
@@ -14,6 +15,7 @@ MAY_DEFINE_ANY = re.compile(
 )
 IMPORT = re.compile(r"(from [\w. ]+ )?import\b")
 SCOPE = re.compile(r"(async\s+)?(def|class)\b")
+NO_NAME = re.compile(r"NameError: name '(\w+)' is not defined")
 CALL = re.compile(r"[\w\])] ?\(")
 ASSIGNS = re.compile(r"(?<![=!<>:+\-*/%@&|^~])=(?!=)")
 
@@ -58,7 +60,7 @@ def ran(source: str, shown: list[dict]) -> Ran:
 def explained(name: str, fault: Fault, cells: list[Ran]) -> Fault:
     """The fault of a call of `name`, or that of the cell that should have defined it."""
     if fault.kind is not FaultKind.MISSING:
-        return stale(name, cells) or fault
+        return stale(name, cells) or _with_cell_of_name(fault, cells)
     failed = [cell for cell in _defining(name, cells) if cell.error]
     if not failed and not fault.message:
         failed = [cell for cell in cells if cell.error and _may_define_any(cell.source)]
@@ -66,6 +68,18 @@ def explained(name: str, fault: Fault, cells: list[Ran]) -> Fault:
         return Fault(FaultKind.CELL_FAILED, failed[-1].error, failed[-1].line)
     left_out = [text for cell in cells for text in cell.left_out]
     return replace(fault, line=left_out[-1]) if left_out and not fault.message else fault
+
+
+def _with_cell_of_name(fault: Fault, cells: list[Ran]) -> Fault:
+    """The fault; if it is a name that is not there, with why the cell that defines it stopped."""
+    missing = NO_NAME.match(fault.message) if fault.kind is FaultKind.RAISED else None
+    failed = [cell for cell in _defining(missing[1], cells) if cell.error] if missing else []
+    if not failed:
+        return fault
+    error = failed[-1].error
+    how = f"was {error[error.index(NOT_RUN) :]}" if NOT_RUN in error else f"stopped with {error}"
+    why = f"{fault.message}; the cell that defines it {how}"
+    return replace(fault, message=one_line(why, 2 * MOST_CHARACTERS))
 
 
 def stale(name: str, cells: list[Ran]) -> Fault | None:

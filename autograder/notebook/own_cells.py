@@ -4,10 +4,12 @@ nbgrader gives an untouched answer 0 points, and nobody reads it. So the cell ge
 where the answer may be: then the cell is no longer untouched, and the person finds what to read.
 """
 
+import re
 from collections.abc import Sequence
 
 from nbformat import NotebookNode
 
+from autograder.notebook.editions import Edition, texts_of
 from autograder.notebook.letter import is_letter, plain
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.released import essence, released
@@ -15,16 +17,31 @@ from autograder.protocol import one_line
 
 POINTER = "(From the grader: this cell has no answer; it may be in the student's own {where}.)"
 
+POINTS = re.compile(r"[#*]? ?\\?\(From the grader: this cell has no answer;.*\)\*?\s*$")
+
+
+def without_pointer(text: str) -> str:
+    """An answer's text without the sentence, if it has one."""
+    return POINTS.sub("", text)
+
 
 def point_to_own_cells(
-    notebook: NotebookNode, source: NotebookNode, documents: Sequence[str] = ()
+    notebook: NotebookNode,
+    source: NotebookNode,
+    documents: Sequence[str] = (),
+    editions: Sequence[Edition] = (),
+    put_back: Sequence[NotebookNode] = (),
 ) -> list[str]:
     """Put the sentence into each empty answer with something of the student's beside it; give notes.
 
     That is text or a picture in the cells directly above, or in those below up to the next graded cell;
-    or else one of the documents, which were handed in beside the notebook.
+    or else one of the documents, which were handed in beside the notebook. No text that one of the
+    editions had is a student's own. put_back: the cells that the student had deleted, which part nothing
+    from its answer.
     """
+    deleted = set(map(id, put_back))
     given = {essence(text) for cell in source.cells for text in (cell.source, released(cell))}
+    given |= texts_of(editions)
     untouched = {
         grade_id(cell): {essence(released(cell)), ""} for cell in source.cells if _is_read(cell)
     }
@@ -33,8 +50,12 @@ def point_to_own_cells(
         name = grade_id(cell)
         if name not in untouched or essence(cell.source) not in untouched[name]:
             continue
-        above = _run_of(reversed(notebook.cells[:index]), lambda other: _is_own(other, given))
-        below = _run_of(notebook.cells[index + 1 :], lambda other: not grade_id(other))
+        above, below = (
+            [other for other in cells if id(other) not in deleted]
+            for cells in (reversed(notebook.cells[:index]), notebook.cells[index + 1 :])
+        )
+        above = _run_of(above, lambda other: _is_own(other, given))
+        below = _run_of(below, lambda other: not grade_id(other))
         own = {
             "cell above": any(_is_own(other, given) for other in above),
             "cell below": any(_is_own(other, given) for other in below),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from nbformat import NotebookNode
 
 from autograder.notebook.form import give_form
-from autograder.notebook.released import essence, released
+from autograder.notebook.released import essence, is_as_released, released
 
 
 def grade_id(cell: NotebookNode) -> str | None:
@@ -26,35 +26,40 @@ def known_cells(source: NotebookNode) -> dict[str, NotebookNode]:
 class Places:
     """Where the source's graded cells are in a notebook.
 
-    at: grade_id → index. bare: those that have lost nbgrader's settings. doubled: a grade_id for each
-    further copy.
+    at: grade_id → index. bare: those that have lost nbgrader's settings. copies: grade_id → the indices
+    of all its copies, where there are several.
     """
 
     at: dict[str, int]
     bare: list[str]
-    doubled: list[str]
+    copies: dict[str, list[int]]
 
 
 def places(notebook: NotebookNode, source: NotebookNode) -> Places:
-    """Find the graded cells; if several have one grade_id, the last counts.
+    """Find the graded cells. If an answer is there several times, the last counts of those that differ
+    from what was handed out; of other cells, and where none differs, the last.
 
     An editor or a converter may drop nbgrader's settings; it leaves the cells' ids, or at least the
     text of those that nobody edits.
     """
     known = known_cells(source)
-    at: dict[str, int] = {}
-    doubled = []
-    for index, cell in enumerate(notebook.cells):
-        name = grade_id(cell)
-        if name in known:
-            if name in at:
-                doubled.append(name)
-            at[name] = index
-    bare: dict[str, int] = {}
+    all_at = _found(dict(enumerate(notebook.cells)), grade_id, {name: name for name in known}, {})
+    bare: dict[str, list[int]] = {}
     for key, names in ((_id, _by_id(known)), (_text, _by_text(known))):
-        if len(at) + len(bare) < len(known):
-            bare |= _found(notebook, key, names, at | bare)
-    return Places(at | bare, [name for name in known if name in bare], doubled)
+        if len(all_at) + len(bare) < len(known):
+            bare |= _found(_without_settings(notebook), key, names, all_at | bare)
+    all_at |= bare
+    at = {
+        name: _that_counts([(index, notebook.cells[index]) for index in indices], known[name])
+        for name, indices in all_at.items()
+    }
+    copies = {name: indices for name, indices in all_at.items() if len(indices) > 1}
+    return Places(at, [name for name in known if name in bare], copies)
+
+
+def is_untouched(cell: NotebookNode, original: NotebookNode) -> bool:
+    """Whether an answer is as it was handed out, or empty; original: its cell in the source."""
+    return is_as_released(cell, original) and not cell.get("attachments")
 
 
 @dataclass(frozen=True)
@@ -72,21 +77,31 @@ def likeness(notebook: NotebookNode, source: NotebookNode) -> Likeness:
     known, at = known_cells(source), places(notebook, source).at
     answers = [name for name, cell in known.items() if cell.metadata["nbgrader"].get("solution")]
     untouched = sum(
-        essence(notebook.cells[at[name]].source) in ("", essence(released(known[name])))
-        for name in answers
-        if name in at
+        is_as_released(notebook.cells[at[name]], known[name]) for name in answers if name in at
     )
     return Likeness(0 < len(known) <= 3 * len(at), untouched < len(answers))
 
 
-def _found(notebook, key, names: dict, at: dict[str, int]) -> dict[str, int]:
-    """The cells without settings whose key is in `names`, except for the names in `at`."""
-    taken, found = set(at.values()), {}
-    for index, cell in enumerate(notebook.cells):
-        if "nbgrader" not in cell.metadata and index not in taken:
-            name = names.get(key(cell))
-            if name and name not in at:
-                found[name] = index
+def _that_counts(copies: list[tuple[int, NotebookNode]], original: NotebookNode) -> int:
+    answers = []
+    if original.metadata["nbgrader"].get("solution"):
+        answers = [index for index, cell in copies if not is_untouched(cell, original)]
+    return answers[-1] if answers else copies[-1][0]
+
+
+def _without_settings(notebook) -> dict[int, NotebookNode]:
+    """By its index: each cell that has no settings of nbgrader's, or none that name a cell."""
+    return {index: cell for index, cell in enumerate(notebook.cells) if not grade_id(cell)}
+
+
+def _found(cells: dict[int, NotebookNode], key, names: dict, known: dict) -> dict[str, list[int]]:
+    """The indices of the cells whose key is in `names`, by name; except for what is known already."""
+    taken = {index for indices in known.values() for index in indices}
+    found: dict[str, list[int]] = {}
+    for index, cell in cells.items():
+        name = names.get(key(cell)) if index not in taken else None
+        if name and name not in known:
+            found.setdefault(name, []).append(index)
     return found
 
 

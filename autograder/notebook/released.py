@@ -29,3 +29,9 @@ def released(cell: NotebookNode) -> str:
 def essence(text: str) -> str:
     """The text without white space, which editors change by themselves."""
     return "".join(text.split())
+
+
+def is_as_released(cell: NotebookNode, source: NotebookNode | None) -> bool:
+    """Whether an answer is empty or as it was handed out; source: its cell in the source."""
+    given = {"", essence(released(source))} if source is not None else {""}
+    return essence(cell.source) in given

@@ -31,7 +31,11 @@ def with_verdicts(graded: Graded) -> NotebookNode:
         if is_judged(cell):
             points = cell.metadata["nbgrader"]["points"]
             cell.execution_count = 1
-            cell.outputs = outputs_for(graded.verdicts[grade_id(cell) or ""], points)
+            # Whatever stands behind the score, nbgrader does not read.
+            cell.outputs = [
+                *outputs_for(graded.verdicts[grade_id(cell) or ""], points),
+                *cell.outputs,
+            ]
         if "outputs" in cell:
             cell.outputs = without_surrogates(cell.outputs)  # else no file can hold them
     return graded.notebook

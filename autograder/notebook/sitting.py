@@ -1,15 +1,22 @@
 """A student's notebook in a room, cell by cell; when the room is lost, a new one takes over."""
 
 import json
-import time
 from contextlib import contextmanager
 from dataclasses import replace
 
 from autograder.judging.check import CannotRunError, Check
-from autograder.judging.faults import PYTHON_ENDED, describe_fault
+from autograder.judging.faults import NOT_RUN, PYTHON_ENDED, describe_fault
 from autograder.judging.verdict import State, Verdict
 from autograder.notebook import outputs
 from autograder.notebook.blame import Ran, explained, ran, stale
+from autograder.notebook.budget import (
+    AGAIN,
+    CALLS_SECONDS,
+    GIVEN_SECONDS,
+    OWN_SECONDS,
+    Budget,
+    cell,
+)
 from autograder.protocol import (
     CALL_SECONDS,
     PATIENCE,
@@ -24,9 +31,6 @@ from autograder.protocol import (
 )
 from autograder.sandbox.room import Room, RoomLostError, StarvedError, TooLongError
 
-# One slow notebook must not hold up all others. This is processor time; on the clock, a notebook has
-# PATIENCE times as long.
-NOTEBOOK_SECONDS = 60.0
 MISSING = """
 import json
 from protocol.languages import missing
@@ -39,16 +43,22 @@ class Sitting:
     """A student's notebook in a room, cell by cell; when the room is lost, a new one takes over.
 
     A new room runs the earlier cells again, but not the cell or the call that ended the last room.
-    After NOTEBOOK_SECONDS nothing more is run; the time to start a room does not count. If the
-    processor had no time for a call, it is tried once more before it costs points.
+    Nothing is run whose `budget` is used up; the time to start a room does not count. If the processor
+    had no time for a call, it is tried once more before it costs points.
+
+    uncertain: what was stopped though it may have had too little of the processor, in words.
     """
 
     def __init__(self, room=Room.loaded):
         self._new_room = room
         self._room: Room | None = None
-        self._used = self._clock = 0.0  # s, in earlier rooms, and while student code ran
-        self._ran: list[str] = []
+        self._used = self._idle = 0.0  # s, in earlier rooms
+        self._own = Budget("the student's own cells", OWN_SECONDS)
+        self._given = Budget("the assignment's cells", GIVEN_SECONDS)
+        self._calls: dict[str, Budget] = {}
+        self._ran: list[tuple[str, bool]] = []
         self._cells: list[Ran] = []  # all of them, those that ended a room too
+        self.uncertain: list[str] = []
 
     def __enter__(self):
         return self
@@ -56,26 +66,42 @@ class Sitting:
     def __exit__(self, *exception):
         self._leave()
 
-    def run(self, source: str) -> list[dict]:
-        """The outputs of a cell; an error output where it ends its process."""
-        if self._is_over():
-            text = f"not run: the notebook had used up its {self._limit():g} s before this cell"
-            self._cells.append(Ran(source, f"TimeoutError: {text}", stopped=True))
+    def seconds(self) -> float:
+        """The processor time so far, s."""
+        return self._spent()[0]
+
+    def run(self, source: str, own: bool = False, is_students: bool = True) -> list[dict]:
+        """The outputs of a cell; an error output where it ends its process.
+
+        own: whether it is the student's, beside the assignment's. is_students: whether it may be to
+        blame for a function that is missing; no sentence about one quotes another cell.
+        """
+        cells = self._cells if is_students else []
+        budget = self._budget(own)
+        if budget.is_over:
+            text = f"{NOT_RUN}{budget.spent()}"
+            if budget.is_over_by_waiting:
+                self._doubt(cell(source))
+            cells.append(Ran(source, f"TimeoutError: {text}", stopped=True))
             return [outputs.error("TimeoutError", text, [text])]
         try:
             room = self._current()
-            with self._timed():
+            with self._charged(budget, cell(source)):
                 shown = room.run(source)
         except RoomLostError as error:
             self._leave()
             reason = one_line(str(error)).removeprefix("it ended").lstrip(": ")
             text = "this cell ended Python itself" + (f": {reason}" if reason else "")
+            if isinstance(error, StarvedError):
+                self._doubt(cell(source))
             shown = [outputs.error("RoomLostError", text, [text])]
             why = PYTHON_ENDED + (f" ({reason})" if reason else "")
-            self._cells.append(Ran(source, why, stopped=True))
+            cells.append(Ran(source, why, stopped=True))
         else:
-            self._ran.append(source)
-            self._cells.append(ran(source, shown))
+            self._ran.append((source, own))
+            cells.append(ran(source, shown))
+            if any(output.get("starved") for output in shown):
+                self._doubt(cell(source))
         return shown
 
     def ask(self, calls: list[Call]) -> list[Reply]:
@@ -84,9 +110,11 @@ class Sitting:
         if (fault := replies[-1].fault) and fault.kind is FaultKind.STARVED:
             replies[-1:] = self._asked(calls[len(replies) - 1 :])
         last = replies[-1].fault
+        if last and last.kind is FaultKind.STARVED:
+            self._doubt(calls[0].name)
         if last and last.kind is FaultKind.NO_TOOLS and last.message in self._missing():
             raise CannotRunError(last.message)
-        if last and not self._is_over():
+        if last and not self._of_calls(calls).is_over:
             replies[-1] = Reply(fault=explained(calls[0].name, last, self._cells))
         return replies
 
@@ -109,12 +137,12 @@ class Sitting:
         return replace(verdict, next_step=f"{said} {verdict.next_step}".strip())
 
     def _asked(self, calls: list[Call]) -> list[Reply]:
+        budget = self._of_calls(calls)
         try:
-            room = None if self._is_over() else self._current()
+            room = None if budget.is_over else self._current()
             if room is not None:
-                seconds = NOTEBOOK_SECONDS - self._spent()
-                with self._timed():
-                    return room.ask(calls, seconds, PATIENCE * NOTEBOOK_SECONDS - self._clock)
+                with self._charged(budget, f"the calls of {calls[0].name}"):
+                    return room.ask(calls, budget.left, budget.idle_left)
             fault = Fault(FaultKind.DIED)
         except TooLongError:
             fault = Fault(FaultKind.TIMED_OUT, f"{CALL_SECONDS:g} s")
@@ -123,10 +151,24 @@ class Sitting:
         except RoomLostError:
             fault = Fault(FaultKind.DIED)
         self._leave()
-        if self._is_over():
-            text = f"the {self._limit():g} s that the whole notebook has"
+        if budget.is_over_by_waiting:
+            text = f"the {PATIENCE * budget.seconds:g} s that all its calls have together"
+            fault = Fault(FaultKind.STARVED, text)
+        elif budget.is_over:
+            text = f"the {budget.seconds:g} s that all its calls have together"
             fault = Fault(FaultKind.TIMED_OUT, text)
         return [Reply(fault=fault)]
+
+    def _budget(self, own: bool) -> Budget:
+        return self._own if own else self._given
+
+    def _of_calls(self, calls: list[Call]) -> Budget:
+        name = calls[0].name
+        return self._calls.setdefault(name, Budget(f"the calls of {name}", CALLS_SECONDS))
+
+    def _doubt(self, what: str) -> None:
+        if what not in self.uncertain:
+            self.uncertain.append(what)
 
     def _missing(self) -> list[str]:
         """The tools that are not installed here, asked of a room that has run no student's code."""
@@ -137,9 +179,9 @@ class Sitting:
     def _current(self) -> Room:
         if self._room is None:
             self._room = self._new_room()
-            for source in self._ran:
-                if not self._is_over():
-                    with self._timed():
+            for source, own in self._ran:
+                if not self._budget(own).is_over:
+                    with self._charged(self._budget(own), AGAIN):
                         self._room.run(source)
         return self._room
 
@@ -147,23 +189,18 @@ class Sitting:
         if self._room is not None:
             self._room.close()
             self._used += self._room.used
+            self._idle += self._room.idle
             self._room = None
 
     @contextmanager
-    def _timed(self):
-        start = time.monotonic()
+    def _charged(self, budget: Budget, what: str):
+        used, idle = self._spent()
         try:
             yield
         finally:
-            self._clock += time.monotonic() - start
+            now, idle_now = self._spent()
+            budget.take(what, now - used, idle_now - idle)
 
-    def _spent(self) -> float:
-        return self._used + (self._room.used if self._room is not None else 0.0)
-
-    def _is_over(self) -> bool:
-        return self._spent() >= NOTEBOOK_SECONDS or self._clock >= PATIENCE * NOTEBOOK_SECONDS
-
-    def _limit(self) -> float:
-        """The limit that the notebook has reached, the processor's or the clock's, s."""
-        of_processor = self._spent() >= NOTEBOOK_SECONDS
-        return NOTEBOOK_SECONDS if of_processor else PATIENCE * NOTEBOOK_SECONDS
+    def _spent(self) -> tuple[float, float]:
+        here = (self._room.used, self._room.idle) if self._room is not None else (0.0, 0.0)
+        return self._used + here[0], self._idle + here[1]

@@ -16,12 +16,13 @@ KEY = "armdyn_suggestion"
 @dataclass(frozen=True)
 class Suggestion:
     """points: of the answer, until a person gives others. comment: no word of it is the student's.
-    of_lines: its part that stays true whatever the person gives.
+    of_lines: its part that stays true whatever the person gives. rows: of the table of points, from 1.
     """
 
     points: float
     comment: str
     of_lines: str = ""
+    rows: tuple[int, ...] = ()
 
     def without_points(self, comment: str) -> str:
         """What is left of a comment that holds the suggestion, when a person has given the points."""
@@ -39,6 +40,7 @@ def suggest(cell: NotebookNode, marks: list[Marked]) -> None:
             "points": points,
             "comment": f"{said} {_suggested(marks, points, most)}",
             "of_lines": said,
+            "rows": _rows(marks),
         }
 
 
@@ -46,13 +48,17 @@ def suggestion_of(cell: NotebookNode) -> Suggestion | None:
     said = cell.metadata.get(KEY)
     if not said:
         return None
-    # A notebook that an earlier version graded has no of_lines.
-    of_lines = str(said.get("of_lines", ""))
-    return Suggestion(float(said["points"]), str(said["comment"]), of_lines)
+    # A notebook that an earlier version graded has no of_lines, or no rows.
+    of_lines, rows = str(said.get("of_lines", "")), tuple(map(int, said.get("rows", ())))
+    return Suggestion(float(said["points"]), str(said["comment"]), of_lines, rows)
+
+
+def _rows(marks: list[Marked]) -> list[int]:
+    return sorted({row.number for marked in marks for row in marked.earned})
 
 
 def _suggested(marks: list[Marked], points: float, most: float) -> str:
-    rows = sorted({row.number for marked in marks for row in marked.earned})
+    rows = _rows(marks)
     which = f": row{'s' if len(rows) > 1 else ''} {_listed(rows)} of the table" if rows else ""
     return f"The lines suggest {points:g} of {most:g} points{which}."
 

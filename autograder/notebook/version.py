@@ -18,32 +18,53 @@ from autograder.protocol import one_line
 KEY = "armdyn"  # in a notebook's metadata
 
 
+ARM = ""  # among the questions: from what a student's own arm is drawn
+
+
 def version_of(source: NotebookNode, files: Mapping[str, str]) -> str:
     """The version of a problem by its source. files: the course's own mechanisms, as `check_for` takes
     them."""
-    asked = {}
+    return digest(json.dumps(questions_of(source, files), sort_keys=True))[:8]
+
+
+def questions_of(source: NotebookNode, files: Mapping[str, str]) -> dict[str, str]:
+    """By the id of a graded cell, a short digest of how its function is called; and that of ARM."""
+    drawn = set_up(source)
+    arm = [drawn.problem, drawn.year, drawn.same_for_all] if drawn else []
+    asked = {ARM: digest(json.dumps(arm))[:8]}
     for cell in source.cells:
         claims = cell.metadata.get("nbgrader") or {}
         if claims.get("grade"):
             id = str(claims["grade_id"])
             check = None if claims.get("solution") else check_for(id, None, files)
-            asked[id] = check.signature if check else ""
-    drawn = set_up(source)
-    arm = [drawn.problem, drawn.year, drawn.same_for_all] if drawn else []
-    return digest(json.dumps([asked, arm], sort_keys=True))[:8]
+            asked[id] = digest(check.signature)[:8] if check else ""
+    return asked
 
 
-def stamp(notebook: NotebookNode, version: str) -> None:
-    """Write into a notebook in which version it is handed out."""
-    notebook.metadata[KEY] = {"version": version}
+def stamp(notebook: NotebookNode, problem: str, version: str, questions: Mapping[str, str]) -> None:
+    """Write into a notebook of which problem it is, and in which version it is handed out."""
+    notebook.metadata[KEY] = {
+        "problem": problem,
+        "version": version,
+        "questions": dict(questions),
+    }
 
 
 def other_version(submission: NotebookNode, source: NotebookNode, files: Mapping[str, str]) -> str:
-    """Why a submission cannot be graded by this source; "" where it can, or has no version."""
+    """Why a submission cannot be graded by this source; "" where it can, or has no version.
+
+    It can where a question was only added or removed since it was handed out.
+    """
     stamped = submission.metadata.get(KEY)
-    given = stamped.get("version") if isinstance(stamped, dict) else None
+    stamped = stamped if isinstance(stamped, dict) else {}
+    given, theirs = stamped.get("version"), stamped.get("questions")
     if not isinstance(given, str) or given == (now := version_of(source, files)):
         return ""
+    if isinstance(theirs, dict):
+        ours = questions_of(source, files)
+        common = theirs.keys() & ours.keys()
+        if ARM in common and len(common) > 1 and all(theirs[id] == ours[id] for id in common):
+            return ""
     return (
         f"is of another version of this problem ({one_line(given, 20)}; the course has {now}), whose "
         "questions are others: ask the student to put the answers into the present notebook, or grade "

@@ -27,7 +27,9 @@ class Recorder(Protocol):
 
     assignment: str
     source: str  # the source notebook, as JSON
-    settings: str  # what else decides a grade, besides the submission, the source and the seed
+    settings: str  # what else decides a graded notebook, besides these, the submission and the seed
+    earlier: tuple[str, ...]  # the editions that students may have, as JSON, the newest first
+    carried_on: float  # the share of the points for an error that is carried on
     max_score: float
 
     def submissions(self) -> dict[str, Path]:
@@ -47,6 +49,9 @@ class Recorder(Protocol):
 
     def laid_in(self, student: str) -> Beside:
         """The files that the notebook's cells find beside it."""
+
+    def laid_in_source(self) -> Beside:
+        """The files that the source's own cells find beside it."""
 
     def seed_of(self, student: str) -> str:
         """What decides the student's random cases."""

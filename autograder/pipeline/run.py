@@ -13,12 +13,14 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from autograder.busy import BusyError
 from autograder.digest import digest
 from autograder.pipeline.alike import alike
 from autograder.pipeline.cache import Cache, code_version
 from autograder.pipeline.executors import Cluster, Processes, outcomes
 from autograder.pipeline.lock import locked
 from autograder.pipeline.recorder import Recorder, Standing
+from autograder.pipeline.soundness import refuse_unsound
 from autograder.pipeline.worker import judge, load
 from autograder.protocol import one_line
 from autograder.sandbox.room import share
@@ -27,6 +29,7 @@ from autograder.terminal import shown_name, shown_note, shown_points
 
 CACHE = Path("course") / "cache-of-results"
 LOCK = Path("course") / "grading.lock"
+AGAIN = "so the next run judges this notebook again; fewer --jobs leave each more time"
 PRELOAD = ("autograder.lean", "autograder.pipeline.worker")
 
 
@@ -73,6 +76,7 @@ def grade_all(
         if force or not (root / CACHE / _done(assignment, "anybody")).parent.exists():
             pool.warm(load)
         with open_recorder(root, assignment) as recorder:
+            refuse_unsound(recorder, Cache(root / CACHE))
             return _Run(root, recorder, pool, force).lines()
 
 
@@ -85,21 +89,34 @@ class _Run:
         self._submissions = recorder.submissions()
         self._standings = recorder.standings()
         # What decides every result; the rest is the submission's own.
-        self._common = digest(recorder.source, recorder.settings, code_version())
+        self._common = digest(
+            *(recorder.source, *recorder.earlier, recorder.settings, str(recorder.carried_on)),
+            code_version(),
+        )
         self._keys: dict[str, str] = {}
         self._lines: dict[str, Line] = {}
+        self._uncertain: set[str] = set()
 
     def lines(self) -> list[Line]:
         with _bar(len(self._submissions)) as bar:
             for student, outcome in outcomes(judge, self._tasks(), self._pool):
                 self._settle(student, outcome)
                 bar.update(len(self._lines) - bar.n)
+            self._judge_again()
             bar.update(len(self._lines) - bar.n)
         for student, others in alike(self._lines).items():
             note = f"looks like {', '.join(map(ascii, others))}: do these folders belong to one student?"
             line = self._lines[student]
             self._lines[student] = replace(line, notes=(*line.notes, note))
         return [self._lines[student] for student in self._submissions]
+
+    def _judge_again(self) -> None:
+        """Judge again, one at a time, what a clock had stopped while others were judged beside it."""
+        for student in sorted(self._uncertain):
+            task = self._task(student)
+            if task is not None:
+                for _, outcome in outcomes(judge, [(student, task)], self._pool):
+                    self._settle(student, outcome)
 
     def _tasks(self) -> Iterator[tuple[str, tuple]]:
         """The submissions that have to be judged; the others are settled on the way."""
@@ -112,6 +129,8 @@ class _Run:
                 task = self._task(student)
             except FileNotFoundError as error:
                 self._refuse(student, str(error))
+            except BusyError:
+                raise
             except Exception as error:
                 self._fail(student, error)
             else:
@@ -134,7 +153,8 @@ class _Run:
             if known:
                 self._settle(student, known, new=False)
                 return None
-        return content, recorder.source, seed, beside, tuple(notes), student
+        given = content, recorder.source, seed, beside, tuple(notes), student
+        return *given, recorder.earlier, recorder.carried_on
 
     def _unchanged(self, student: str, key: str) -> bool:
         """Whether this very submission was recorded, and its rows and files are still there."""
@@ -170,17 +190,23 @@ class _Run:
                 path = self._submissions[student]
                 self._refuse(student, _unreadable(path, outcome["refused"]))
                 return
-            certain, states, notes = (outcome[name] for name in ("certain", "states", "notes"))
+            names = ("graded", "certain", "states", "notes")
+            graded, certain, states, notes = (outcome[name] for name in names)
+            if not certain and graded:
+                notes = [*notes, AGAIN]
+                self._uncertain.add(student)
             if certain and new:
                 self._cache.store(_result(self._keys[student]), outcome)
             standing = recorder.record(student, outcome["notebook"])
             if certain:
                 entry = self._state(student, standing) | {"states": states, "notes": notes}
                 self._cache.store(_done(recorder.assignment, student), entry)
+        except BusyError:
+            raise
         except Exception as error:
             self._fail(student, error)
         else:
-            self._note(student, states, notes, standing, graded=certain)
+            self._note(student, states, notes, standing, graded=graded)
 
     def _fail(self, student: str, error: Exception) -> None:
         """Note an error that is not the submission's fault; what was recorded before stays."""
@@ -194,6 +220,8 @@ class _Run:
         """Note a submission that cannot be graded as it is, and remove an earlier graded notebook."""
         try:
             self._recorder.refuse(student)
+        except BusyError:
+            raise
         except Exception as error:
             self._recorder.forget()
             why = f"{why}; {type(error).__name__}: {one_line(str(error))}"

@@ -8,19 +8,13 @@ from nbformat import NotebookNode
 
 from autograder.judging.verdict import State
 from autograder.notebook.beside import Beside
-from autograder.notebook.grade import NOTHING, grade
+from autograder.notebook.editions import of_release
+from autograder.notebook.grade import CARRIED_ON, NOTHING, grade
+from autograder.notebook.reading import UnreadableError, read
 from autograder.notebook.scores import with_verdicts
 from autograder.notebook.version import other_version
 from autograder.pipeline.cache import code_version
 from autograder.sandbox.room import Room
-
-
-class NoNotebookError(ValueError):
-    """What was handed in under a notebook's name is something else."""
-
-
-class OtherVersionError(ValueError):
-    """A notebook has other questions than the course; the message says which."""
 
 
 def judge(
@@ -30,22 +24,23 @@ def judge(
     beside: Beside = NOTHING,
     said: tuple[str, ...] = (),
     student: str | None = None,
+    earlier: tuple[str, ...] = (),
+    carried_on: float = CARRIED_ON,
 ) -> dict:
     """Grade a notebook, and give its cells with outputs that nbgrader can read.
 
-    The result holds notebook, states, notes, certain (whether every check could judge) and code, which
-    shows whether a worker has other code; or refused (why the file cannot be graded) and code.
+    earlier: the editions of the problem that students may have, as JSON, the newest first.
+    The result holds notebook, states, notes, graded (whether every check could judge), certain (whether
+    it would do so again, on a busy machine too) and code, which shows whether a worker has other code;
+    or refused (why the file cannot be graded) and code.
     """
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # nbformat's are not the instructor's business
-            return _judged(content, source, seed, beside, said, student) | {"code": code_version()}
-    except (UnicodeDecodeError, nbformat.reader.NotJSONError):
-        refused = "is not valid JSON: ask the student for it again"
-    except OtherVersionError as error:
+            judged = _judged(content, source, seed, beside, said, student, earlier, carried_on)
+            return judged | {"code": code_version()}
+    except UnreadableError as error:
         refused = str(error)
-    except NoNotebookError:
-        refused = "is not a notebook: ask the student for it again"
     except OSError:
         raise  # ours
     except Exception as error:
@@ -61,12 +56,20 @@ def load() -> None:
 
 
 def _judged(
-    content: bytes, source: str, seed: str, beside: Beside, said: tuple, student: str | None
+    content: bytes,
+    source: str,
+    seed: str,
+    beside: Beside,
+    said: tuple[str, ...],
+    student: str | None,
+    earlier: tuple[str, ...],
+    carried_on: float,
 ) -> dict:
-    notebook, notes = _read(content.decode("utf-8-sig"))
+    notebook, notes = read(content)
     if why := other_version(notebook, _source(source), beside.mechanisms):
-        raise OtherVersionError(why)
-    graded = grade(notebook, _source(source), seed, beside, said, student)
+        raise UnreadableError(why)
+    editions = [of_release(text) for text in earlier]
+    graded = grade(notebook, _source(source), seed, beside, said, student, editions, carried_on)
     notebook = with_verdicts(graded)
     nbformat.validate(notebook, relax_add_props=True)
     states = [verdict.state for verdict in graded.verdicts.values()]
@@ -74,23 +77,9 @@ def _judged(
         "notebook": notebook,
         "states": [state.value for state in states],
         "notes": [*notes, *graded.notes],
-        "certain": State.CHECK_FAILED not in states,
+        "graded": State.CHECK_FAILED not in states,
+        "certain": State.CHECK_FAILED not in states and not graded.uncertain,
     }
-
-
-def _read(text: str) -> tuple[NotebookNode, list[str]]:
-    try:
-        notebook = nbformat.reads(text, as_version=nbformat.NO_CONVERT)
-        has_metadata = isinstance(notebook.get("metadata"), dict)
-    except (AttributeError, KeyError, TypeError) as error:  # JSON, but of something else
-        raise NoNotebookError from error
-    if not has_metadata:
-        raise NoNotebookError
-    notes = []
-    if notebook.nbformat != 4:
-        notes.append(f"the notebook was in format {notebook.nbformat}; it was converted")
-        notebook = nbformat.convert(notebook, 4)
-    return notebook, notes
 
 
 @lru_cache(maxsize=8)

@@ -3,45 +3,25 @@
 import difflib
 import re
 from collections.abc import Mapping
+from importlib import import_module
+from pathlib import Path
 from types import MappingProxyType
 
 from autograder.judging.check import Check
-from autograder.problems import families
-from autograder.problems.c6_regressor import checks as c6_regressor
-from autograder.problems.c7_recursive import checks as c7_recursive
-from autograder.problems.c8_control import checks as c8_control
+from autograder.problems import families, own_checks
 from autograder.problems.material.conventions import Convention
 from autograder.problems.own_mechanisms import check_of_file, check_of_kit, files_here
-from autograder.problems.p1_inertia import checks as p1_inertia
-from autograder.problems.p2_energy_skew import checks as p2_energy_skew
-from autograder.problems.p3_pendulum import checks as p3_pendulum
-from autograder.problems.p4_gravity import checks as p4_gravity
-from autograder.problems.p5_state_space import checks as p5_state_space
-from autograder.problems.start_here import checks as start_here
 
-MODULES = (
-    start_here,
-    p1_inertia,
-    p2_energy_skew,
-    p3_pendulum,
-    p4_gravity,
-    p5_state_space,
-    c6_regressor,
-    c7_recursive,
-    c8_control,
+HERE = Path(__file__).parent
+# Each folder with checks is a problem: the first steps, then the problems, then the challenges.
+FOLDERS = sorted(
+    (path.parent.name for path in HERE.glob("*/checks.py")),
+    key=lambda name: ("spc".find(name[0]), name),
 )
-CHECKS = {check.id: check for module in MODULES for check in module.CHECKS}
+MODULES = tuple(import_module(f"{__name__}.{name}.checks") for name in FOLDERS)
+CHECKS: dict[str, Check] = {check.id: check for module in MODULES for check in module.CHECKS}
 # The answers that a person reads, by the grade_id of their cell.
-READ = (
-    "p1-proof",
-    "p2-proof",
-    "p3-derivation",
-    "p4-check",
-    "p5-discussion",
-    "c6-discussion",
-    "c7-discussion",
-    "c8-discussion",
-)
+READ: tuple[str, ...] = tuple(module.READ for module in MODULES if hasattr(module, "READ"))
 
 
 # Those that can give each student an arm of the student's own.
@@ -51,14 +31,34 @@ PROBLEMS_WITH_FAMILIES = families.PROBLEMS
 def check_for(
     id: str, own: Convention | None = None, files: Mapping[str, str] = MappingProxyType({})
 ) -> Check | None:
-    """The check of this id: of a problem, or of a mechanism such as `cart-pole-M`; None for neither.
+    """The check of this id: of a problem, of the course's own, or of a mechanism such as `cart-pole-M`;
+    None for none of these.
 
     own: the student's own arm, where the problem asks for a family. files: the course's own mechanisms,
-    name of the file → its text. MechanismFileError if the one that the check needs is broken.
+    name of the file → its text, and the file of its own checks, checks/NAME.py → its text.
+    MechanismFileError or OwnChecksError if the one that the check needs is broken.
     """
+    added = own_checks.check_of(id, files)
     if id in CHECKS:
-        return CHECKS[id] if own is None else families.on(own, CHECKS[id])
-    return check_of_file(id, files) or check_of_kit(id)
+        if added:
+            raise own_checks.OwnChecksError(f"{id!r} is a check of the kit: give yours another id")
+        check = own_checks.with_mistakes(CHECKS[id], files)
+        return check if own is None else families.on(own, check)
+    found = added or check_of_file(id, files) or check_of_kit(id)
+    if found is None:
+        own_checks.refuse_broken(files)
+        return None
+    return own_checks.with_mistakes(found, files)
+
+
+def check_here(id: str) -> Check | None:
+    """As `check_for`, with the course's own files as they lie around the working folder; None too where
+    the one that is needed is broken.
+    """
+    try:
+        return check_for(id, None, files_here(id))
+    except ValueError:
+        return None
 
 
 class UnknownCheckError(ValueError):
@@ -71,8 +71,8 @@ class UnknownCheckError(ValueError):
 def known_check(id: object, own: Convention | None = None) -> Check:
     """The check of this id; where there is none, UnknownCheckError, with those that are nearest.
 
-    A mechanism's own file is found in the folder of the notebook. The error says so if a person reads
-    the answer, or if that file may be missing.
+    A mechanism's own file is found in the folder of the notebook, the course's own checks in its folder
+    checks/. The error says so if a person reads the answer, or if that file may be missing.
     """
     if not isinstance(id, str):
         name = getattr(id, "__name__", "")

@@ -6,6 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from autograder.judging.check import Check
+from autograder.problems import own_checks
 
 # What a mechanism may be asked for, as `mutation.answers` has it, which loads SymPy.
 ANSWERED = (
@@ -47,9 +48,17 @@ def _of_kit(name: str, answer: str) -> Check | None:
 
 
 def files_here(id: str) -> dict[str, str]:
-    """The file of the mechanism of a check, where it lies in the folder of a student's notebook."""
-    path = Path(f"{id.rpartition('-')[0]}.py")
-    if not path.is_file():
-        return {}
-    text = path.read_text(encoding="utf-8", errors="replace")
-    return {path.name: text} if "MECHANISM" in text else {}
+    """The file of the mechanism of a check, where it lies in the folder of a student's notebook or in
+    the course's solutions/; and the course's own checks.
+    """
+    name = id.rpartition("-")[0]
+    here = Path.cwd()
+    course = own_checks.course_of(here)
+    places = [Path(f"{name}.py")]
+    if course and (source := course / "solutions" / name / f"{name}.py").is_file():
+        places += [source] if own_checks.is_ours(source, here) else []
+    for path in filter(Path.is_file, places if name else []):
+        text = path.read_text(encoding="utf-8", errors="replace")
+        if "MECHANISM" in text:
+            return {path.name: text} | own_checks.files_here()
+    return own_checks.files_here()

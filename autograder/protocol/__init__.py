@@ -9,7 +9,7 @@ because it has another name in the sandbox.
 from .arguments import Expressions, Function, Symbol, numbers_at, real
 from .calls import CALL_SECONDS, Call, Fault, Reply, answer, answer_all, kind_of, message_of, read
 from .causes import Cause
-from .limits import PATIENCE, TimeLimitError, no_limit, time_limit
+from .limits import FAR, PATIENCE, TimeLimitError, no_limit, time_limit
 from .looks import Look
 from .own_arm import OwnArm
 from .proofs import HandedIn, decode_handed_in, encode_handed_in, handed_in
@@ -21,6 +21,7 @@ from .words import one_line, other_cell, shortened
 
 __all__ = [
     "CALL_SECONDS",
+    "FAR",
     "MOST_NUMBERS",
     "PATIENCE",
     "Call",

@@ -5,7 +5,8 @@ import sys
 import time
 import traceback
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,6 +24,7 @@ from .readings import (
     read_numbers,
     read_parts,
 )
+from .waiting import Stopwatch
 from .words import shortened
 
 # Of the processor's time. A browser's Python is slower, and knows only the time that passes.
@@ -57,7 +59,7 @@ class Call:
     each a mapping from symbol to number, at which the SymPy expression that comes back is evaluated;
     the reply then holds one value a point. parts: whether the function returns several things at once,
     named or in order; the reply then does too. truth: whether it returns True or False, which the reply
-    holds as 1 or 0.
+    holds as 1 or 0. without: the functions of the student's that cannot be called meanwhile.
     """
 
     name: str
@@ -65,6 +67,7 @@ class Call:
     at: tuple[Mapping[str, float], ...] = ()
     parts: bool = False
     truth: bool = False
+    without: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -87,6 +90,13 @@ class Reply:
 
 def answer(call: Call, namespace: Mapping) -> Reply:
     """Call the student's function of that name, and read what it returns as numbers."""
+    if not call.without:
+        return _answer(call, namespace)
+    with _closed(namespace, call.without):
+        return _answer(call, namespace)
+
+
+def _answer(call: Call, namespace: Mapping) -> Reply:
     if call.name not in namespace:
         close = difflib.get_close_matches(call.name, own_names(namespace), n=1, cutoff=0.5)
         hint = close[0] if close else ""
@@ -95,16 +105,16 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     if not callable(function):
         return Reply(fault=Fault(FaultKind.NOT_CALLABLE, type(function).__name__))
     given: list = []
-    started, clock = time.process_time(), time.monotonic()
+    watch = Stopwatch()
     reply = _called(call, function, given, CALL_SECONDS)
     if not reply.fault and riddles.uses_caret(function):
         reply = replace(reply, caret=True)
     changes = () if reply.fault else _changes(call.args, given)
     # Both calls together get the time of one, so that the judge waits no longer for the reply.
-    took = max(time.process_time() - started, (time.monotonic() - clock) / PATIENCE)
+    took = watch.seconds(PATIENCE)
     if not (reply.fault or is_finite(reply.value)) and took < QUICK:
         reply = replace(reply, cause=_cause(call, function, QUICK - took))
-        took = max(time.process_time() - started, (time.monotonic() - clock) / PATIENCE)
+        took = watch.seconds(PATIENCE)
     if not changes:
         return reply
     again = _called(call, function, given, max(CALL_SECONDS - took, 0.01))
@@ -114,10 +124,27 @@ def answer(call: Call, namespace: Mapping) -> Reply:
     return replace(reply, changed=changes, again=None if too_large or too_long else again)
 
 
+@contextmanager
+def _closed(namespace: Mapping, names: tuple[str, ...]) -> Iterator[None]:
+    """Without these functions: what calls one of them meanwhile fails."""
+    kept = {name: namespace[name] for name in names if name in namespace}
+    if not isinstance(namespace, MutableMapping):
+        raise TypeError("functions can be closed only in a namespace that can change")
+
+    def closed(*args, **kwargs):
+        raise RuntimeError("this function is closed while another one is asked")
+
+    try:
+        namespace.update(dict.fromkeys(kept, closed))
+        yield
+    finally:
+        namespace.update(kept)
+
+
 def _called(call: Call, function: Callable, given: list, seconds: float) -> Reply:
     """One call with the arguments in `given`; an empty list gets new ones first."""
     try:
-        with time_limit(seconds), warnings.catch_warnings(), np.errstate(all="ignore"):
+        with warnings.catch_warnings(), np.errstate(all="ignore"), time_limit(seconds):
             warnings.simplefilter("ignore")
             given += [] if given else map(real, call.args)
             result = function(*given)
@@ -144,7 +171,7 @@ def _cause(call: Call, function: Callable, seconds: float) -> causes.Cause | Non
     """Where in the function a number comes up that is not finite."""
     found: list[causes.Cause] = []
     try:
-        with time_limit(seconds), causes.heard() as found:
+        with causes.heard() as found, time_limit(seconds):
             function(*map(real, call.args))
     except (Exception, SystemExit, TimeLimitError):
         pass  # what was heard until then

@@ -9,13 +9,19 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from collections.abc import Callable
+from types import FrameType
 from typing import Any
 
-# Code that sleeps for ever uses no processor time, and on a busy machine honest code gets little. So
-# each limit holds on the clock as well, where it is this many times as long.
+from .waiting import Waiting
+
+# Code that sleeps for ever uses no processor time. So each limit also holds for the time in which the
+# code waits, where it is this many times as long.
 PATIENCE = 5.0
+# Where a busy machine gives the code hardly any processor time, the clock ends it after this many times
+# the limit.
+FAR = 60.0
+LOOKS = 8  # at how long the code has waited, before that limit
 # After the first time, since student code may catch that one, s.
 AGAIN = 0.5
 TOOL = 4  # of the numbers that Python gives to tools, one that no debugger and no profiler has
@@ -35,18 +41,40 @@ class TimeLimitError(BaseException):
         super().__init__(seconds, starved)
         self.seconds, self.starved = seconds, starved
 
+    def _render_traceback_(self) -> list[str]:
+        """What IPython shows. To format all lines takes it so long that the limit would stop that."""
+        return [f"TimeoutError: {self.seconds:g} s"]
 
-def time_limit(seconds: float) -> AbstractContextManager[None]:
+
+class Limit:
+    """No limit at all; those that are derived from it stop the block.
+
+    error: what stopped the code first, also if the code swallowed it and went on; None for nothing.
+    """
+
+    def __init__(self, seconds: float):
+        self.seconds = seconds
+        self.error: TimeLimitError | None = None
+
+    def __enter__(self) -> "Limit":
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        pass
+
+
+def time_limit(seconds: float) -> Limit:
     """Raise TimeLimitError in the block at its time limit; in a thread, and as NO_LIMIT says, there is
     none.
 
-    The limit is `seconds` of this process's processor time, or PATIENCE times as long on the clock.
+    The limit is `seconds` of this process's processor time; or PATIENCE times as long in which nothing
+    computed, or FAR times as long on the clock, and then the error says that it is starved.
     """
     if threading.current_thread() is not threading.main_thread():
-        return nullcontext()
+        return Limit(seconds)
     if _has_signals():
-        return _by_signals(seconds)
-    return _by_looking(seconds) if _can_look() else nullcontext()
+        return _BySignals(seconds)
+    return _ByLooking(seconds) if _can_look() else Limit(seconds)
 
 
 def no_limit() -> str:
@@ -62,86 +90,174 @@ def _can_look() -> bool:
     return hasattr(sys, "monitoring")
 
 
-@contextmanager
-def _by_signals(seconds: float) -> Iterator[None]:
-    begin = time.process_time()
+class _Stopping(Limit):
+    """Raises the error while the block runs, and nowhere else."""
 
-    def stop(signum, frame):
-        # Code that swallowed the processor's limit may still run at the clock's.
-        if signum == signal.SIGPROF or time.process_time() - begin >= seconds:
-            raise TimeLimitError(seconds, starved=False)
-        raise TimeLimitError(PATIENCE * seconds, starved=True)
+    _armed = False
 
-    of_processor = signal.signal(signal.SIGPROF, stop)
-    of_clock = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_PROF, seconds, AGAIN)
-    signal.setitimer(signal.ITIMER_REAL, PATIENCE * seconds, AGAIN)
-    try:
-        with _unreported_in_destructors():
-            yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGPROF, of_processor)
-        signal.signal(signal.SIGALRM, of_clock)
+    def __enter__(self) -> Limit:
+        self._begin, self._start = time.process_time(), time.monotonic()
+        self._waiting = Waiting()
+        self._unreported, sys.unraisablehook = sys.unraisablehook, self._swallowed
+        self._traced: list[FrameType] = []
+        self._trace = sys.gettrace()
+        return self
 
+    def __exit__(self, *exception: object) -> None:
+        self._armed = False
+        sys.unraisablehook = self._unreported
+        self._untrace()
 
-@contextmanager
-def _by_looking(seconds: float) -> Iterator[None]:
-    monitoring = sys.monitoring  # type: ignore[attr-defined]  # mypy reads this for Python 3.11
-    own = monitoring.get_tool(TOOL) is None
-    if own:
-        monitoring.use_tool_id(TOOL, "armdyn")
-    kinds = monitoring.events
-    events = (kinds.JUMP, kinds.PY_START, kinds.PY_RESUME)
-    before = monitoring.get_events(TOOL)
-    look = _looking(seconds)
-    earlier = [monitoring.register_callback(TOOL, event, look) for event in events]
-    monitoring.set_events(TOOL, sum(events))
-    try:
-        with _unreported_in_destructors():
-            yield
-    finally:
-        monitoring.set_events(TOOL, before)
-        for event, callback in zip(events, earlier, strict=True):
-            monitoring.register_callback(TOOL, event, callback)
-        if own:
-            monitoring.free_tool_id(TOOL)
+    def _stop(self, starved: bool) -> TimeLimitError:
+        far = time.monotonic() - self._start >= FAR * self.seconds
+        times = (FAR if far else PATIENCE) if starved else 1.0
+        error = TimeLimitError(times * self.seconds, starved)
+        self.error = self.error or error
+        return error
 
+    def _left(self) -> float:
+        """How long the code may still wait, s."""
+        far = FAR * self.seconds - (time.monotonic() - self._start)
+        return min(PATIENCE * self.seconds - self._waiting.look(), far)
 
-@contextmanager
-def _unreported_in_destructors() -> Iterator[None]:
-    """A destructor lets no error out, and Python would print it; the next one comes after AGAIN."""
-    before = sys.unraisablehook
-
-    def hook(found: Any) -> None:
+    def _swallowed(self, found: Any) -> None:
+        """A destructor lets no error out, and Python would print it. The code that goes on gets it."""
         if not isinstance(found.exc_value, TimeLimitError):
-            before(found)
+            self._unreported(found)
+        elif self._armed:
+            self._raise_above(sys._getframe(1))
 
-    sys.unraisablehook = hook
-    try:
-        yield
-    finally:
-        sys.unraisablehook = before
+    def _raise_above(self, frame: FrameType | None) -> None:
+        def raise_in(at: FrameType, event: str, found: object) -> None:
+            if self._armed and self.error is not None:
+                self._untrace()
+                raise TimeLimitError(*self.error.args)
+
+        while frame is not None and frame.f_code not in _OURS:
+            frame.f_trace_opcodes = True
+            frame.f_trace = raise_in
+            self._traced.append(frame)
+            frame = frame.f_back
+        sys.settrace(_nothing)
+
+    def _untrace(self) -> None:
+        if self._traced:
+            sys.settrace(self._trace)
+            for frame in self._traced:
+                frame.f_trace = None
+                frame.f_trace_opcodes = False
+            self._traced.clear()
 
 
-def _looking(seconds: float) -> Callable[..., None]:
-    """What Python calls while the code goes on."""
-    begin, start = time.process_time(), time.monotonic()
-    due = start + seconds  # no code uses more processor time than has passed
+class _BySignals(_Stopping):
+    def __enter__(self) -> Limit:
+        super().__enter__()
+        self._handlers = {
+            number: signal.signal(number, self._came) for number in (signal.SIGPROF, signal.SIGALRM)
+        }
+        self._step = max(PATIENCE * self.seconds / LOOKS, 0.001)
+        # A limit around this one has set the same timers.
+        self._timers = {
+            timer: signal.setitimer(timer, first, AGAIN)
+            for timer, first in (
+                (signal.ITIMER_PROF, self.seconds),
+                (signal.ITIMER_REAL, self._step),
+            )
+        }
+        self._armed = True
+        return self
 
-    def look(*_: object) -> None:
-        nonlocal due
+    def __exit__(self, *exception: object) -> None:
+        self._armed = False
+        for timer in self._timers:
+            signal.setitimer(timer, 0)
+        super().__exit__()
+        for number, handler in self._handlers.items():
+            signal.signal(number, handler)
+        for timer, (left, again) in self._timers.items():
+            if left:
+                clock = timer == signal.ITIMER_REAL
+                since = (
+                    time.monotonic() - self._start if clock else time.process_time() - self._begin
+                )
+                signal.setitimer(timer, max(left - since, 0.001), again)
+
+    def _came(self, number: int, frame: FrameType | None) -> None:
+        if not self._armed or (frame is not None and frame.f_code in _OURS):
+            return
+        left = self.seconds - (time.process_time() - self._begin)
+        if left <= 0:
+            raise self._stop(starved=False)
+        if number == signal.SIGPROF:  # a timer of the student's own
+            signal.setitimer(signal.ITIMER_PROF, max(left, 0.001), AGAIN)
+            return
+        left = self._left()
+        if left <= 0:
+            raise self._stop(starved=True)
+        signal.setitimer(signal.ITIMER_REAL, max(min(self._step, left), 0.001), AGAIN)
+
+
+class _ByLooking(_Stopping):
+    def __enter__(self) -> Limit:
+        super().__enter__()
+        monitoring = sys.monitoring  # type: ignore[attr-defined]  # mypy reads this for Python 3.11
+        self._own = monitoring.get_tool(TOOL) is None
+        if self._own:
+            monitoring.use_tool_id(TOOL, "armdyn")
+        kinds = monitoring.events
+        events = (kinds.JUMP, kinds.PY_START, kinds.PY_RESUME)
+        self._before = monitoring.get_events(TOOL)
+        # No code uses more processor time than has passed.
+        self._due = self._start + self.seconds
+        self._callbacks = {
+            event: monitoring.register_callback(TOOL, event, self._look) for event in events
+        }
+        self._armed = True
+        monitoring.set_events(TOOL, sum(events))
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self._armed = False
+        monitoring = sys.monitoring  # type: ignore[attr-defined]
+        monitoring.set_events(TOOL, self._before)
+        for event, callback in self._callbacks.items():
+            monitoring.register_callback(TOOL, event, callback)
+        if self._own:
+            monitoring.free_tool_id(TOOL)
+        super().__exit__()
+
+    def _look(self, code: Any, *_: object) -> None:
         now = time.monotonic()
-        if now < due:
+        if now < self._due or not self._armed or code in _OURS:
             return
-        used, passed = time.process_time() - begin, now - start
-        if used < seconds and passed < PATIENCE * seconds:
-            due = now + max(min(seconds - used, PATIENCE * seconds - passed), 0.001)
+        left = self.seconds - (time.process_time() - self._begin)
+        waited = self._left()
+        if left > 0 and waited > 0:
+            self._due = now + max(min(left, waited), 0.001)
             return
-        due = now + AGAIN
-        if used >= seconds:
-            raise TimeLimitError(seconds, starved=False)
-        raise TimeLimitError(PATIENCE * seconds, starved=True)
+        self._due = now + AGAIN
+        raise self._stop(starved=left > 0)
 
-    return look
+    def _raise_above(self, frame: FrameType | None) -> None:
+        self._due = 0.0
+
+
+def _nothing(*_: object) -> None:
+    pass
+
+
+def _codes(*functions: Callable) -> frozenset:
+    return frozenset(function.__code__ for function in functions)
+
+
+# No error is raised in these, so that they always end.
+_OURS = _codes(
+    _BySignals.__enter__,
+    _BySignals.__exit__,
+    _ByLooking.__enter__,
+    _ByLooking.__exit__,
+    _Stopping.__exit__,
+    _Stopping._untrace,
+    _Stopping._swallowed,
+    _Stopping._raise_above,
+)

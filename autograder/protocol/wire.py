@@ -13,12 +13,14 @@ from .words import shortened
 def encode_call(call: Call) -> dict:
     args = [encode(value) for value in call.args]
     shape = {"at": list(call.at), "parts": call.parts, "truth": call.truth}
-    return {"name": call.name, "args": args, **shape}
+    closed = {"without": list(call.without)} if call.without else {}
+    return {"name": call.name, "args": args, **shape, **closed}
 
 
 def decode_call(message: dict) -> Call:
     args = tuple(decode(value) for value in message["args"])
-    return Call(message["name"], args, tuple(message["at"]), message["parts"], message["truth"])
+    shape = tuple(message["at"]), message["parts"], message["truth"]
+    return Call(message["name"], args, *shape, tuple(message.get("without", ())))
 
 
 def encode_reply(reply: Reply) -> dict:

@@ -6,7 +6,7 @@ from datetime import datetime, timedelta
 from statistics import median
 
 from autograder.judging.verdict import State
-from autograder.problems import check_for
+from autograder.problems import check_here
 from autograder.report.students import Class, Student
 
 
@@ -77,7 +77,7 @@ def never_met(students: list[Student]) -> list[NeverMet]:
     )
     judged = {check for check, state in states if state != State.ERROR}
     for (check, _), count in states.items():
-        if check not in judged and (known := check_for(check)):
+        if check not in judged and (known := check_here(check)):
             tried |= {(check, criterion.text): count for criterion in known.criteria}
     order = list(dict.fromkeys(check for student in students for check in student.verdicts))
     never = [NeverMet(*of, count) for of, count in tried.items() if of not in met]

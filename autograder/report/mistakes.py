@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from autograder.judging.claims import OF_A_PART
-from autograder.problems import check_for
+from autograder.problems import check_here
 from autograder.report.answers import anonymous
 from autograder.report.students import Student
 
@@ -116,6 +116,6 @@ def example_of(made: Made, students: list[Student]) -> Example | None:
 
 def _name_of(check: str, sentence: str) -> str:
     """Of a mistake that a person wrote; of one that follows from a mechanism the sentence says more."""
-    known = check_for(check)
+    known = check_here(check)
     mistakes = known.mistakes if known else ()
     return next((mistake.name for mistake in mistakes if mistake.sentence == sentence), "")

@@ -43,18 +43,16 @@ def term_page(classes: list[Class]) -> str:
     students = _of_term(classes)
     made = mistakes_made(students)
     standings = term.standings(classes)
-    points = {
-        of.assignment: {one.name: one.points for one in of.students if one.points is not None}
-        for of in classes
-    }
+    graded = {of.assignment: {one.name: one for one in of.graded} for of in classes}
     return _rendered(
         "term.html",
         classes=[_of_class(of) for of in classes],
         steps=term.steps(classes),
         standings=standings,
+        absent=term.absent(classes),
         behind=[one for one in standings if one.is_behind],
         fall=term.FALL,
-        points=points,
+        graded=graded,
         worst=[(one, example_of(one, students)) for one in made[:MOST_MADE]],
         together=made_together(made, len(students)),
     )
@@ -84,12 +82,20 @@ def term_summary(classes: list[Class]) -> str:
 
 
 def _how_many(of: Class) -> str:
-    said = f"{len(of.scores)} of {len(of.students)} graded"
+    graded, full = len(of.graded), len(of.scores)
+    said = f"{graded} of {len(of.students)} graded"
+    if graded > full:
+        said += f", {full} of these in full"
     if of.scores:
-        middle = f"mean {shown_points(mean(of.scores))}, median {shown_points(median(of.scores))}"
-        said += f", {middle}"
-        said += f" of {shown_points(of.most)} points"
+        said += f", {_middle(of.scores, of.most)}"
+    if graded > full and of.of_checks:
+        said += f"; the checks alone: {_middle(of.check_scores, of.of_checks)}"
     return said
+
+
+def _middle(scores: list[float], most: float) -> str:
+    points = f"mean {shown_points(mean(scores))}, median {shown_points(median(scores))}"
+    return f"{points} of {shown_points(most)} points"
 
 
 def _of_class(of: Class) -> dict:
@@ -102,9 +108,10 @@ def _of_class(of: Class) -> dict:
         "missing": of.missing,
         "counts": of.counts,
         "checks": of.checks,
-        "graded": len(of.scores),
-        "mean": mean(of.scores) if of.scores else 0.0,
-        "median": median(of.scores) if of.scores else 0.0,
+        "graded": len(of.graded),
+        "full": len(of.scores),
+        "middle": _middle(of.scores, of.most) if of.scores else "",
+        "of_checks": _middle(of.check_scores, of.of_checks) if of.graded and of.of_checks else "",
         "to_read": sum(student.to_read for student in of.students),
         "worst": [(one, example_of(one, of.students)) for one in made[:MOST_MADE]],
         "together": made_together(made, len(of.students)),

@@ -17,11 +17,12 @@ from autograder.protocol import one_line
 class Student:
     """One student's points, and the verdicts on the autograded notebook.
 
-    points: with those that a person gave; None if nothing is graded. to_read: how many cells a person
-    still has to read. verdicts: by check. note: why there are none. answers: the code cell that defines
-    each check's function, by check. handed_in: in UTC, None where that is not known. hints: how many
-    were seen, by check or derivation; None where that is not known. derivations: the marks, by id. arms:
-    which arm an answer is about, in words, by check, where arms differ from student to student. called:
+    points: with those that a person gave; None if nothing is graded. to_read: how many cells a
+    person still has to read. of_checks: the points of the checks alone, without a penalty.
+    verdicts: by check. note: why there are none. answers: the code cell that defines each check's
+    function, by check. handed_in: in UTC, None where that is not known. hints: how many were seen,
+    by check or derivation; None where that is not known. derivations: the marks, by id. arms: which
+    arm an answer is about, in words, by check, where arms differ from student to student. called:
     the full name, "" where no class list tells it. late: as "late, −1.5", "" for one in time.
     """
 
@@ -37,13 +38,20 @@ class Student:
     arms: dict[str, str] = field(default_factory=dict)
     called: str = ""
     late: str = ""
+    of_checks: float = 0.0
+
+    @property
+    def in_full(self) -> bool:
+        """Whether everything is graded and read."""
+        return self.points is not None and not self.to_read
 
 
 @dataclass(frozen=True)
 class Class:
     """The students who handed in an assignment, which gives `most` points.
 
-    missing: who of the class list did not. counts: whether it is part of the totals.
+    missing: who of the class list did not. counts: whether it is part of the totals. of_checks: the
+    points that the checks give, without what a person reads.
     """
 
     assignment: str
@@ -51,6 +59,7 @@ class Class:
     students: list[Student]
     missing: tuple[str, ...] = ()
     counts: bool = True
+    of_checks: float = 0.0
 
     @property
     def checks(self) -> list[str]:
@@ -63,9 +72,19 @@ class Class:
         return list(dict.fromkeys(id for one in self.students for id in one.derivations))
 
     @property
+    def graded(self) -> list[Student]:
+        """Those who have points, also where a person still has to read an answer."""
+        return [one for one in self.students if one.points is not None]
+
+    @property
     def scores(self) -> list[float]:
-        """Of those who are graded, in points."""
-        return [one.points for one in self.students if one.points is not None]
+        """Of those of whom everything is graded and read, in points."""
+        return [one.points or 0.0 for one in self.students if one.in_full]
+
+    @property
+    def check_scores(self) -> list[float]:
+        """The points of the checks alone, of all who are graded."""
+        return [one.of_checks for one in self.graded]
 
 
 def read_graded(

@@ -14,7 +14,8 @@ FALL = 0.25  # of an assignment's points, against the class
 
 @dataclass(frozen=True)
 class Step:
-    """One assignment. share: the mean, as a part of its points; None where nothing is graded.
+    """One assignment. share: the mean of those of whom everything is read, as a part of its points; None
+    where there are none. of_checks: the same of the checks alone, of all who are graded.
 
     hints: how many a student saw, on average; None where no count is known.
     """
@@ -25,11 +26,12 @@ class Step:
     share: float | None
     hints: float | None
     to_read: int
+    of_checks: float | None = None
 
 
 @dataclass(frozen=True)
 class Standing:
-    """One student. points: in all, of `most` points of the assignments that count and are graded.
+    """One student. points: in all, of `most` points of the assignments that count, are graded and read.
     missing: what the student has not handed in, and most others have. fell: by how much of an
     assignment's points the latest one lies below the earlier ones, each against the mean of the class.
     called: the full name, if it is known.
@@ -69,6 +71,7 @@ def steps(classes: list[Class]) -> list[Step]:
             mean(of.scores) / of.most if of.scores and of.most else None,
             _hints_each(of),
             sum(student.to_read for student in of.students),
+            mean(of.check_scores) / of.of_checks if of.graded and of.of_checks else None,
         )
         for of in classes
     ]
@@ -77,9 +80,7 @@ def steps(classes: list[Class]) -> list[Step]:
 def standings(classes: list[Class]) -> list[Standing]:
     """In order of the names. classes: in the order of the term."""
     names = sorted({student.name for of in classes for student in of.students})
-    scores = [
-        {one.name: one.points for one in of.students if one.points is not None} for of in classes
-    ]
+    scores = [{one.name: one.points or 0.0 for one in of.students if one.in_full} for of in classes]
     called = {one.name: one.called for of in classes for one in of.students}
     found = []
     for name in names:
@@ -101,6 +102,11 @@ def standings(classes: list[Class]) -> list[Standing]:
             )
         )
     return found
+
+
+def absent(classes: list[Class]) -> list[str]:
+    """Who of the class list has handed in nothing at all."""
+    return [name for name in classes[0].missing if all(name in of.missing for of in classes)]
 
 
 def _hints_each(of: Class) -> float | None:

@@ -47,7 +47,7 @@ class ColdProcess:
     def ended(self) -> bool:
         return self._process.returncode is not None
 
-    def ask_watch(self, request: str, seconds: float) -> float | None:
+    def ask_watch(self, request: str, seconds: float) -> tuple[float, float] | None:
         return self._watch.ask(request, seconds)
 
     def why_ended(self) -> str:

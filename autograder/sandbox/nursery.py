@@ -143,15 +143,18 @@ class WatchLine:
         self._line, self._received, self._reason = line, b"", ""
         WatchLine._open.add(self)
 
-    def ask(self, request: str, seconds: float) -> float | None:
-        """The processor time that the watch answers with, s; None if it has ended or is silent."""
+    def ask(self, request: str, seconds: float) -> tuple[float, float] | None:
+        """The processor time and the idle time that the watch answers with, s; None if it has ended or
+        is silent.
+        """
         with suppress(OSError):
             self._line.sendall(request.encode() + b"\n")
         deadline = time.monotonic() + seconds
         while (line := self._read_line(deadline - time.monotonic())) is not None:
-            word, _, number = line.partition(" ")
+            word, *numbers = line.split(" ")
             if word == request:  # not a late answer to another request
-                return float(number)
+                used, idle = map(float, numbers)
+                return used, idle
         return None
 
     def reason(self) -> str:
@@ -200,7 +203,7 @@ class WarmProcess:
         self._watch = WatchLine(line)
         self.ended = False
 
-    def ask_watch(self, request: str, seconds: float) -> float | None:
+    def ask_watch(self, request: str, seconds: float) -> tuple[float, float] | None:
         return self._watch.ask(request, seconds)
 
     def why_ended(self) -> str:

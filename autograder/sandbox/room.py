@@ -3,8 +3,9 @@
 `ways.py` says what keeps the process apart, and how it is started.
 
 Limits on time count the processor's time, of all processes of a room together: on a busy machine, an
-honest answer takes longer on the clock, but no more processor time. Each has a limit on the clock
-beside it, which is PATIENCE times as long.
+honest answer takes longer on the clock, but no more processor time. Beside each stands a limit on the
+time in which no process of the room computes or is ready to, which is PATIENCE times as long, and far
+behind it one on the clock.
 """
 
 import base64
@@ -15,12 +16,14 @@ import os
 import select
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from typing import NoReturn
 
 from autograder.protocol import (
     CALL_SECONDS,
+    FAR,
     MOST_NUMBERS,
     PATIENCE,
     Call,
@@ -33,14 +36,14 @@ from autograder.sandbox.ways import Shared, Way, started, warm_process_of, ways_
 
 log = logging.getLogger(__name__)
 
-START_SECONDS = 60.0
+START_SECONDS = 120.0
 CELL_SECONDS = 10.0
 # The programs that a cell starts get this many times as long: to compile Eigen's headers takes seconds.
 STARTED = 3.0
 # Code should stop at its limit inside the room. If it runs on for this long, the room is ended.
 GRACE_SECONDS = 3.0
-# A room's watch must answer within this time.
-WATCH_SECONDS = 10.0
+# A room's watch must answer within this time, also on a busy machine.
+WATCH_SECONDS = 60.0
 # How often the judge asks a silent room what it has used.
 LOOK_SECONDS = 0.25
 # Most notebooks import these; where the room's process is new, the first cell must not pay for it.
@@ -48,7 +51,7 @@ LOAD = "import matplotlib.pyplot, sympy\ndel matplotlib, sympy"
 # Limits on what a cell may show and a call may answer; the runner never sends as much.
 MOST_BYTES = 32 << 20
 MOST_VALUES = 1 << 20
-MOST_OUTPUTS = 100
+MOST_OUTPUTS = 110
 BYTES_A_NUMBER = 32
 
 
@@ -61,7 +64,9 @@ class TooLongError(RoomLostError):
 
 
 class StarvedError(RoomLostError):
-    """The room was silent until the clock's limit, and had used less processor time than it may."""
+    """The room was silent until it had waited, or the clock had run, for too long, and had used less
+    processor time than it may.
+    """
 
 
 class Room:
@@ -79,7 +84,7 @@ class Room:
         self._buffer = bytearray()
         self._process = started(self.way)
         os.set_blocking(self._process.requests, False)
-        self._before = self._used = 0.0
+        self._before = self._used = self._idle = self._waited = 0.0
         try:
             hello = self._receive(math.inf, START_SECONDS, MOST_BYTES, MOST_VALUES)
             if not hello.get("ready"):
@@ -116,46 +121,72 @@ class Room:
         """The processor time of all processes of the room, s, when it was last asked for."""
         return self._used - self._before
 
+    @property
+    def idle(self) -> float:
+        """How long, while the room had something to do, no process of it computed or was ready to, s."""
+        return self._waited
+
     def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
         """Run a cell, and return its outputs.
 
         seconds: of processor time, for the cell; with the programs it starts, STARTED times as many.
         """
-        self._send({"run": source, "seconds": seconds})
-        clock = PATIENCE * seconds + GRACE_SECONDS
+        idle = PATIENCE * seconds + GRACE_SECONDS
         most = STARTED * seconds + GRACE_SECONDS
-        message = self._receive(most, clock, MOST_BYTES, MOST_VALUES)
-        outputs = message.get("outputs")
-        if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
-            self._lost("it sent no outputs")
-        self._sweep()
+        with self._working():
+            self._send({"run": source, "seconds": seconds})
+            message = self._receive(most, idle, MOST_BYTES, MOST_VALUES)
+            outputs = message.get("outputs")
+            if not isinstance(outputs, list) or not all(isinstance(out, dict) for out in outputs):
+                self._lost("it sent no outputs")
+            self._sweep()
         return outputs[:MOST_OUTPUTS]
 
     def ask(
-        self, calls: list[Call], seconds: float = math.inf, clock: float = math.inf
+        self, calls: list[Call], seconds: float = math.inf, idle: float = math.inf
     ) -> list[Reply]:
         """The replies to calls, up to the first fault.
 
-        seconds, clock: the processor time and the time on the clock for all of them together. Each
-        call also has limits of its own, inside the room and, for code that ignores those, here.
+        seconds, idle: the processor time and the time of waiting for all of them together. Each call
+        also has limits of its own, inside the room and, for code that ignores those, here.
         """
-        ends, most = time.monotonic() + clock, self._used + seconds
-        self._send({"ask": [encode_call(call) for call in calls]})
         replies: list[Reply] = []
-        while len(replies) < len(calls):
-            message = self._receive(
-                min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
-                min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - time.monotonic()),
-                BYTES_A_NUMBER * MOST_NUMBERS,
-                4 * MOST_NUMBERS,
-            )
-            if "reply" not in message:
-                self._lost("it sent no reply")
-            replies.append(decode_reply(message["reply"]))
-            if replies[-1].fault:
-                break
-        self._sweep()
+        with self._working():
+            ends, most = self._idle + idle, self._used + seconds
+            self._send({"ask": [encode_call(call) for call in calls]})
+            looked = time.monotonic()
+            while len(replies) < len(calls):
+                # Quick replies leave no silence in which to look.
+                if time.monotonic() - looked > LOOK_SECONDS:
+                    self._look()
+                    looked = time.monotonic()
+                if self._used > most:
+                    self._lost(f"no reply within {seconds:g} s of processor time", TooLongError)
+                if self._idle > ends:
+                    self._lost(f"no reply within {max(idle, 0):g} s", StarvedError)
+                message = self._receive(
+                    min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
+                    min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - self._idle),
+                    BYTES_A_NUMBER * MOST_NUMBERS,
+                    4 * MOST_NUMBERS,
+                )
+                if "reply" not in message:
+                    self._lost("it sent no reply")
+                replies.append(decode_reply(message["reply"]))
+                if replies[-1].fault:
+                    break
+            self._sweep()
         return replies
+
+    @contextmanager
+    def _working(self) -> Iterator[None]:
+        """Count the time of waiting in the block; between requests, a room waits for the judge."""
+        self._look()
+        idle = self._idle
+        try:
+            yield
+        finally:
+            self._waited += self._idle - idle
 
     @property
     def closed(self) -> bool:
@@ -178,12 +209,16 @@ class Room:
     def _send(self, request: dict) -> None:
         left = memoryview(json.dumps(request).encode() + b"\n")
         stdin = self._process.requests
+        over = None
         try:
             while left:
+                if select.select([], [stdin], [], LOOK_SECONDS)[1]:
+                    left = left[os.write(stdin, left) :]
+                    continue
                 # A process that does not read must not make the judge wait for ever.
-                if not select.select([], [stdin], [], GRACE_SECONDS)[1]:
+                over = over or self._over(GRACE_SECONDS, GRACE_SECONDS)
+                if over():
                     self._lost("it stopped listening")
-                left = left[os.write(stdin, left) :]
         except OSError:
             self._lost("it has ended")
 
@@ -192,19 +227,19 @@ class Room:
         used = self._process.ask_watch("sweep", WATCH_SECONDS)
         if used is None:
             self._lost("it left processes behind")
-        self._used = used
+        self._used, self._idle = used
 
     def _look(self) -> None:
         used = self._process.ask_watch("used", WATCH_SECONDS)
-        self._used = self._used if used is None else used
+        self._used, self._idle = used or (self._used, self._idle)
 
     def _forget_time(self) -> None:
         """Do not count the time that the room has used so far."""
         self._look()
         self._before = self._used
 
-    def _receive(self, seconds: float, clock: float, most_bytes: int, most_values: int) -> dict:
-        line = self._read_line(seconds, clock, most_bytes)
+    def _receive(self, seconds: float, idle: float, most_bytes: int, most_values: int) -> dict:
+        line = self._read_line(seconds, idle, most_bytes)
         # An empty list takes two bytes in JSON and fifty in memory. Commas in texts are counted, too.
         if line.count(b",") + line.count(b"[") + line.count(b"{") > most_values:
             self._lost("it wrote too much")
@@ -220,23 +255,35 @@ class Room:
             self._lost("it wrote something that is not a reply")
         return message
 
-    def _read_line(self, seconds: float, clock: float, most_bytes: int) -> bytes:
-        deadline = time.monotonic() + clock
+    def _over(self, seconds: float, idle: float) -> Callable[[], type[RoomLostError] | None]:
+        """A function that looks, and says by what kind of limit the room is over, counted from now."""
+        self._look()
+        most, longest = self._used + seconds, self._idle + idle
+        far = time.monotonic() + FAR / PATIENCE * idle
+
+        def over() -> type[RoomLostError] | None:
+            self._look()
+            if self._used > most:
+                return TooLongError
+            return StarvedError if self._idle > longest or time.monotonic() > far else None
+
+        return over
+
+    def _read_line(self, seconds: float, idle: float, most_bytes: int) -> bytes:
         stdout = self._process.replies
-        searched, most = 0, None
+        searched, over = 0, None
         while (end := self._buffer.find(b"\n", searched)) < 0:
             searched = len(self._buffer)
             if searched > most_bytes:
                 self._lost("it wrote too much")
-            left = deadline - time.monotonic()
-            if left <= 0:
-                self._lost(f"no reply within {max(clock, 0):g} s", StarvedError)
-            if not select.select([stdout], [], [], min(left, LOOK_SECONDS))[0]:
-                self._look()
+            if not select.select([stdout], [], [], LOOK_SECONDS)[0]:
                 # Between calls nobody asks for the time used, so that this call's time starts here.
-                most = self._used + seconds if most is None else most
-                if self._used > most:
-                    self._lost(f"no reply within {seconds:g} s of processor time", TooLongError)
+                over = over or self._over(seconds, idle)
+                kind = over()
+                if kind is TooLongError:
+                    self._lost(f"no reply within {seconds:g} s of processor time", kind)
+                if kind is not None:
+                    self._lost(f"no reply within {max(idle, 0):g} s", kind)
                 continue
             chunk = os.read(stdout, 1 << 16)
             if not chunk:

@@ -12,6 +12,6 @@ class LeftOut(Check):
 
     why: str = ""
 
-    def run(self, ask: Ask, rng, count: int = 0) -> Verdict:
+    def run(self, ask: Ask, rng, count: int = 0, carrying=None) -> Verdict:
         """That it is judged when it is handed in."""
         return Verdict(self.id, State.NOT_HERE, problem=self.why)

@@ -5,25 +5,40 @@ import sys
 import time
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
 from autograder.judging import card
-from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES, VISIBLE_SEED
+from autograder.judging.carried.judge import Carrying
+from autograder.judging.check import HIDDEN_CASES, SLOW, VISIBLE_CASES, VISIBLE_SEED, Check
+from autograder.judging.passages import filled
 from autograder.judging.verdict import State, Verdict
 from autograder.lesson_checks import known as known_in_lesson
 from autograder.pictures.offers import offer
-from autograder.problems import CHECKS, UnknownCheckError, known_check
+from autograder.problems import CHECKS, UnknownCheckError, check_for, known_check, own_checks
+from autograder.problems.own_mechanisms import files_here
 from autograder.proofs import derivation_of
 from autograder.protocol import Call, Fault, FaultKind, Reply, answer_all, no_limit
-from autograder.student import below, failing, lesson, progress, worst_case
+from autograder.student import (
+    below,
+    failing,
+    in_grading,
+    lesson,
+    progress,
+    unquoted,
+    version,
+    worst_case,
+)
+from autograder.student import fresh as fresh_cases
 from autograder.student.definitions import watched
 from autograder.student.display import show
 from autograder.student.own_arm import drawn_for, reminder
 from autograder.student.pasted import as_pasted
 
-_definitions = watched({check.name for check in CHECKS.values()})
+_definitions = watched({check.name for check in CHECKS.values()} | own_checks.names_here())
+_cells = in_grading.watched()
+unquoted.watch()
 
 
 class NotCorrectError(Exception):
@@ -44,18 +59,28 @@ class NotCorrectError(Exception):
         return [f"{self.verdict.headline}: see the card above."]
 
 
+class NotInGradingError(Exception):
+    """The answer is correct here, and the notebook will not do the same when it is graded."""
+
+    def _render_traceback_(self):
+        return str(self).splitlines()
+
+
 def check(id: str | None = None, fresh: bool = False) -> None:
     """Judge the function that the check `id` asks for, as this notebook defines it; show the verdict.
 
     The visible check tries a few fixed cases; `fresh=True` draws new ones each time, as the grader
-    does. NotCorrectError, after the card, where the verdict is not "correct", save in a lesson, which
-    goes on; UnknownCheckError where no check has this id.
+    does, but in a student's package, which says that it cannot. NotCorrectError, after the card, where
+    the verdict is not "correct", save in a lesson, which goes on; UnknownCheckError where no check has
+    this id.
     """
     if asked := known_in_lesson(id):
         lesson.show_card(asked, sys._getframe(1).f_globals)
         return
     if isinstance(id, str) and derivation_of(id):
         raise UnknownCheckError(f"no check judges {id!r}: call derivation with its lines")
+    if said := version.remark(str(id)):
+        print(said)
     namespace = sys._getframe(1).f_globals
     verdict = _naming_an_old_function(verdict_on(known_check(id).id, namespace, fresh))
     failing.note(verdict)
@@ -64,11 +89,22 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     pictured = offer(verdict, known_check(id), namespace)
     shown = card.mimebundle(verdict, below.lines(verdict, pictured), below.points(verdict))
     show(shown)
+    for broken in own_checks.broken(own_checks.files_here()):
+        print(broken)
     _tell_of_no_limit()
+    if fresh and (said := fresh_cases.refusal()):
+        print(said)
     if said := reminder(id):
         print(said)
+    told = in_grading.told(verdict.check, _cells)
+    for one in told:
+        print(f"When it is graded: {one.said}")
     if verdict.state not in (State.CORRECT, State.NOT_HERE):
         raise NotCorrectError(verdict, shown["text/plain"])
+    costs = [one.said for one in told if one.costs]
+    if costs and os.environ.get("NBGRADER_EXECUTION"):
+        head = f"{verdict.headline}, but not when it is graded."
+        raise NotInGradingError("\n".join([head, *map(filled, costs)]))  # Validate cuts long lines
 
 
 def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
@@ -88,9 +124,14 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
         return replies
 
     started = time.monotonic()
-    verdict = judged.run(ask, rng, count)
+    verdict = judged.run(ask, rng, count, Carrying(partial(_earlier, id)))
     quick = time.monotonic() - started < SLOW
     return as_pasted(verdict, judged, ask, asked, namespace) if quick else verdict
+
+
+def _earlier(later: str, id: str) -> Check | None:
+    """The check of an answer that comes before that of the check `later`, on the same arm."""
+    return check_for(id, drawn_for(later), files_here(id))
 
 
 @cache  # once in a kernel

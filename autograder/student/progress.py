@@ -67,16 +67,18 @@ def of(id: str) -> Progress | None:
     )
 
 
+def notebook_with(id: str, folder: Path) -> Path | None:
+    """The first notebook of a folder that has this check; None where none has it."""
+    return next((path for path in sorted(folder.glob("*.ipynb")) if id in read_graded(path)), None)
+
+
 def _of_notebook_with(id: str, folder: Path) -> dict[str, Graded]:
     """The graded cells of the notebook that has this check; {} where none has it."""
     if id not in _graded.get(folder, {}):
-        for path in sorted(folder.glob("*.ipynb")):
-            graded = read_graded(path)
-            if id in graded:
-                _graded[folder] = graded
-                break
-        else:
+        path = notebook_with(id, folder)
+        if path is None:
             return {}
+        _graded[folder] = read_graded(path)
     return _graded[folder]
 
 

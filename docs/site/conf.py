@@ -3,6 +3,11 @@
 from importlib.metadata import version as version_of
 from pathlib import Path
 
+from pygments.lexers.special import TextLexer
+from sphinx.highlighting import lexers
+
+lexers["csv"] = TextLexer()  # which Pygments does not know
+
 project = "armdyn"
 author = "The armdyn developers"
 copyright = "The armdyn developers: code under MIT, text and figures under CC BY 4.0"

@@ -15,7 +15,8 @@ from docs import reading_order
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
 GUIDES = (
-    *("instructors", "class-server", "own-problem", "library", "course-map"),
+    *("instructors", "handing-out", "class-list", "platforms", "grading-rules", "sandbox"),
+    *("troubleshooting", "class-server", "own-problem", "library", "course-map"),
     *("source-errata", "references"),
 )
 PAGES = ("CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md")
@@ -52,7 +53,8 @@ def lay_out(source: Path) -> None:
             write_problem(ROOT, folder.name, source / "problems" / folder.name)
     (source / "docs").mkdir()
     for page in (ROOT / "docs").glob("*.md"):
-        shutil.copy(page, source / "docs")
+        text = page.read_text(encoding="utf-8").replace("](../README.md", "](../index.md")
+        (source / "docs" / page.name).write_text(text, encoding="utf-8")
     for page in PAGES:
         shutil.copy(ROOT / page, source)
     modules = _api(source / "api")

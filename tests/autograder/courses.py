@@ -41,13 +41,18 @@ def run(root: Path, *command: str, status: int = 0) -> str:
     return printed
 
 
+def before_the_first_command(root: Path) -> Path:
+    """The folder `root`, which is made if need be, with the settings and p3 without its figures."""
+    shutil.copytree(ROOT / "solutions" / P3, root / "solutions" / P3)
+    shutil.copy(ROOT / "nbgrader_config.py", root)
+    nbformat.write(without_plots(problem(P3).source), root / "solutions" / P3 / NOTEBOOK)
+    return root
+
+
 @cache
 def _released() -> tempfile.TemporaryDirectory:
     folder = tempfile.TemporaryDirectory(prefix="course-")
-    root = Path(folder.name)
-    shutil.copy(ROOT / "nbgrader_config.py", root)
-    shutil.copytree(ROOT / "solutions" / P3, root / "solutions" / P3)
-    nbformat.write(without_plots(problem(P3).source), root / "solutions" / P3 / NOTEBOOK)
+    root = before_the_first_command(Path(folder.name))
     run(root, "nbgrader", "generate_assignment", P3)
     (root / "course" / "seed").write_text(SEED)
     return folder

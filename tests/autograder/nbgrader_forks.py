@@ -1,7 +1,8 @@
-"""nbgrader's commands in forks of one process that has loaded nbgrader, which alone takes two seconds.
+"""The commands of nbgrader and of the kit, in forks of one process that has loaded nbgrader, which alone
+takes two seconds.
 
-A fork runs the main function of the installed `nbgrader` command in the folder, with the arguments and
-the environment that the command would be started with.
+A fork runs the main function of the installed command, found by the command's name, in the folder, with
+the arguments and the environment that the command would be started with.
 """
 
 import atexit
@@ -13,13 +14,20 @@ import tempfile
 from functools import cache
 from pathlib import Path
 
+PROGRAMS = ("nbgrader", "autograder")
+
 
 def nbgrader(folder: Path, *arguments: str, **environment: str) -> tuple[int, str]:
     """The exit status of an nbgrader command, and what it printed on stdout and stderr."""
+    return installed(folder, "nbgrader", *arguments, **environment)
+
+
+def installed(folder: Path, program: str, *arguments: str, **environment: str) -> tuple[int, str]:
+    """The same of one of the PROGRAMS."""
     server = _server()
     with tempfile.NamedTemporaryFile("r", encoding="utf-8", errors="replace") as log:
         request = {
-            "arguments": ["nbgrader", *arguments],
+            "arguments": [program, *arguments],
             "folder": str(folder),
             "environment": dict(os.environ) | environment,
             "log": log.name,
@@ -40,7 +48,10 @@ def _server() -> subprocess.Popen:
 
 
 def serve() -> None:
-    from nbgrader.apps import nbgraderapp
+    from importlib.metadata import entry_points
+
+    scripts = entry_points(group="console_scripts")
+    mains = {program: scripts[program].load() for program in PROGRAMS}
 
     import autograder.nbgrader_glue.preprocessors  # noqa: F401  what the course's settings name
 
@@ -48,7 +59,7 @@ def serve() -> None:
         request = json.loads(line)
         process = os.fork()
         if process == 0:
-            _run(nbgraderapp.main, **request)
+            _run(mains[request["arguments"][0]], **request)
         _, status = os.waitpid(process, 0)
         print(os.waitstatus_to_exitcode(status), flush=True)
 

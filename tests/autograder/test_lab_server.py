@@ -19,6 +19,7 @@ from ipykernel.ipkernel import IPythonKernel
 from jupyter_client.kernelspec import KernelSpecManager
 from jupyter_server.serverapp import ServerApp
 
+from armdyn.ports.toolchain import processes
 from autograder import cli, lab_server
 from autograder.lab_server import NOT_FOR_STUDENTS, CourseContents
 from tests.autograder.courses import P3, ROOT, new_course
@@ -50,7 +51,7 @@ def plain_jupyter_lab(root):
     log = root.parent / "jupyter.log"
     with (
         log.open("w") as said,
-        subprocess.Popen(
+        processes.start(
             [*command, *root_may, "--IdentityProvider.token=t"], cwd=root, stderr=said
         ) as server,
     ):
@@ -76,6 +77,7 @@ def plain_jupyter_lab(root):
             yield ask
         finally:
             server.terminate()
+            processes.end(server, 30)
 
 
 def _listens(port: int) -> bool:

@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import expect, sync_playwright
 
+from armdyn.ports.toolchain import processes
+
 ROOT = Path(__file__).parents[2]
 AUTOGRADER = Path(sys.executable).with_name("autograder")
 # Chromium's own calls home are shut off: a test asks nothing of the network.
@@ -23,6 +25,7 @@ CHROMIUM = (
     "--disable-sync",
 )
 PATIENCE = 120_000  # ms
+END_SECONDS = 30.0
 SELF = ("file:", "data:")
 
 
@@ -46,7 +49,7 @@ def address(course):
     environment = os.environ | {"JUPYTERLAB_SETTINGS_DIR": str(course / ".venv" / "settings")}
     with (
         log.open("w") as errors,
-        subprocess.Popen(
+        processes.start(
             # Through files: a port that is free when a kernel is given it may be another test's then.
             [AUTOGRADER, "lab", "--no-browser", "--port=0", "--KernelManager.transport=ipc"],
             cwd=course,
@@ -63,6 +66,7 @@ def address(course):
             yield found.group(1)
         finally:
             server.terminate()
+            processes.end(server, END_SECONDS)
 
 
 @pytest.fixture(scope="package")

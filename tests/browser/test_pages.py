@@ -19,6 +19,7 @@ from nbgrader.coursedir import CourseDirectory
 from PIL import Image
 from playwright.sync_api import expect
 
+from armdyn.ports.toolchain import processes
 from autograder.nbgrader_glue.feedback import FeedbackExporter
 from autograder.nbgrader_glue.release import configuration
 from tests.autograder import courses
@@ -72,7 +73,7 @@ def taught(tmp_path_factory):
 @pytest.fixture(scope="module")
 def server(taught):
     """The address of the instructor's JupyterLab, and the token that opens it."""
-    with subprocess.Popen(
+    with processes.start(
         [AUTOGRADER, "lab", "--instructor", "--no-browser", "--port=0"],
         cwd=taught,
         env=os.environ | {"JUPYTER_DATA_DIR": str(taught / "data")},
@@ -87,6 +88,7 @@ def server(taught):
             yield found.groups()
         finally:
             lab.terminate()
+            processes.end(lab, 30)
 
 
 @pytest.fixture

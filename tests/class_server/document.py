@@ -30,5 +30,5 @@ def sections() -> dict[int, list[Block]]:
 
 
 if __name__ == "__main__":
-    _, install = sections()[1]
-    print(install.script.replace("/opt/armdyn", sys.argv[1]))
+    _, *install = sections()[1]
+    print("".join(block.script for block in install).replace("/opt/armdyn", sys.argv[1]))

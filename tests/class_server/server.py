@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[2]
 PATIENCE = 120.0  # s
 PASSWORD = "correct horse battery staple"
 ACCOUNTS = ("ada", "bob", "ines", "grader-armdyn", "grader-statics")
-GROUPS = ("armdyn-class", "statics-class")
+GROUPS = ("armdyn-class", "statics-class", "course-graders")
 # Nobody of this machine has such a name.
 OURS = {name: f"armdyn-test-{name.replace('armdyn-', '')}" for name in (*ACCOUNTS, *GROUPS)}
 
@@ -33,10 +33,11 @@ class ClassServer:
 
     def __init__(self, place: Path, folder: Path):
         self.place, self.folder = place, folder
+        self.graders_place = place.with_name(f"{place.name}-graders")
         self.address = f"127.0.0.1:{free_port()}"
         self.blocks = sections()
         self.done: set[tuple[int, int]] = set()
-        self.environment = {"PATH": f"{place}/bin:{os.environ['PATH']}", "LANG": "C.UTF-8"}
+        self.environment = {"LANG": "C.UTF-8"}
         self.hub: subprocess.Popen | None = None
 
     def here(self, text: str) -> str:
@@ -58,7 +59,9 @@ class ClassServer:
 
     def as_account(self, account: str, script: str, status: int = 0) -> str:
         """Run a script as an account of the page; what it printed."""
-        given = [f"export {name}='{value}'\n" for name, value in self.environment.items()]
+        place = self.graders_place if account.startswith("grader-") else self.place
+        environment = self.environment | {"PATH": f"{place}/bin:{os.environ['PATH']}"}
+        given = [f"export {name}='{value}'\n" for name, value in environment.items()]
         command = ["bash", "-euc", "".join(given) + script]
         if account != "root":
             command = ["runuser", "-l", OURS.get(account, account), "-c", command[-1]]
@@ -92,7 +95,7 @@ class ClassServer:
                 ["bash", "-euc", script],
                 stdout=log,
                 stderr=log,
-                env=self.environment,
+                env=self.environment | {"PATH": f"{self.place}/bin:{os.environ['PATH']}"},
                 start_new_session=True,
             )
         self.wait(lambda: requests.get(f"http://{self.address}/hub/login", timeout=5).ok)
@@ -116,35 +119,47 @@ class ClassServer:
     def stop(self) -> None:
         """End the hub and its servers, and remove every account and group."""
         if self.hub is not None:
+            # It waits long for each JupyterLab to end by itself.
+            end_processes()
             self.hub.send_signal(signal.SIGINT)
             try:
                 self.hub.wait(20)
             except subprocess.TimeoutExpired:
                 os.killpg(self.hub.pid, signal.SIGKILL)
         remove_accounts()
+        shutil.chown(self.graders_place, group="root")
+        self.graders_place.chmod(0o700)
         for name in (
             "etc/jupyter/jupyter_server_config.py",
             "etc/jupyter/nbgrader_config.py",
             "etc/jupyter/labconfig",
             "share/jupyter/lab/settings",
         ):
-            left = self.place / name
-            shutil.rmtree(left) if left.is_dir() else left.unlink(missing_ok=True)
+            for place in (self.place, self.graders_place):
+                left = place / name
+                shutil.rmtree(left) if left.is_dir() else left.unlink(missing_ok=True)
 
 
 def remove_accounts() -> None:
     """Remove what a run has made, also one that was killed; with the processes of these accounts."""
-    import pwd
-
-    for name in ACCOUNTS:
-        try:
-            user = pwd.getpwnam(OURS[name]).pw_uid
-        except KeyError:
-            continue
-        end_processes_of(user)
+    for name in end_processes():
         subprocess.run(["userdel", "--remove", OURS[name]], capture_output=True)
     for name in GROUPS:
         subprocess.run(["groupdel", OURS[name]], capture_output=True)
+
+
+def end_processes() -> list[str]:
+    """End what our accounts run; the accounts that are there."""
+    import pwd
+
+    there = []
+    for name in ACCOUNTS:
+        try:
+            end_processes_of(pwd.getpwnam(OURS[name]).pw_uid)
+            there.append(name)
+        except KeyError:
+            pass
+    return there
 
 
 def end_processes_of(user: int) -> None:

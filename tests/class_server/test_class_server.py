@@ -16,6 +16,7 @@ import nbformat
 import pytest
 from playwright.sync_api import expect, sync_playwright
 
+from tests.autograder.bundle import references
 from tests.autograder.postgresql import running
 from tests.browser.conftest import CHROMIUM, PATIENCE
 from tests.browser.test_assignment_list import AssignmentList
@@ -168,6 +169,36 @@ def tried(server, who: str, **paths: list[Path]) -> list[str]:
     return json.loads(server.as_account(who, shlex.join(command)))
 
 
+def test_a_student_is_told_what_is_wrong_and_may_ask_for_hints(server, bob):
+    code = (
+        "from autograder import check, hint; hint('p3-M'); M = lambda q, pend: 0.0; check('p3-M')"
+    )
+    said = server.as_account("bob", f"cd ~/armdyn/{P3}; python -c {shlex.quote(code)}", status=1)
+    assert "Hint 1 of 3" in said
+    assert "p3-M: incorrect" in said
+    assert "version" not in said
+
+
+def test_a_students_python_holds_no_answers(server, bob):
+    """Neither a function that gives one, nor a way to the graders' packages."""
+    looked = server.as_account(
+        "bob", f"python -c {shlex.quote(Path(references.__file__).read_text())}"
+    )
+    found = json.loads(looked)
+    assert found["tried"] > 500
+    assert not found["right"]
+    packages = next(server.graders_place.glob("lib/python3*/site-packages"))
+    asked = "python -c 'import autograder.mutation'"
+    for way in ("", f"PYTHONPATH={packages} "):
+        said = server.as_account("bob", way + asked, status=1)
+        assert "No module named 'autograder.mutation'" in said
+    within = packages / "autograder" / "mutation"
+    python = server.graders_place / "bin" / "python"
+    given = {"read": [python, within / "checks.py"], "list": [within, server.graders_place]}
+    assert tried(server, "bob", **given) == []
+    assert len(tried(server, GRADER, **given)) == 4
+
+
 def test_students_cannot_read_or_change_each_others_work(server):
     """Even one who knows each name, where a name is secret."""
     for who, whose in (("ada", "bob"), ("bob", "ada")):
@@ -313,6 +344,15 @@ def test_another_course_has_its_own_class(server, bob):
     assert len(tried(server, "grader-statics", read=[handed_in / f"{P4}.ipynb"])) == 1
 
 
+def test_the_students_package_gets_a_problem_more(server, bob):
+    ask = "python -c \"from autograder import hint; hint('p4-g_vec')\""
+    assert "there is no check 'p4-g_vec'" in server.as_account("bob", ask, status=1)
+    server.run(6, 2)
+    server.run(6, 3)
+    assert "Hint 1 of 3" in server.as_account("bob", ask)
+    assert not (server.home(GRADER) / "package").exists()
+
+
 def test_the_sandbox_starts_as_the_page_says(server):
     assert server.run(10) == ""
 
@@ -320,7 +360,7 @@ def test_the_sandbox_starts_as_the_page_says(server):
 def test_each_command_of_the_page_has_been_run(server):
     shown = {(section, n) for section, blocks in server.blocks.items() for n in range(len(blocks))}
     # Section 1 has been run before, by whoever set ARMDYN_CLASS_SERVER; section 9 by test_tls.py.
-    assert {block for block in shown - server.done if block[0] != 9} == {(1, 0), (1, 1)}
+    assert {block for block in shown - server.done if block[0] != 9} == {(1, 0), (1, 1), (1, 2)}
     packages = server.blocks[1][0].script.split()
     assert packages[:3] == ["apt-get", "install", "--yes"]
     run = (Path(__file__).parents[2] / ".ci" / "run").read_text(encoding="utf-8")

@@ -20,6 +20,7 @@ import nbformat
 
 from autograder import lesson_checks
 from autograder.problems import CHECKS, READ
+from tests.notebooks import reading_time
 
 ROOT = Path(__file__).parents[2]
 HEAD = """# The course, section by section
@@ -220,10 +221,10 @@ def _leads_to(parts):
 
 def _overview(path, parts, led, to):
     text = "\n".join(part.text for part in parts)
-    minutes = re.search(r"About (\d+) minutes", text)
+    minutes = reading_time.stated(path)
     traps = "; ".join(_cell(trap) for trap in re.findall(r"^### Trap: (.+)$", text, re.MULTILINE))
     linked = ", ".join(f"[{name}]({_link(_source(name), to)})" for name in led)
-    return f"| [{parts[0].title}]({_link(path, to)}) | {minutes[1]} min | {linked} | {traps} |"
+    return f"| [{parts[0].title}]({_link(path, to)}) | {minutes} min | {linked} | {traps} |"
 
 
 def _lesson(path, parts, to):

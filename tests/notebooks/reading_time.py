@@ -63,6 +63,18 @@ def to_state(path: Path) -> int:
     return STEP * math.ceil(minutes(path) / STEP)
 
 
+def stated(path: Path) -> int:
+    """The minutes in the lesson's first cell; ValueError, with what to write, where it has none."""
+    first = nbformat.read(path, as_version=4).cells[0].source
+    found = re.search(r"About (\d+) minutes", first)
+    if found is None:
+        raise ValueError(
+            f"lessons/{path.name}: its first cell has to say how long it takes, as in *About "
+            f"{to_state(path)} minutes. You need: …*"
+        )
+    return int(found[1])
+
+
 def _lines_of(formula: str) -> int:
     """The lines of a formula, of which an aligned one has several and a matrix is none."""
     if "{aligned}" not in formula:

@@ -94,7 +94,7 @@ def cited_in(text: str) -> list[str]:
 def page() -> str:
     every = references()
     lessons = {r.key: [] for r in every}
-    for path in LESSONS:
+    for path in sorted((ROOT / "lessons").glob("*.ipynb")):  # also one that has just been written
         for line in listed_in(path):
             entry = entry_of(line, every)
             if entry:

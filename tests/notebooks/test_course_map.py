@@ -14,12 +14,16 @@ from tests.notebooks.course_map import (
     problems,
     sections,
 )
+from tests.notebooks.reading_time import stated
 
 PAGE = ROOT / "docs" / "course-map.md"
 
 
 def test_the_page_is_made_from_the_notebooks():
-    assert PAGE.read_text(encoding="utf-8") == page(PAGE), "run `make lessons`"
+    assert PAGE.read_text(encoding="utf-8") == page(PAGE), (
+        "docs/course-map.md is of before your change (it counts the mistakes, too): run "
+        "`.venv/bin/python -m tests.notebooks.course_map docs/course-map.md`"
+    )
 
 
 def test_links_lead_somewhere():
@@ -32,7 +36,7 @@ def test_links_lead_somewhere():
 @pytest.mark.parametrize("problem", problems(), ids=lambda path: path.stem)
 def test_a_lesson_prepares_each_problem(problem):
     by_lesson = [path for path in lessons()[1:] if f"problems/{problem.stem}/" in path.read_text()]
-    assert by_lesson
+    assert by_lesson, f"no lesson but 00 links to ../problems/{problem.stem}/"
 
 
 @pytest.mark.parametrize("lesson", lessons(), ids=lambda path: path.stem)
@@ -63,6 +67,7 @@ def test_lesson_00_tells_the_minutes_that_each_lesson_tells():
     start, *others = lessons()
     (table,) = (part.text for part in sections(start) if "The map of the course" in part.title)
     for lesson in others:
-        (row,) = re.findall(rf"^.*\({lesson.name}\).*$", table, re.MULTILINE)
-        minutes = re.search(r"About (\d+) minutes", sections(lesson)[0].text)[1]
+        rows = re.findall(rf"^.*\({lesson.name}\).*$", table, re.MULTILINE)
+        assert len(rows) == 1, f"the table of lesson 00 needs one row that links to {lesson.name}"
+        (row,), minutes = rows, stated(lesson)
         assert re.search(rf"\b{minutes}\b", row.rpartition(lesson.name)[2]), row

@@ -76,9 +76,14 @@ def test_every_link_leads_somewhere(path):
 @pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)
 def test_each_part_links_to_the_section_that_prepares_it_and_that_links_back(path):
     parts = [source for source in cells(path).values() if re.match(r"## [A-E]\. ", source)]
-    assert len(parts) >= 4
+    assert len(parts) >= 4, "a problem has four parts or more, ## A. to ## E."
     for part in parts:
-        ((text, target),) = re.findall(r"\*Lesson \d\d prepares this: \[(.+)\]\((.+)\)\.\*", part)
+        prepared = re.findall(r"\*Lesson \d\d prepares this: \[(.+)\]\((.+)\)\.\*", part)
+        assert len(prepared) == 1, (
+            f"write below this heading: *Lesson NN prepares this: [heading](../../lessons/NN-….ipynb"
+            f"#cell-id=…).*\n{part.splitlines()[0]}"
+        )
+        ((text, target),) = prepared
         lesson = target_of(page_of(path), target)
         section = cells(lesson)[target.partition(f"#{CELL}")[2]]
         assert text in HEADING.findall(section)
@@ -93,7 +98,8 @@ def test_each_part_links_to_the_section_that_prepares_it_and_that_links_back(pat
             re.MULTILINE,
         )
         assert path in [target_of(lesson, target) for target in back], (
-            f"{lesson.stem}: its section says nothing of part {letter} of {path.stem}"
+            f"lessons/{lesson.name}: write below the heading {text!r}: *Part {letter} of "
+            f"[{path.stem[:2]}](../problems/{path.stem}/{path.name}) asks for this.*"
         )
 
 

@@ -1,18 +1,24 @@
 """Each lesson states how long it takes, and that is what its words, lines and tasks add up to."""
 
-import re
-
 import nbformat
 import pytest
 
-from tests.notebooks.reading_time import LESSONS, counts, minutes, to_state
+from tests.notebooks.reading_time import LESSONS, counts, minutes, stated, to_state
 
 
 @pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
 def test_the_stated_minutes_are_those_that_it_takes(path):
-    first = nbformat.read(path, as_version=4).cells[0].source
-    stated = int(re.search(r"About (\d+) minutes", first)[1])
-    assert abs(stated - to_state(path)) <= 5, f"state {to_state(path)} minutes: {counts(path)}"
+    assert abs(stated(path) - to_state(path)) <= 5, (
+        f"state {to_state(path)} minutes: {counts(path)}"
+    )
+
+
+def test_a_lesson_without_minutes_is_told_what_to_write(tmp_path):
+    cell = nbformat.v4.new_markdown_cell("# 99 · New\n\n" + "word " * 700)
+    path = tmp_path / "99-new.ipynb"
+    nbformat.write(nbformat.v4.new_notebook(cells=[cell]), path)
+    with pytest.raises(ValueError, match=r"lessons/99-new\.ipynb: .* \*About 10 minutes\."):
+        stated(path)
 
 
 def test_what_counts(tmp_path):

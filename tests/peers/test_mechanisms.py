@@ -30,6 +30,9 @@ def assert_equal(ours, theirs, scale):
 def derived_again(mechanism, method):
     """Their A and b and potential energy, as one function of numbers."""
     parameters = {p.name: p.symbol for p in mechanism.parameters}
+    assert mechanism.name in SCENES, (
+        f"SCENES in tests/peers/mechanisms.py has to build {mechanism.name} of points, frames and bodies"
+    )
     scene = SCENES[mechanism.name](SimpleNamespace(**parameters))
     A, b = getattr(scene, method)()
     return scene.compiled([A, b, scene.potential], parameters)

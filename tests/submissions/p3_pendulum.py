@@ -64,11 +64,11 @@ def wrong(release):
 
 
 def partly_right(release):
-    """The Lagrangian half right, gravity upside down, the rest right."""
+    """The Lagrangian half right, gravity with the cosine for the sine, the rest right."""
     return right_but(
         release,
         lagrangian=function("lagrangian", "I * qd**2 / 2 + m * g * lc * (1 - sp.cos(q))"),
-        g_vec=function("g_vec", "-pend.m * pend.g * pend.lc * np.sin(q)"),
+        g_vec=function("g_vec", "pend.m * pend.g * pend.lc * np.cos(q)"),
     )
 
 

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from autograder.judging.carried.follows import Follows
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.claims import Claim
 from autograder.judging.criterion import Answered, Said
@@ -16,7 +17,7 @@ from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
 from autograder.problems.c6_regressor import mistakes
-from autograder.problems.material import planar_2r, sampling
+from autograder.problems.material import following, planar_2r, sampling
 from autograder.protocol import Call
 
 NOTHING = np.empty(0)  # a quantity of a criterion that a call says nothing of
@@ -208,6 +209,7 @@ NOT_LEAST_SQUARES = (
     "squares of all 2K residuals smaller."
 )
 
+READ = "c6-discussion"  # by a person
 CHECKS = (
     Check(
         id="c6-regressor",
@@ -307,6 +309,14 @@ CHECKS = (
         section=Section(
             "06-linearity-in-parameters", "06-ranks", "4 · How many parameters can a motion show?"
         ),
+        follows=(
+            Follows(
+                ("c6-regressor",),
+                "This is the rank of your own regressor, so this step is right. The mistake is in Y: "
+                "mend it, and the rank follows.",
+                following.RANK_OF_Y,
+            ),
+        ),
         further=(
             "With measured, noisy angles no singular value of W is exactly zero. Then the gap "
             "between the large and the small ones tells you the rank."
@@ -349,6 +359,14 @@ CHECKS = (
             "06-linearity-in-parameters",
             "06-least-squares",
             "5 · Identification: from torques to parameters",
+        ),
+        follows=(
+            Follows(
+                ("c6-regressor",),
+                "This is the least-squares estimate with your own regressor, so this step is right. The "
+                "mistake is in Y: mend it, and the estimate follows.",
+                following.FIT_OF_Y,
+            ),
         ),
         further=(
             "These four numbers predict the torques of every motion of the arm. What they leave "

@@ -135,6 +135,7 @@ def _two_counts(call, value):
     return both[:1], both[1:]
 
 
+READ = "c7-discussion"  # by a person
 CHECKS = (
     Check(
         id="c7-rnea",

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from autograder.judging.carried.follows import Follows
 from autograder.judging.check import Check, Criterion
 from autograder.judging.criterion import Answered, Said
 from autograder.judging.loops import Loop
@@ -18,7 +19,7 @@ from autograder.judging.models import Beside
 from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.section import Section
 from autograder.problems.c8_control import law, loops, mistakes
-from autograder.problems.material import planar_2r, sampling
+from autograder.problems.material import following, planar_2r, sampling
 from autograder.protocol import Call
 
 NOTHING = np.empty(0)  # a quantity of a criterion that a call says nothing of
@@ -171,6 +172,7 @@ def _christoffel(q, qd, s, C_used, gains, arm):
     return planar_2r.C(q, qd, arm)
 
 
+READ = "c8-discussion"  # by a person
 CHECKS = (
     Check(
         id="c8-gravity_compensation",
@@ -315,6 +317,14 @@ CHECKS = (
             "04-coriolis-and-skew-symmetry",
             "04-tracking",
             "7 · Where skew-symmetry is needed: z ≠ q̇",
+        ),
+        follows=(
+            Follows(
+                ("c8-regressor_r",),
+                "This is the law with your own Y_r, so this step is right. The mistake is in Y_r: mend "
+                "it, and the law follows.",
+                following.LAW_OF_Y,
+            ),
         ),
         further=(
             "The estimates need not become right. They become good enough for this motion, and another "

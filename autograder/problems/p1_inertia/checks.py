@@ -236,6 +236,7 @@ NOT_ALLOWED = Said(
 
 INERTIA = Generated("planar-2r", "M", mistakes.INERTIA_SAID, mistakes.EXAMPLE)
 
+READ = "p1-proof"  # by a person
 CHECKS = (
     Check(
         id="p1-inertia_from_links",

@@ -5,17 +5,20 @@ shows whether Ṁ − 2C is skew-symmetric. For two joints the first and the las
 Christoffel form.
 """
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from autograder.judging.carried import ways
+from autograder.judging.carried.follows import Follows
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
 from autograder.judging.criterion import TOLERANCE, Said, relative_errors
 from autograder.judging.models import Beside
 from autograder.judging.quantities import array, each
 from autograder.judging.section import Section
 from autograder.mutation.generated import Generated
-from autograder.problems.material import planar_2r, sampling
+from autograder.problems.material import following, planar_2r, sampling
 from autograder.problems.p2_energy_skew import mistakes
 from autograder.protocol import Call, Expressions, Symbol
 
@@ -74,11 +77,12 @@ def steps(right: Beside) -> each:
     return parts
 
 
-def other(christoffel: Beside, calls, values):
+def other(christoffel: Beside, calls, values, own=None):
     """C q̇, and how far Ṁ − 2C is from skew-symmetric, up to where that is clear.
 
     One clear case is enough: what fails somewhere is no property. Where C q̇ is not right, no distance
-    counts, and it is put below zero. christoffel: the Christoffel C of the arm.
+    counts, and it is put below zero. christoffel: the Christoffel C of the arm. own: the C of each call
+    whose product with q̇ is the right one, where that is not the Christoffel C.
     """
     given = [_of_arm(christoffel, call, value) for call, value in zip(calls, values, strict=True)]
     right = [christoffel.of(call) for call in calls]
@@ -87,7 +91,7 @@ def other(christoffel: Beside, calls, values):
     enough = np.array([CLEARLY * np.max(np.abs(C)) for C in right])
     # C + Cᵀ of the Christoffel C is Ṁ.
     apart = [np.max(np.abs(C + C.T - R - R.T)) for C, R in zip(given, right, strict=True)]
-    expected = [C @ qd for C, qd in zip(right, velocities, strict=True)]
+    expected = [C @ qd for C, qd in zip(own or right, velocities, strict=True)]
     if np.any(relative_errors(expected, torques) > TOLERANCE):
         counts = -enough
     elif np.any(apart >= enough):
@@ -95,6 +99,11 @@ def other(christoffel: Beside, calls, values):
     else:
         counts = np.array(apart)
     return list(zip(torques, counts, strict=True))
+
+
+def _beside_own(quantities, calls, numbers):
+    """As `other`, with the student's own C for what C_other q̇ shall be."""
+    return partial(quantities, own=[np.reshape(C, (2, 2)) for (C,) in numbers])
 
 
 def _inertia_text(rng, coordinates):
@@ -155,6 +164,7 @@ def not_skew(products: str) -> tuple[Said, ...]:
     )
 
 
+READ = "p2-proof"  # by a person
 CHECKS = (
     Check(
         id="p2-M_dot",
@@ -222,6 +232,14 @@ CHECKS = (
         section=Section(
             "02-from-lagrangian-to-matrices", "02-hand", "3 · The 2R arm by hand: all eight h_ijk"
         ),
+        follows=(
+            Follows(
+                ("p2-M_dot",),
+                "This is what the Christoffel form gives with the derivatives of M in your own Ṁ, so "
+                "this step is right. The mistake is in Ṁ: mend it, and C follows.",
+                ways.CHRISTOFFEL_OF_RATES,
+            ),
+        ),
         further=(
             "C is linear in q̇, so C q̇ is quadratic: at twice the speed these torques are four "
             "times as large. So a controller for a slow arm can often leave them out."
@@ -270,6 +288,14 @@ CHECKS = (
             "C_other + C_otherᵀ beside Ṁ: is the first entry still the same?",
         ),
         section=Section("04-coriolis-and-skew-symmetry", "04-not-unique", "1 · C is not unique"),
+        follows=(
+            Follows(
+                ("p2-C",),
+                "Your C_other has the same product with q̇ as your own C, so this step is right. The "
+                "mistake is in C: mend it, and C_other follows.",
+                replace(following.SAME_PRODUCT, quantities=_beside_own),
+            ),
+        ),
         further=(
             "No measured motion can tell your C_other from C, as only the product with q̇ enters "
             "it. A controller that multiplies C by another velocity can."

@@ -8,12 +8,13 @@ from math import cos, sin, sqrt
 
 import numpy as np
 
+from autograder.judging.carried.follows import Follows
 from autograder.judging.check import Check, Criterion
 from autograder.judging.quantities import UnfitError, each
 from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
-from autograder.problems.material import sampling
+from autograder.problems.material import following, sampling
 from autograder.problems.p3_pendulum import mistakes
 from autograder.protocol import Call, Symbol
 
@@ -73,6 +74,7 @@ TRAP_INERTIA = Section(
     "01-canonical-form", "01-trap-inertia", 'Trap: the pendulum\'s inertia "about its centre"'
 )
 
+READ = "p3-derivation"  # by a person
 CHECKS = (
     Check(
         id="p3-lagrangian",
@@ -130,6 +132,14 @@ CHECKS = (
             "Write it as a matrix with one row and one column.",
         ),
         section=Section("01-canonical-form", "01-terms", "4 · What each term is, and what it does"),
+        follows=(
+            Follows(
+                ("p3-lagrangian",),
+                "Your M is what stands before q̈ with your own L, so this step is right. The mistake is "
+                "in L: mend it, and M follows.",
+                following.INERTIA_OF_L,
+            ),
+        ),
         further=(
             "The farther a body's mass lies from the axis, the more slowly the same torque sets "
             "it turning. A tightrope walker's long pole uses just that."
@@ -156,6 +166,14 @@ CHECKS = (
             "A constant M has no derivative. Return the matrix of one row and one column that says so.",
         ),
         section=Section("01-canonical-form", "01-terms", "4 · What each term is, and what it does"),
+        follows=(
+            Follows(
+                ("p3-M",),
+                "Your C is the one that your own M asks for, so this step is right. The mistake is in "
+                "M: mend it, and C follows.",
+                following.CORIOLIS_OF_M,
+            ),
+        ),
         further=(
             "A single joint can have velocity terms: in a crank that drives a slider, M changes "
             "with q, and there C is ½ M′(q) q̇."
@@ -179,6 +197,14 @@ CHECKS = (
             "g on the left side.",
         ),
         section=Section("01-canonical-form", "01-terms", "4 · What each term is, and what it does"),
+        follows=(
+            Follows(
+                ("p3-lagrangian",),
+                "Your g is the derivative of the P in your own L, so this step is right. The mistake is "
+                "in L: mend it, and g follows.",
+                following.GRAVITY_OF_L,
+            ),
+        ),
         further=(
             "At q = π the torque is 0 again: the pendulum can stand on its head, but the smallest "
             "push brings it down."
@@ -223,6 +249,14 @@ CHECKS = (
             "lever arm and the inertia about the pivot. A root gives rad/s; you do not need 2π.",
         ),
         section=TRAP_INERTIA,
+        follows=(
+            Follows(
+                ("p3-M", "p3-g_vec"),
+                "Your frequency is that of a pendulum with your own M and g, so this step is right. The "
+                "mistake is in one of these: mend it, and the frequency follows.",
+                following.FREQUENCY,
+            ),
+        ),
         further=(
             "This holds for small swings. If the same pendulum swings by 90° to each side, one "
             "swing takes 18 % longer."

@@ -5,6 +5,8 @@ from math import pi
 
 import numpy as np
 
+from autograder.judging.carried import ways
+from autograder.judging.carried.follows import Follows
 from autograder.judging.check import Check, Criterion
 from autograder.judging.claims import Claim
 from autograder.judging.criterion import Answered, Said
@@ -12,7 +14,7 @@ from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
-from autograder.problems.material import planar_2r, sampling
+from autograder.problems.material import following, planar_2r, sampling
 from autograder.problems.p4_gravity import mistakes
 from autograder.protocol import Call
 
@@ -147,6 +149,7 @@ OF_ALL = (
     "link 1 down only", "in degrees",
 )  # fmt: skip
 
+READ = "p4-check"  # by a person
 CHECKS = (
     Check(
         id="p4-potential_energy",
@@ -200,6 +203,14 @@ CHECKS = (
             "weight times its distance from the shoulder.",
         ),
         section=Section("05-gravity", "05-2r-hand", "By hand: the 2R arm"),
+        follows=(
+            Follows(
+                ("p4-potential_energy",),
+                "This is the gradient of your own P, so this step is right. The mistake is in P: mend "
+                "it, and g follows.",
+                ways.GRADIENT,
+            ),
+        ),
         further=(
             "If motors give these torques at every q, the arm stays wherever you leave it. This "
             "is gravity compensation; with it, people guide heavy arms by hand."
@@ -283,6 +294,14 @@ CHECKS = (
             "pairs of directions write q1, and then q2, the angle from link 1 to link 2.",
         ),
         section=Section("05-gravity", "05-equilibria", "3 · Where the arm rests by itself"),
+        follows=(
+            Follows(
+                ("p4-g_vec",),
+                "These are four configurations in which your own g vanishes, so this step is right. The "
+                "mistake is in g: mend it, and the equilibria follow.",
+                following.EQUILIBRIA,
+            ),
+        ),
         further=(
             "A third link on the hand would make eight of them, and an arm with n links has 2ⁿ: "
             "their number doubles with each link."

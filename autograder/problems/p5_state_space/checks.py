@@ -8,12 +8,13 @@ method of order 4 or more passes, and any tight adaptive solver, while one of or
 
 import numpy as np
 
+from autograder.judging.carried.follows import Follows
 from autograder.judging.check import Check, Criterion
 from autograder.judging.criterion import TOLERANCE, Answered, Said
 from autograder.judging.quantities import UnfitError, each, vector
 from autograder.judging.section import Section
 from autograder.mutation.generated import Generated
-from autograder.problems.material import planar_2r, sampling
+from autograder.problems.material import following, planar_2r, sampling
 from autograder.problems.material.systems import (
     METHOD,
     FreeRun,
@@ -195,6 +196,7 @@ def _drift_parts(call, value):
     return tuple(judged)
 
 
+READ = "p5-discussion"  # by a person
 CHECKS = (
     Check(
         id="p5-f",
@@ -341,6 +343,14 @@ CHECKS = (
             "states[k + 1] = rk4_step(...). Assign to the row; do not change an array in place.",
         ),
         section=Section("10-state-space-and-simulation", "10-steps", "2 · One step"),
+        follows=(
+            Follows(
+                ("p5-rk4_step",),
+                "Each of your rows is one step of your own rk4_step from the row before, so this part "
+                "is right. The mistake is in the step: mend it, and the run follows.",
+                following.RUN_OF_STEPS,
+            ),
+        ),
         further=(
             "Between two rows, the cubic that has both states and both slopes f(x, u) is a smooth "
             "curve close to the motion: for a picture you need no smaller steps."

@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ..calls import CALL_SECONDS, PATIENCE, TimeLimitError
+from ..calls import CALL_SECONDS
+from ..limits import PATIENCE, TimeLimitError
 from ..readings import MOST_NUMBERS, FaultKind, NotNumbersError
 
 PARAMETERS = ("l1", "l2", "lc1", "lc2", "m1", "m2", "I1", "I2", "g")

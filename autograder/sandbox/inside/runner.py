@@ -21,7 +21,7 @@ MEMORY_BYTES = 4 << 30
 FILE_BYTES = 64 << 20
 # No process needs more processor time than a whole notebook may have; a process that hides from the
 # watch ends at this limit.
-PROCESS_SECONDS = 120
+PROCESS_SECONDS = 600
 MOST_TEXT = 200_000
 MOST_OUTPUTS = 50
 MOST_LEFT_OUT = 500  # characters about a line that was left out
@@ -127,14 +127,17 @@ def _limit_resources(walled):
 
 
 def _run(shell, source, seconds, protocol):
-    """The cell's outputs as a notebook stores them; an error also says at which line it arose."""
+    """The cell's outputs as a notebook stores them; an error also says at which line it arose, and what
+    shows the value of the last expression says so.
+    """
     import inline_figures
     from IPython.utils.capture import capture_output
 
     shell.begin()
     stopped = None
+    limit = protocol.time_limit(seconds)
     try:
-        with capture_output(display=False) as captured, protocol.time_limit(seconds):
+        with capture_output(display=False) as captured, limit:
             ran = shell.run_cell(source, store_history=True)
             stopped = ran.error_before_exec or ran.error_in_exec
             inline_figures.show_rest()
@@ -150,12 +153,21 @@ def _run(shell, source, seconds, protocol):
         outputs.append(
             {"output_type": "stream", "name": "stderr", "text": f"{text}\n", "left_out": text}
         )
-    for data, _ in shell.display_pub.shown[:MOST_OUTPUTS]:
-        data = {kind: _text(data[kind]) for kind in SHOWN if kind in data}
-        outputs.append({"output_type": "display_data", "data": data, "metadata": {}})
+    displayed = shell.display_pub.shown
+    value = [shown for shown in displayed[MOST_OUTPUTS:] if shown.is_value]
+    for shown in [*displayed[:MOST_OUTPUTS], *value]:
+        data = {kind: _text(shown.data[kind]) for kind in SHOWN if kind in shown.data}
+        output = {"output_type": "display_data", "data": data, "metadata": {}}
+        outputs.append(output | ({"value": True} if shown.is_value else {}))
     errors = shell.errors or ([(type(stopped), stopped, [])] if stopped else [])
     if errors and shell.is_below_magic(source):
         stopped = errors[-1][1]
+    if limit.error is not None:
+        # It may have come again while the first was shown, and code may swallow it and go on.
+        errors = [one for one in errors if one[0] is not protocol.TimeLimitError]
+        errors.insert(0, (protocol.TimeLimitError, limit.error, []))
+        if isinstance(stopped, protocol.TimeLimitError):
+            stopped = limit.error
     # A magic's error is only shown, and the cell goes on, perhaps to an error that stops it.
     told = [*errors[:1], *(error for error in errors[1:] if error[1] is stopped)]
     return outputs + [
@@ -167,12 +179,16 @@ def _run(shell, source, seconds, protocol):
 def _error(shell, source, kind, value, lines, protocol):
     from shell import needed_network
 
-    at, line, is_offline = 0, "", False
+    at, line, is_offline, starved = 0, "", False, False
     with suppress(Exception):  # it may be of a student's own class
         at, line = shell.typed_lines(value, source, protocol.other_cell)
         is_offline = needed_network(value)
     if kind is protocol.TimeLimitError:
-        kind, value, lines = TimeoutError, f"this cell ran longer than {value.seconds:g} s", []
+        starved = value.starved
+        said = f"this cell ran longer than {value.seconds:g} s"
+        if starved:
+            said = f"this cell had not ended after {value.seconds:g} s on the clock"
+        kind, value, lines = TimeoutError, said, []
     elif isinstance(value, SyntaxError):
         if protocol.kind_of(value) == "SyntaxError":
             kind = SyntaxError
@@ -188,6 +204,7 @@ def _error(shell, source, kind, value, lines, protocol):
         "traceback": [str(line) for line in lines] or [f"{kind.__name__}: {text}"],
         "at": at,
         "line": protocol.shortened(line),
+        "starved": starved,
     }
 
 

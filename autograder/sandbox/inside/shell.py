@@ -18,6 +18,7 @@ import socket
 import subprocess
 import sys
 import traceback
+from typing import NamedTuple
 
 import inline_figures
 import left_out
@@ -46,12 +47,20 @@ def new_shell():
     return shell
 
 
+class Shown(NamedTuple):
+    """A mime bundle. is_value: whether it is the value of the cell's last expression."""
+
+    data: dict
+    display_id: str | None = None
+    is_value: bool = False
+
+
 class Displays(DisplayPublisher):
-    """Keeps what a cell displays in `shown`: mime bundles, each with its display_id."""
+    """Keeps what a cell displays in `shown`."""
 
     def __init__(self, *args, **kwargs):
         super().__init__(*args, **kwargs)
-        self.shown: list[tuple[dict, str | None]] = []
+        self.shown: list[Shown] = []
         self._clear_first = False
 
     def publish(self, data, metadata=None, source=None, *, transient=None, update=False, **kwargs):
@@ -59,9 +68,15 @@ class Displays(DisplayPublisher):
             self.clear_output()
         name = (transient or {}).get("display_id")
         if update:
-            self.shown[:] = [(data, own) if own == name else (old, own) for old, own in self.shown]
+            self.shown[:] = [
+                old._replace(data=data) if old.display_id == name else old for old in self.shown
+            ]
         else:
-            self.shown.append((data, name))
+            self.shown.append(Shown(data, name))
+
+    def publish_value(self, data):
+        self.publish(data)
+        self.shown[-1] = self.shown[-1]._replace(is_value=True)
 
     def clear_output(self, wait=False):
         self._clear_first = wait
@@ -82,7 +97,7 @@ class Results(DisplayHook):
 
     def write_format_data(self, format_dict, md_dict=None):
         assert self.shell is not None  # it made this hook
-        self.shell.display_pub.publish(format_dict)
+        self.shell.display_pub.publish_value(format_dict)
 
     def finish_displayhook(self):
         self._is_active = False
@@ -206,7 +221,9 @@ class RoomShell(InteractiveShell):
         try:
             return self._loop.run_until_complete(task)
         finally:
-            if not task.done():  # at its time limit: it must not go on while the next cell runs
+            # At its time limit: it must not go on while the next cell runs.
+            if not task.done() or self._loop.is_running():
+                asyncio._set_running_loop(None)
                 self._abandoned.append((self._loop, task))
                 self._loop = None
 

@@ -4,9 +4,9 @@ The kernel limits each process alone. This process limits them together, and end
 judge. Behind walls, the student's code cannot reach it; without walls, that code may end it like any
 other process of its user.
 
-The judge sends a line, "used" or "sweep", and gets one: the same word, and the processor time of all
-processes so far, s. After "sweep", only the runner is left. A last line, which starts with "!", says why
-the room ends.
+The judge sends a line, "used" or "sweep", and gets one: the same word, the processor time of all
+processes so far, and the time in which none of them computed or was ready to, s. After "sweep", only the
+runner is left. A last line, which starts with "!", says why the room ends.
 """
 
 import os
@@ -25,10 +25,11 @@ MOST_PROCESSES = 64
 MOST_STARTED = 5000
 ROOM_BYTES = 4 << 30
 LOOK_SECONDS = 0.1
-SWEEP_SECONDS = 2.0
+SWEEP_SECONDS = 30.0  # a busy machine may take long to end a process
 PAGE = os.sysconf("SC_PAGE_SIZE")
 TICKS = os.sysconf("SC_CLK_TCK")
 ZOMBIE = ("Z", "X")
+BUSY = ("R", "D")  # computes, is ready to, or waits for a disk
 
 
 class Watch:
@@ -104,7 +105,8 @@ class Watch:
             if request == b"sweep" and not sweep(self._processes, self._runner):
                 self._say("! a process that the cell started could not be ended")
                 return False
-            self._say(f"{request.decode()} {self._time.look(self._processes()):.3f}")
+            used = self._time.look(self._processes())
+            self._say(f"{request.decode()} {used:.3f} {self._time.idle:.3f}")
         return not event & (select.POLLHUP | select.POLLERR)
 
     def _say(self, line: str) -> None:
@@ -137,7 +139,8 @@ class ProcessorTime:
 
     When a parent waits for a child, the kernel adds the child's time to the parent's. For a child that
     nobody waited for, the time at the last look before its end counts. reaper: the process that waits
-    for orphans, if that is not this one.
+    for orphans, if that is not this one. idle: how long no process computed or was ready to, s: on a
+    busy machine, those that are ready wait for a processor.
     """
 
     def __init__(self, reaper: int | None = None):
@@ -145,9 +148,11 @@ class ProcessorTime:
         self._spent = 0.0
         self._seen: dict[tuple[int, str], tuple[float, float]] = {}
         self._waited = self._of_orphans()
+        self.idle, self._looked = 0.0, time.monotonic()
 
     def look(self, processes: Iterable[int]) -> float:
-        seen = {(p, stat[19]): _times(stat) for p in processes if (stat := _stat(p))}
+        stats = {p: stat for p in processes if (stat := _stat(p))}
+        seen = {(p, stat[19]): _times(stat) for p, stat in stats.items()}
         waited = self._of_orphans()
         own, of_children = 0.0, waited - self._waited
         for key, (used, used_by_children) in seen.items():
@@ -155,7 +160,12 @@ class ProcessorTime:
             own += used - used_before
             of_children += used_by_children - by_children_before
         counted = sum(sum(times) for key, times in self._seen.items() if key not in seen)
-        self._spent += max(0.0, own) + max(0.0, of_children - counted)
+        spent = max(0.0, own) + max(0.0, of_children - counted)
+        now = time.monotonic()
+        if not spent and not any(_is_busy(p, stat) for p, stat in stats.items()):
+            self.idle += now - self._looked
+        self._looked = now
+        self._spent += spent
         self._seen, self._waited = seen, waited
         return self._spent
 
@@ -217,6 +227,16 @@ def _stat(process) -> list[str] | None:
 def _times(stat: list[str]) -> tuple[float, float]:
     user, system, children_user, children_system = map(int, stat[11:15])
     return (user + system) / TICKS, (children_user + children_system) / TICKS
+
+
+def _is_busy(process: int, stat: list[str]) -> bool:
+    """Whether one of its threads computes or could."""
+    if stat[0] in BUSY or int(stat[17]) <= 1:
+        return stat[0] in BUSY
+    with suppress(OSError):
+        threads = os.listdir(f"/proc/{process}/task")
+        return any((of := _stat(f"{process}/task/{t}")) and of[0] in BUSY for t in threads)
+    return False
 
 
 def _has_ended(child) -> bool:

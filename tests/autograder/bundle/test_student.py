@@ -4,7 +4,6 @@ import json
 import re
 import shutil
 import socket
-import subprocess
 import time
 import urllib.request
 from pathlib import Path
@@ -13,6 +12,7 @@ from urllib.parse import urljoin
 import nbformat
 import pytest
 
+from armdyn.ports.toolchain import processes
 from autograder.lab_server import course_of
 from autograder.notebook.version import other_version, version_of
 from tests.autograder.bundle import sitting
@@ -106,7 +106,7 @@ def test_the_command_opens_the_course_where_there_is_none(installed, tmp_path):
     home = tmp_path / "home"
     home.mkdir()
     log = (tmp_path / "log").open("w")
-    server = subprocess.Popen(
+    server = processes.start(
         [command, "lab", f"--port={port}", "--no-browser"], cwd=tmp_path, stdout=log, stderr=log,
         env={"HOME": str(home), "PATH": "/usr/bin:/bin", "PYTHONUNBUFFERED": "1"},
     )  # fmt: skip
@@ -125,7 +125,7 @@ def test_the_command_opens_the_course_where_there_is_none(installed, tmp_path):
             assert "p3-pendulum" in answer.read().decode()
     finally:
         server.terminate()
-        server.wait()
+        processes.end(server, 30)
         log.close()
     course = tmp_path / "armdyn"
     assert f"Your course is in {course}" in (tmp_path / "log").read_text()

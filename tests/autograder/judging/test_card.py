@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from autograder.judging import verdict as verdicts
 from autograder.judging.card import LOOKS, Line, drawing, html_card, mimebundle
 from autograder.judging.passages import failing
 from autograder.judging.verdict import AS_ABOVE, Failed, Row, State, Verdict, Witness
@@ -215,7 +216,7 @@ def test_rows_are_marked_in_words_and_in_plain_text():
 
 
 def test_without_inputs_only_the_size_of_the_error_is_told():
-    verdict = full(State.INCORRECT).without_inputs()
+    verdict = full(State.INCORRECT).returned()
     for text in (str(verdict), html_card(verdict)):
         assert "Worst case: off by 0.3 N·m" in text
         assert "m=1" not in text
@@ -223,7 +224,7 @@ def test_without_inputs_only_the_size_of_the_error_is_told():
         assert "worst_case" not in text
         assert "[0.0]" not in text
     assert (verdict.worst, verdict.failed, verdict.again) == (None, None, "")
-    assert Verdict("a", State.CORRECT).without_inputs() == Verdict("a", State.CORRECT)
+    assert Verdict("a", State.CORRECT).returned() == Verdict("a", State.CORRECT)
 
 
 @given(VERDICTS)
@@ -301,7 +302,7 @@ def test_the_drawing_stands_after_the_text_and_not_without_a_pose():
                     next_step="Go on.")  # fmt: skip
     html = html_card(posed)
     assert html.index("Go on.") < html.index("<svg")
-    assert "<svg" not in html_card(posed.without_inputs())
+    assert "<svg" not in html_card(posed.returned())
 
 
 @given(TEXT.filter(bool))
@@ -456,3 +457,19 @@ def test_how_many_calls_failed(failed, said):
     card = html_card(Verdict("a", State.ERROR, failed=failed))
     assert "".join(Card(card).words).endswith(said)
     assert ">f(1)</code>" in card
+
+
+@pytest.mark.parametrize(
+    ("state", "step"),
+    [
+        (State.INCORRECT, verdicts.CHANGE_IT),
+        (State.PARTLY_CORRECT, f"Mend M first, then this function{verdicts.RUN_AGAIN}"),
+        (State.ERROR, verdicts.FIX_IT),
+        (State.NOT_ATTEMPTED, "Write M(q), run its cell, then run this cell again."),
+    ],
+)  # fmt: skip
+def test_a_page_that_comes_back_asks_for_nothing_to_be_run_on_it(state, step):
+    shown = str(Verdict("p3-M", state, next_step=step).returned())
+    assert "this cell" not in shown
+    assert "run its cell" not in shown
+    assert "own copy" in shown or "handed in" in shown

@@ -163,5 +163,5 @@ def test_that_no_other_entry_is_wrong_is_said_where_it_is_so(entries):
 
 def test_without_inputs_the_entry_is_still_named():
     values = [value + np.array([[0.0, 0.7], [0.0, 0.0]]) for value in right_values(CHECKS["p1-M"])]
-    verdict = judged(CHECKS["p1-M"], values).without_inputs()
+    verdict = judged(CHECKS["p1-M"], values).returned()
     assert "Worst case: M[0, 1] is off by 0.7 kg·m²" in " ".join(verdict.lines())

@@ -63,7 +63,7 @@ def said_by(asked: Number | Choice | Check) -> list[str]:
 
 
 def test_a_lesson_has_three_to_five_checks(number):
-    assert 3 <= len(checks_of(number)) <= 5
+    assert 3 <= len(checks_of(number)) <= 5, f"autograder/lesson_checks/lesson_{number}.py"
 
 
 def test_each_goal_is_checked_here_or_in_a_problem(number):

@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import re
 import shutil
 import zipfile
 from contextlib import chdir, redirect_stdout
@@ -13,8 +12,8 @@ import pytest
 from nbgrader.api import Gradebook
 from nbgrader.utils import notebook_hash
 
-from autograder import roster, term_calendar
 from autograder.cli import main
+from autograder.marking.kept import FIRST, Given, Kept
 from tests.autograder import courses
 from tests.autograder.courses import NOTEBOOK, P3
 from tests.autograder.lms.platforms import (
@@ -24,6 +23,7 @@ from tests.autograder.lms.platforms import (
     moodle_sheet,
     zipped,
 )
+from tests.autograder.lti.platform import Platform, member, playing, registration
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import blank
 
@@ -304,6 +304,9 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     assert "Nil Nihil" in page
     assert "late, −3" in page
     others = courses.rows(courses.database(course))["grade"]
+    given = Given((), 1.0, "", "", "")
+    for student in ("bob", "bobby"):
+        Kept(course).change(P3, "p3-derivation", student, lambda entry: {FIRST: given})
     monkeypatch.setattr("builtins.input", lambda question: "n")
     assert main(["forget", "bob"]) == 1
     assert submitted.exists()
@@ -316,7 +319,7 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     for what in (
         *("submitted/bob", "autograded/bob", "replaced/bob", "inbound/bob+", "armdyn/feedback/"),
         *("cache-of-results", "the gradebook", "the line in course/class.csv", "1 extensions in"),
-        *("course/marks.csv", f"course/report/{P3}.html"),
+        *("course/marks.csv", f"course/report/{P3}.html", f"course/marking/{P3}.json"),
     ):
         assert what in said, what
     left = [path for path in (course / "course").rglob("*") if path.is_file()]
@@ -324,6 +327,7 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
               if "bob" in str(path.relative_to(course)).replace("bobby", "") or
               b"bob" in path.read_bytes().replace(b"bobby", b"")]  # fmt: skip
     assert traces == []
+    assert list(Kept(course).of(P3, "p3-derivation")) == ["bobby"]
     assert (inbound / "bobby+p3-pendulum+2026-11-28 10:00:00 UTC+abc").exists()
     kept = courses.rows(courses.database(course))["grade"]
     assert kept == [row for row in others if "bob/" not in repr(row)]
@@ -333,42 +337,35 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     assert "keeps nothing about bob" in capsys.readouterr().err
 
 
-def blocks(heading: str) -> list[str]:
-    """The code of a section of the guide."""
-    guide = (courses.ROOT / "docs" / "instructors.md").read_text(encoding="utf-8")
-    section = guide.split(f"## {heading}\n")[1].split("\n## ")[0]
-    return re.findall(r"```\n(.*?)```", section, re.S)
-
-
-def test_what_the_guide_shows_is_read_and_runs(course, monkeypatch, capsys):
-    listed, calendar = blocks("The class list and the calendar")
-    assert roster.Person("bob", "Doe, Jr.", "Bob", "bob@example.org", "4712") in list(
-        roster.read(written(course / "guide.csv", listed)).people.values()
-    )
-    for name in re.findall(r"^\[([\w-]+)\]", calendar, re.M):
-        (course / "solutions" / name).mkdir(exist_ok=True)
-    written(course / "course" / "calendar.toml", calendar)
-    assert term_calendar.read_if_there(course).of("p4-gravity").penalty == term_calendar.ZERO
-
-    written(course / "course" / "calendar.toml", CALENDAR)
-    (course / "all.zip").rename("submissions.zip")
-    course.joinpath("sheet.csv").rename("worksheet.csv")
-    rows = [{"name": NAMES[student], "number": 11 + at} for at, student in enumerate(NAMES)]
-    canvas_sheet(course / "gradebook.csv", rows, {"P3 Pendulum (77)": "15"})
-    shown = [
-        *blocks("Hand-ins from Moodle or Canvas"),
-        *blocks("Grades for Moodle, Canvas or a spreadsheet"),
-    ]
-    lines = [line for block in shown for line in block.splitlines() if "grade p3" not in line]
-    assert len(lines) == 5
-    for line in lines:
-        program, *arguments = line.split()
-        assert program == "autograder"
-        status = 1 if arguments[0] == "collect-zip" else 0  # gus has no notebook
-        assert main(arguments) == status, capsys.readouterr()
-    assert len(table(course / "marks.csv")) == len(NAMES)
-
-
 def written(path, text: str):
     path.write_text(text, encoding="utf-8")
     return path
+
+
+def test_the_marks_of_the_term_reach_a_platform_by_lti(course, capsys):
+    """By the commands, and once more after ada's proof is marked: then hers alone is sent."""
+    assert main(["lti", "send", P3]) == 2
+    assert "there is no course/lti.toml: write into it" in capsys.readouterr().err
+    assert main(["lti", "key"]) == 0
+    platform = Platform(course / "course" / "lti-key-set.json")
+    platform.members = [member(f"u-{id}", NAMES[id], email=f"{id}@x.org") for id in NAMES]
+    with playing(platform):
+        (course / "course" / "lti.toml").write_text(registration(platform))
+        capsys.readouterr()
+        assert main(["lti", "send", P3]) == 0
+        printed = capsys.readouterr().out
+        assert "p3-pendulum: 5 scores sent, in a new line item" in printed
+        assert "  not sent: 1, could not be read\n  not sent: 1, nothing handed in" in printed
+        (sent,) = platform.scores.values()
+        given = {id: sent.get(f"u-{id}", {}).get("scoreGiven") for id in NAMES}
+        assert given == {id: pytest.approx(ledger(id)) for id in NAMES}
+        assert sent["u-ada"]["gradingProgress"] == "PendingManual"
+        assert sent["u-bob"]["comment"] == "graded, late, −1.3"
+        with Gradebook(courses.database(course)) as gradebook:
+            grade = gradebook.find_grade("p3-derivation", P3, P3, "ada")
+            grade.manual_score, grade.needs_manual_grade = 4, False
+            gradebook.db.commit()
+        assert main(["lti", "send"]) == 0
+        printed = capsys.readouterr().out
+        assert "p3-pendulum: 1 score sent\n  as they were sent before: 4" in printed
+        assert sent["u-ada"]["scoreGiven"] == 14

@@ -16,7 +16,8 @@ from nbgrader.exchange import ExchangeError, ExchangeFactory
 from traitlets import import_item
 from traitlets.config import Config
 
-from autograder.nbgrader_glue import exchange
+from autograder.nbgrader_glue.exchange import graders, students
+from autograder.nbgrader_glue.exchange.entered import Entered
 from autograder.nbgrader_glue.steps import EXCHANGE
 from tests.autograder.nbgrader_glue.accounts import acting_as, needs_root
 
@@ -80,7 +81,7 @@ class Course:
             (folder / "data").mkdir(parents=True, exist_ok=True)
             (folder / f"{P3}.ipynb").write_text(text)
             (folder / "data" / "mine.csv").write_text("1, 2")
-        self.do(name, exchange.Submit)
+        self.do(name, students.Submit)
         (made,) = set(self.inbound.iterdir()) - before
         return made
 
@@ -104,7 +105,7 @@ def course(gradebook):
     with tempfile.TemporaryDirectory(prefix="exchange-") as folder:
         os.chmod(folder, 0o755)
         course = Course(Path(folder), gradebook)
-        course.do(GRADER, exchange.ReleaseAssignment)
+        course.do(GRADER, graders.ReleaseAssignment)
         yield course
 
 
@@ -112,7 +113,7 @@ def test_every_step_of_the_exchange_is_ours():
     steps = set(ExchangeFactory.class_trait_names(config=True)) - {"exchange"}
     assert set(EXCHANGE) == steps
     for ours in EXCHANGE.values():
-        assert issubclass(import_item(ours), exchange._Entered)
+        assert issubclass(import_item(ours), Entered)
 
 
 def attempts(made: Path) -> dict[str, object]:
@@ -152,19 +153,19 @@ def test_nobody_but_the_graders_can_read_it_at_any_time(course, monkeypatch):
                 seen.append(os.access(path, os.R_OK | os.X_OK))
         return set_perms(step, dest, **modes)
 
-    set_perms = exchange.default.Exchange.set_perms
-    monkeypatch.setattr(exchange.default.Exchange, "set_perms", look)
+    set_perms = students.default.Exchange.set_perms
+    monkeypatch.setattr(students.default.Exchange, "set_perms", look)
     with acting_as(ADA):
         (course.home(ADA) / P3).mkdir()
         (course.home(ADA) / P3 / f"{P3}.ipynb").write_text("{}")
-    course.do(ADA, exchange.Submit)
+    course.do(ADA, students.Submit)
     assert len(seen) >= 4
     assert not any(seen)
 
 
 def test_graders_collect_it_and_can_remove_it(course):
     made = course.hand_in(ADA, '{"mine": 1}')
-    course.do(GRADER, exchange.Collect)
+    course.do(GRADER, graders.Collect)
     got = course.collected(ADA)
     assert (got / f"{P3}.ipynb").read_text() == '{"mine": 1}'
     assert (got / "data" / "mine.csv").read_text() == "1, 2"
@@ -186,8 +187,8 @@ def test_feedback_reaches_the_student_where_the_graders_files_are_closed(course)
         page.chmod(0o600)
         (page.parent / "timestamp.txt").write_text("2026-01-01 00:00:00 UTC")
         (page.parent / "submission_secret.txt").write_text(secret)
-    course.do(GRADER, exchange.ReleaseFeedback)
-    course.do(ADA, exchange.FetchFeedback)
+    course.do(GRADER, graders.ReleaseFeedback)
+    course.do(ADA, students.FetchFeedback)
     (got,) = (course.home(ADA) / P3 / "feedback").rglob("*.html")
     assert got.read_text() == "well done"
     with acting_as(BOB), pytest.raises(PermissionError):
@@ -201,7 +202,7 @@ def test_a_student_cannot_hand_in_for_another(course, caplog):
         later.mkdir()
         (later / f"{P3}.ipynb").write_text('{"forged": 1}')
         later.chmod(0o777)
-    course.do(GRADER, exchange.Collect)
+    course.do(GRADER, graders.Collect)
     assert (course.collected(ADA) / f"{P3}.ipynb").read_text() == '{"mine": 1}'
     assert f"it belongs to the account {BOB}" in caplog.text
 
@@ -211,7 +212,7 @@ def test_a_strange_name_keeps_nobody_from_being_collected(course, name, caplog):
     with acting_as(BOB):
         (course.inbound / name).mkdir()
     course.hand_in(ADA)
-    course.do(GRADER, exchange.Collect)
+    course.do(GRADER, graders.Collect)
     assert course.collected(ADA).is_dir()
     assert "is left out" in caplog.text
 
@@ -243,7 +244,7 @@ def test_no_link_or_device_is_collected_and_the_others_are(course, trick):
         trick(course, made)
     course.hand_in(BOB)
     with pytest.raises(ExchangeError, match=f"Not collected: .*{ADA}"):
-        course.do(GRADER, exchange.Collect)
+        course.do(GRADER, graders.Collect)
     assert not course.collected(ADA).exists()
     assert (course.collected(BOB) / f"{P3}.ipynb").is_file()
 
@@ -252,8 +253,38 @@ def test_anothers_file_under_a_second_name_is_not_collected(course):
     made = course.hand_in(ADA)
     os.link(course.home(GRADER) / "course" / "seed", made / "notes.txt")
     with pytest.raises(ExchangeError, match="belongs to somebody else"):
-        course.do(GRADER, exchange.Collect)
+        course.do(GRADER, graders.Collect)
     assert not course.collected(ADA).exists()
+
+
+def test_a_later_hand_in_takes_the_place_of_an_earlier_one(course):
+    course.hand_in(ADA, '{"first": 1}')
+    course.do(GRADER, graders.Collect)
+    course.hand_in(ADA, '{"second": 1}')
+    course.do(GRADER, graders.Collect)
+    assert (course.collected(ADA) / f"{P3}.ipynb").read_text() == '{"second": 1}'
+
+
+def test_the_earlier_one_stays_if_the_later_cannot_be_taken(course):
+    course.hand_in(ADA, '{"first": 1}')
+    course.do(GRADER, graders.Collect)
+    later = course.hand_in(ADA, '{"second": 1}')
+    with acting_as(ADA):
+        pipe(course, later)
+    with pytest.raises(ExchangeError, match="Not collected"):
+        course.do(GRADER, graders.Collect)
+    assert (course.collected(ADA) / f"{P3}.ipynb").read_text() == '{"first": 1}'
+
+
+def test_what_an_instructor_put_there_stays(course, caplog):
+    """It has no time, which nbgrader takes for an earlier one."""
+    course.hand_in(ADA, '{"by exchange": 1}')
+    with acting_as(GRADER):
+        course.collected(ADA).mkdir(parents=True)
+        (course.collected(ADA) / f"{P3}.ipynb").write_text('{"by mail": 1}')
+    course.do(GRADER, graders.Collect)
+    assert (course.collected(ADA) / f"{P3}.ipynb").read_text() == '{"by mail": 1}'
+    assert "has no timestamp.txt" in caplog.text
 
 
 def test_a_change_after_the_stated_time_is_said(course, caplog):
@@ -261,13 +292,13 @@ def test_a_change_after_the_stated_time_is_said(course, caplog):
     early = made.parent / f"{ADA}+{P3}+2001-01-01 00:00:00.000000 UTC+x"
     with acting_as(ADA):
         made.rename(early)
-    course.do(GRADER, exchange.Collect)
+    course.do(GRADER, graders.Collect)
     assert "says that it was handed in at 2001-01-01 00:00 UTC, but was changed at" in caplog.text
 
 
 def test_a_hand_in_of_now_is_no_change(course, caplog):
     course.hand_in(ADA)
-    course.do(GRADER, exchange.Collect)
+    course.do(GRADER, graders.Collect)
     assert "but was changed" not in caplog.text
 
 

@@ -164,7 +164,7 @@ def test_scores(course, student, expected):
                 "met: kinetic part of L (50 %)",
                 "not met: potential part of L (50 %)",
                 *sentences("p3-lagrangian", "energy for L"),
-                *sentences("p3-g_vec", "sign of the whole"),
+                *sentences("p3-g_vec", "cosine for sine / the weight of the body"),
             ],
         ),
         ("blank", [f"{name}: not attempted" for name in POINTS]),

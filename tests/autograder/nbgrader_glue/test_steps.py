@@ -5,7 +5,7 @@ import sys
 
 import pytest
 from nbgrader.converters import Autograde, GenerateAssignment, GenerateFeedback
-from nbgrader.preprocessors import SaveAutoGrades
+from nbgrader.preprocessors import SaveAutoGrades, SaveCells
 from traitlets import import_item
 
 from autograder.nbgrader_glue import (
@@ -14,29 +14,36 @@ from autograder.nbgrader_glue import (
     generate_preprocessors,
     sanitize_preprocessors,
 )
+from autograder.nbgrader_glue.new_cells import SaveChangedCells
 from autograder.nbgrader_glue.preprocessors import (
     ContinuePastErrors,
     GetDecidedGrades,
     Judge,
     RepairCells,
     SaveSuggestions,
+    StampVersion,
 )
 
-INSTEAD = {SaveAutoGrades: SaveSuggestions}
+INSTEAD = {SaveAutoGrades: SaveSuggestions, SaveCells: SaveChangedCells}
 
 
 @pytest.mark.parametrize(
     ("ours", "theirs", "first", "left_out"),
     [
-        (sanitize_preprocessors, Autograde.sanitize_preprocessors, RepairCells, 0),
-        (autograde_preprocessors, Autograde.autograde_preprocessors, Judge, 1),
-        (generate_preprocessors, GenerateAssignment.preprocessors, ContinuePastErrors, 0),
-        (feedback_preprocessors, GenerateFeedback.preprocessors, GetDecidedGrades, 1),
+        (sanitize_preprocessors, Autograde.sanitize_preprocessors, [RepairCells], 0),
+        (autograde_preprocessors, Autograde.autograde_preprocessors, [Judge], 1),
+        (
+            generate_preprocessors,
+            GenerateAssignment.preprocessors,
+            [StampVersion, ContinuePastErrors],
+            0,
+        ),
+        (feedback_preprocessors, GenerateFeedback.preprocessors, [GetDecidedGrades], 1),
     ],
 )
 def test_steps_are_nbgraders_but_for_ours(ours, theirs, first, left_out):
     assert [import_item(name) for name in ours()] == [
-        first,
+        *first,
         *(INSTEAD.get(step, step) for step in theirs.make_dynamic_default()[left_out:]),
     ]
 

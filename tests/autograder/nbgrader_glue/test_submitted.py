@@ -16,7 +16,7 @@ from tests.autograder.nbgrader_glue.test_hostile_pages import live
 from tests.submissions import p3_pendulum
 from tests.submissions.hostile_pages import LIVE
 
-NO_TIME = "timestamp.txt holds no time, such as 2025-01-31 23:59:59 UTC"
+NO_TIME = ("no_time", "no_text")  # graded, and told of
 REFUSED = {
     "a_link": f"{NOTEBOOK} is a link out of the submission",
     "a_linked_file": "key.ipynb is a link out of the submission",
@@ -31,17 +31,15 @@ REFUSED = {
 BATCH = {
     "a_pipe_beside": "data is a pipe, a device or the like",
     "a_pipe_of_time": "timestamp.txt is a pipe, a device or the like",
-    "no_time": NO_TIME,
-    "no_text": NO_TIME,
 }
 
 
 def hand_in(root, release):
     right = p3_pendulum.right(release)
     key = root / "solutions" / P3 / NOTEBOOK
-    for student in [*REFUSED, *BATCH]:
+    for student in [*REFUSED, *BATCH, *NO_TIME]:
         submit(root, student, right)
-    at = {name: root / "course" / "submitted" / name / P3 for name in [*REFUSED, *BATCH]}
+    at = {name: root / "course" / "submitted" / name / P3 for name in [*REFUSED, *BATCH, *NO_TIME]}
 
     for name, target in (("a_link", key), ("a_link_to_nothing", "nothing.ipynb")):
         (at[name] / NOTEBOOK).unlink()
@@ -53,7 +51,7 @@ def hand_in(root, release):
                        ("a_pipe_of_time", "timestamp.txt")):  # fmt: skip
         os.mkfifo(at[name] / pipe)
     older = p3_pendulum.right(release)
-    stamp(older, "0000")
+    stamp(older, P3, "0000", {})
     submit(root, "of_last_year", older)
     others = submit(root, "z_right", right, "2025-01-31 23:59:59 UTC").parent
     shutil.rmtree(at["a_linked_submission"])
@@ -103,10 +101,11 @@ def nbgrader_course(tmp_path_factory):
 def nothing_for_the_refused(course, refused):
     all_points = sum(p3_pendulum.POINTS.values())
     scores = points(course.root)
-    assert scores["z_right"] == scores["z_live"] == all_points
+    right = {"z_right", "z_live", *NO_TIME}
+    assert {scores[name] for name in right} == {all_points}
     assert {name: scores.get(name, 0) for name in refused} == dict.fromkeys(refused, 0)
     graded = (course.root / "course" / "autograded").glob(f"*/{P3}/*.ipynb")
-    assert {path.parts[-3] for path in graded} == {"z_right", "z_live"}
+    assert {path.parts[-3] for path in graded} == right
 
 
 def test_only_plain_files_are_graded(course):
@@ -117,6 +116,16 @@ def test_only_plain_files_are_graded(course):
 def test_the_table_says_why(course, name):
     assert course.lines[name].startswith(f"could not be graded {(REFUSED | BATCH)[name]}")
     assert "Traceback" not in course.printed
+
+
+@pytest.mark.parametrize(("name", "held"), [("no_time", "'never ever'"), ("no_text", "'��")])
+def test_what_is_no_time_is_put_aside_and_told_of(course, nbgrader_course, name, held):
+    for each in (course, nbgrader_course):
+        folder = each.root / "course" / "submitted" / name / P3
+        assert not (folder / "timestamp.txt").exists()
+        assert (folder / "timestamp-original.txt").read_bytes() in (b"never ever", b"\xff\xfe\x00")
+        assert f"timestamp.txt held no time that can be read ({held}" in each.printed
+        assert "there is no penalty until you write the time into timestamp.txt" in each.printed
 
 
 def test_nbgrader_itself_grades_only_plain_files(nbgrader_course):

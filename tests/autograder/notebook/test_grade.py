@@ -19,7 +19,6 @@ from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
 from autograder.judging.verdict import State, Verdict, Witness
 from autograder.notebook import grade as grading
 from autograder.notebook import outputs
-from autograder.notebook import sitting as sitting_module
 from autograder.notebook.grade import grade, is_judged, of_content, stream
 from autograder.notebook.scores import outputs_for
 from autograder.notebook.sitting import Sitting
@@ -277,7 +276,31 @@ def test_cells_show_this_run_and_nothing_older(release):
     assert cell_of(graded.notebook, "answer-M").outputs[0].text == "now\n"
 
 
-def test_a_grade_cell_without_a_check_fails_closed(release):
+def elsewhere(notebook):
+    """A check is gone, with M in a cell of one's own; below everything stands a second stub of g_vec."""
+    stub = copy.deepcopy(cell_of(problem(P3).release, "answer-g_vec"))
+    own = new_code_cell(p3_pendulum.RIGHT["M"], id="own")
+    notebook.cells.insert(notebook.cells.index(cell_of(notebook, "answer-M")) + 1, own)
+    cell_of(notebook, "answer-M").source = ""
+    at = notebook.cells.index(cell_of(notebook, "p3-M"))
+    notebook.cells[at : at + 1] = []
+    notebook.cells.insert(notebook.cells.index(cell_of(notebook, "answer-g_vec")) + 1, stub)
+
+
+def unknown(notebook):
+    """Neither nbgrader's settings nor ids are left."""
+    for number, cell in enumerate(notebook.cells):
+        cell.metadata.pop("nbgrader", None)
+        cell.id = f"n{number}"
+
+
+@pytest.mark.parametrize("edit", [elsewhere, unknown])
+def test_what_an_editor_or_a_slip_takes_away_costs_no_points(release, edit):
+    edit(submission := p3_pendulum.right(release))
+    assert set(states(grade(submission, SOURCE, "seed")).values()) == {State.CORRECT}
+
+
+def test_a_grade_cell_that_calls_another_check_fails_closed(release):
     source = copy.deepcopy(SOURCE)
     for notebook in (source, submission := p3_pendulum.right(release)):
         cell_of(notebook, "p3-M").metadata.nbgrader.grade_id = "p3-unheard-of"
@@ -298,7 +321,7 @@ class Script:
     """A room that follows a script: sources in `deadly` end it, and every start is counted."""
 
     deadly: tuple[str, ...] = ()
-    used = 0.0
+    used = idle = 0.0
     ran: ClassVar[list[str]] = []
 
     def __init__(self):
@@ -310,7 +333,7 @@ class Script:
             raise RoomLostError("it ended")
         return []
 
-    def ask(self, calls, seconds, clock):
+    def ask(self, calls, seconds, idle):
         if calls[0].name in self.deadly:
             raise RoomLostError("it ended")
         return [Reply(fault=Fault(FaultKind.MISSING, "near"))]
@@ -395,7 +418,7 @@ def test_a_call_that_starved_is_tried_once_more(first, second, last):
     class Room(Script):
         answers: ClassVar[list] = [first, second]
 
-        def ask(self, calls, seconds, clock):
+        def ask(self, calls, seconds, idle):
             answer = self.answers.pop(0)
             if isinstance(answer, Exception):
                 raise answer
@@ -404,54 +427,17 @@ def test_a_call_that_starved_is_tried_once_more(first, second, last):
 
     with Sitting(Room) as sitting:
         assert sitting.ask([Call("f", (n,)) for n in (1.0, 2.0)]) == last
+        assert sitting.uncertain == (["f"] if last[-1].fault else [])
     assert Room.answers == []
 
 
 def test_a_call_that_is_out_of_its_own_control_did_not_return_in_time():
     class Room(Script):
-        def ask(self, calls, seconds, clock):
+        def ask(self, calls, seconds, idle):
             raise TooLongError
 
     with Sitting(Room) as sitting:
         assert sitting.ask([Call("f", ())]) == [Reply(fault=Fault(FaultKind.TIMED_OUT, "2 s"))]
-
-
-class Clock:
-    """Time that passes where a test says so."""
-
-    def __init__(self, monkeypatch):
-        self.now = 0.0
-        monkeypatch.setattr(sitting_module, "time", SimpleNamespace(monotonic=lambda: self.now))
-
-
-@pytest.mark.parametrize(
-    ("used", "clock", "limit"), [(30.0, 0.0, "60 s"), (0.0, 150.0, "300 s"), (29.9, 149.9, None)]
-)
-def test_a_notebook_has_limits_of_the_processor_and_of_the_clock(monkeypatch, used, clock, limit):
-    time = Clock(monkeypatch)
-
-    class Room(Script):
-        def __init__(self):
-            super().__init__()
-            time.now += 1000  # to start one is nobody's time
-
-        def run(self, source):
-            self.used += used
-            time.now += clock
-            raise RoomLostError
-
-    with Sitting(Room) as sitting:
-        for _ in range(2):
-            assert sitting.run("f = 1")[0]["ename"] == "RoomLostError"
-        (shown,) = sitting.run("g = 1")
-        (reply,) = sitting.ask([Call("f", ())])
-    if limit is None:
-        assert shown["ename"] == "RoomLostError"
-        assert reply.fault == Fault(FaultKind.TIMED_OUT, "the 60 s that the whole notebook has")
-    else:
-        said = f"not run: the notebook had used up its {limit} before this cell"
-        assert (shown["ename"], shown["evalue"]) == ("TimeoutError", said)
-        assert reply.fault.message == f"the {limit} that the whole notebook has"
 
 
 def test_a_missing_name_is_blamed_on_the_cell_that_failed_to_define_it():

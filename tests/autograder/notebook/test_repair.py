@@ -184,8 +184,11 @@ def test_an_empty_notebook_gets_all_cells(kind):
     empty = nbformat.v4.new_notebook(cells=[NEW_CELL[kind](source="mine")])
     mended, notes = repair(empty, SOURCE)
     missing = [f"{name} was missing; it was put back" for name in KNOWN]
-    assert notes == [*missing, BELOW]
-    assert mended.cells[-1].source == "mine"
+    assert notes == [*missing, BELOW.replace("cell below", "cell above")]
+    # Below what it needs, and above what looks at it.
+    names = [grade_id(cell) for cell in mended.cells]
+    assert names == [None, "p3-setup", None, *list(KNOWN)[1:]]
+    assert mended.cells[2].source == "mine"
 
 
 def test_notes_say_what_was_mended(release):
@@ -213,6 +216,101 @@ def test_of_several_copies_the_last_one_counts(release):
     assert cell_of(mended, "answer-M").source == "second"
     assert mended.cells[1].source == "first"
     assert notes == ["answer-M was there more than once; the last one counts"] * 2
+
+
+def below(notebook, name, *cells):
+    """A notebook with these cells below the one with a grade_id."""
+    notebook = copy.deepcopy(notebook)
+    at = notebook.cells.index(cell_of(notebook, name)) + 1
+    notebook.cells[at:at] = cells
+    return notebook
+
+
+COPIES_OF_TWO = [
+    # What each of the copies of an answer holds, in order; which of them counts.
+    (("given", "mine"), 1, "the last one"),
+    (("mine", "given"), 0, "the one with an answer"),
+    (("mine", ""), 0, "the one with an answer"),
+    (("mine", "other", "given"), 1, "the one with an answer"),
+    (("given", "given"), 1, "the last one"),
+]
+
+
+@pytest.mark.parametrize("part", [None, "settings"])
+@pytest.mark.parametrize(("texts", "counts", "said"), COPIES_OF_TWO)
+@pytest.mark.parametrize("name", ["answer-M", "p3-derivation"])
+def test_of_several_copies_the_one_with_an_answer_counts(release, name, texts, counts, said, part):
+    first = cell_of(release, name)
+    made = [copy.deepcopy(first) for _ in texts]
+    for cell, text in zip(made, texts, strict=True):
+        cell.source = first.source if text == "given" else text
+    submission = below(release, name, *made)
+    submission.cells.remove(cell_of(submission, name))
+    mended, notes = repair(lost(submission, part) if part else submission, SOURCE)
+    at = [cell.source for cell in mended.cells].index(made[0].source)
+    ours = mended.cells[at : at + len(texts)]
+    assert [grade_id(cell) for cell in ours] == [
+        name if index == counts else None for index in range(len(texts))
+    ]
+    doubled = f"{name} was there more than once; {said} counts"
+    assert notes.count(doubled) == len(texts) - 1
+    # A stub below the answer would stand for it when the notebook runs.
+    ran = [cell.source for cell in ours if cell.cell_type == "code"]
+    assert (
+        name != "answer-M"
+        or ran == [text for text in texts if text in ("mine", "other")]
+        or (set(texts) == {"given"} and len(ran) == 1)
+    )
+
+
+def test_a_picture_makes_a_copy_an_answer(release):
+    copied = copy.deepcopy(cell_of(release, "p3-derivation"))
+    copied.attachments = PICTURE
+    submission = copy.deepcopy(release)
+    submission.cells.insert(0, copied)
+    mended, notes = repair(submission, SOURCE)
+    assert "p3-derivation was there more than once; the one with an answer counts" in notes
+    assert cell_of(mended, "p3-derivation").attachments == PICTURE
+
+
+@pytest.mark.parametrize("deleted", [["p3-M"], ["answer-M", "p3-M"]])
+def test_a_missing_check_comes_below_what_was_written_in_its_place(release, deleted):
+    submission = below(release, "answer-M", new_code_cell("mine", id="mine"))
+    submission.cells = [cell for cell in submission.cells if grade_id(cell) not in deleted]
+    mended, _ = repair(submission, SOURCE)
+    order = [cell.source if cell.source == "mine" else grade_id(cell) for cell in mended.cells]
+    assert order.index("mine") < order.index("p3-M") < order.index("answer-C")
+    assert [name for name in order if name in KNOWN] == list(KNOWN)
+
+
+def test_the_last_check_comes_at_the_end_where_nothing_else_is(release):
+    submission = copy.deepcopy(release)
+    names = list(KNOWN)
+    kept = names[: names.index("p3-M")]
+    submission.cells = [cell for cell in submission.cells if grade_id(cell) in kept]
+    submission.cells.append(new_code_cell("mine"))
+    mended, _ = repair(submission, SOURCE)
+    after = [grade_id(cell) for cell in mended.cells[mended.cells.index(submission.cells[-1]) :]]
+    assert after == [None, *names[len(kept) :]]
+
+
+def test_a_missing_cell_does_not_follow_one_that_was_moved_up(release):
+    submission = copy.deepcopy(release)
+    moved = cell_of(submission, "answer-C")
+    submission.cells.remove(moved)
+    submission.cells.insert(0, moved)
+    submission.cells.remove(cell_of(submission, "p3-M"))
+    names = [grade_id(cell) for cell in repair(submission, SOURCE)[0].cells]
+    assert names.index("answer-M") < names.index("p3-M") < names.index("p3-C")
+
+
+@pytest.mark.parametrize("settings", [{}, {"grade_id": ""}, {"grade": True}, "p3-M"])
+def test_settings_that_name_no_cell_are_none(release, settings):
+    submission = copy.deepcopy(release)
+    cell_of(submission, "p3-M").metadata.nbgrader = settings
+    mended, notes = repair(submission, SOURCE)
+    assert notes == ["p3-M had lost its nbgrader settings; they were put back"]
+    assert [grade_id(cell) for cell in mended.cells[1:]] == [grade_id(c) for c in release.cells]
 
 
 def test_an_unknown_claim_is_taken_away_and_told(release):

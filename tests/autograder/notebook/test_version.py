@@ -4,7 +4,7 @@ import copy
 
 import pytest
 
-from autograder.notebook.version import KEY, other_version, stamp, version_of
+from autograder.notebook.version import KEY, other_version, questions_of, stamp, version_of
 from tests.autograder.course_problems import NAMES, problem
 
 
@@ -45,7 +45,29 @@ def test_each_problem_has_its_own():
     assert len({version_of(problem(name).source, {}) for name in NAMES}) == len(NAMES)
 
 
-@pytest.mark.parametrize("stamped", [None, "x", 3, [], {}, {"version": None}, {"version": 7}])
+@pytest.mark.parametrize(
+    ("kind", "refused"), [("a question less", False), ("another id", False), ("year", True)]
+)
+def test_what_was_handed_in_before_a_change_is_graded_if_its_other_questions_stand(kind, refused):
+    source = problem("p1-inertia").source
+    other = changed(source, kind)
+    for given, now in ((source, other), (other, source)):
+        handed_in = copy.deepcopy(given)
+        stamp(handed_in, "p1-inertia", version_of(given, {}), questions_of(given, {}))
+        assert bool(other_version(handed_in, now, {})) == refused
+
+
+def test_one_whose_function_is_called_in_another_way_is_not():
+    source = problem("p1-inertia").source
+    asked = questions_of(source, {}) | {"p1-M": "0000"}
+    handed_in = copy.deepcopy(source)
+    stamp(handed_in, "p1-inertia", "0000", asked)
+    assert other_version(handed_in, source, {})
+
+
+@pytest.mark.parametrize(
+    "stamped", [None, "x", 3, [], {}, {"version": None}, {"version": 7, "questions": []}]
+)
 def test_a_notebook_without_a_version_is_graded(stamped):
     """One from the repository, or with damaged metadata."""
     source = problem("p3-pendulum").source
@@ -58,6 +80,6 @@ def test_a_notebook_without_a_version_is_graded(stamped):
 def test_a_hostile_version_is_quoted_in_short():
     source = problem("p3-pendulum").source
     notebook = copy.deepcopy(source)
-    stamp(notebook, "x\n" * 1000)
+    stamp(notebook, "p1-inertia", "x\n" * 1000, {})
     assert len(other_version(notebook, source, {})) < 300
     assert "\n" not in other_version(notebook, source, {})

@@ -105,7 +105,7 @@ def test_without_a_sandbox_nbgrader_removes_nothing(tmp_path, monkeypatch):
     def no_room():
         raise OSError("no sandbox starts")
 
-    monkeypatch.setattr("autograder.nbgrader_glue.submitted.Room", no_room)
+    monkeypatch.setattr("autograder.nbgrader_glue.reading.Room", no_room)
     with pytest.raises(NbGraderException, match="no sandbox starts; the command did not start"):
         run_again(Autograde, root)
     assert graded.read_text() == "earlier"

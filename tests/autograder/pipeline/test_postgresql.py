@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -45,3 +46,9 @@ def test_rows_are_those_of_sqlite(server, tmp_path, monkeypatch, capsys):
     assert main(["grade", P3, "--jobs", "1"]) == 1
     assert "0 graded, 4 unchanged, 1 could not be graded" in capsys.readouterr().out
     assert rows(url) == before
+    # An archive holds it as a file; emptying the course leaves the server alone, and says so.
+    assert main(["archive", "--anyway", "--empty", "--yes", "--to", "year.zip"]) == 1
+    said = capsys.readouterr().out
+    assert "the gradebook is still in postgresql" in said
+    zipfile.ZipFile("year.zip").extractall(tmp_path)
+    assert rows(courses.database(tmp_path / "year")) == before == rows(url)

@@ -10,6 +10,7 @@ import pytest
 from distributed import Client
 from distributed.security import Security
 
+from armdyn.ports.toolchain import processes
 from autograder import cli
 from tests.autograder import courses
 from tests.autograder.courses import P3, submit
@@ -55,7 +56,7 @@ class Cluster:
     def start(self, script: str) -> None:
         with (self.home / "log").open("ab") as log:
             command = ["bash", "-euc", f"exec {self.here(script)}"]
-            process = subprocess.Popen(
+            process = processes.start(
                 command, env=self.environment, cwd=self.home, stdout=log, stderr=log
             )
         self.started.append(process)
@@ -93,7 +94,7 @@ def cluster(needs, tmp_path_factory):
     finally:
         for process in reversed(cluster.started):
             process.terminate()
-            process.wait()
+            processes.end(process, 30)
 
 
 def configured(cluster):

@@ -5,7 +5,7 @@ import copy
 import nbformat
 import pytest
 
-from autograder.notebook.version import stamp, version_of
+from autograder.notebook.version import questions_of, stamp, version_of
 from autograder.pipeline.worker import judge
 from tests.autograder.course_problems import problem
 
@@ -29,7 +29,7 @@ def test_a_notebook_of_another_version_is_refused_in_a_sentence():
     setup.source = setup.source.replace("year=2026", "year=2025")
     given = version_of(earlier, {})
     assert given != now
-    stamp(earlier, given)
+    stamp(earlier, "p1-inertia", given, questions_of(earlier, {}))
     refused = judge(nbformat.writes(earlier).encode(), nbformat.writes(source), "seed")["refused"]
     assert f"another version of this problem ({given}; the course has {now})" in refused
     assert "ask the student" in refused

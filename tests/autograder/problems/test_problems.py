@@ -4,7 +4,6 @@ What only one problem can say (its hints, the sentences on its wrong answers) is
 """
 
 import re
-from dataclasses import dataclass
 from importlib import import_module
 from types import SimpleNamespace
 
@@ -16,24 +15,12 @@ from autograder.judging.verdict import State
 from autograder.notebook.recognise import grade_id
 from autograder.problems import CHECKS, READ
 from tests.autograder.course_problems import NAMES, ROOT, problem
+from tests.autograder.problems.own import Own, expected
 from tests.autograder.verdicts import sentences
 from tests.submissions.answers import cell_of
 
 IMAGE = re.compile(r"!\[(.*?)\]\((.*?)\)", re.DOTALL)
 RUBRIC = re.compile(r"^\| points \| for \|\n\|[-|]+\|\n((?:\|.*\n?)+)", re.MULTILINE)
-
-
-@dataclass(frozen=True)
-class Own:
-    """What the notebook must agree with: its grade_id and points of the answer that a person reads,
-    the points of all cells, all grade_ids, and phrases of the answers that no student may be given.
-    """
-
-    read: str
-    points: int
-    total: int
-    ids: str
-    phrases: tuple[str, ...] = ()
 
 
 OWN = {
@@ -144,6 +131,8 @@ WRONG = {
     "c8-slotine_li": (0,),
     "c8-V_dot": (0, "damping left out"),
 }
+# Of an answer that follows from a wrong one before it: half of its points, and one sentence.
+CARRIED_ON = "carried on"
 PARTLY_RIGHT = {
     "p1-inertia_from_links": (0.5, "last link only"),
     "p1-M": (0.75, "dropped / the rotation of link 2 / M12"),
@@ -157,26 +146,32 @@ PARTLY_RIGHT = {
     "p2-C": (0.7, "products in the later column"),
     "p2-C_other": (0.5, "C itself"),
     "p3-lagrangian": (0.5, "energy for L"),
-    "p3-g_vec": (0, "sign of the whole"),
+    "p3-g_vec": (0, "cosine for sine / the weight of the body"),
     "p4-potential_energy": (0.5, "dropped / the weight of link 2 at the elbow"),
     "p4-g_vec": (0.5, "dropped / the weight of link 2 beyond the elbow / g1"),
     "p4-equilibria": (0.5, "stretched only"),
     "p5-f": (0.25, "wrong sign / the viscous friction"),
     "p5-rk4_step": (0.25, "Euler"),
-    "p5-simulate": (0.4, "Euler"),
+    "p5-simulate": (0.7, CARRIED_ON),
     "p5-energy_drift": (0.35, "P missing"),
     "c6-regressor": (0.75, "coupling without the factor 2"),
     "c6-rank_of_excitation": (0.35, "joint 1 only"),
-    "c6-identify": (0, "fit: coupling without the factor 2"),
+    "c6-identify": (0.5, CARRIED_ON),
     "c7-rnea": (0.45, "gyroscopic term missing"),
     "c7-terms": (0.7, "friction in C q̇"),
     "c7-gravity_sign": (0.5, "whose torque not asked"),
     "c7-count": (0.5, "n times one link"),
     "c8-gravity_compensation": (0.2, "gravity at the goal"),
     "c8-regressor_r": (0.6, "all of h on the second entry"),
-    "c8-slotine_li": (0.35, "law: all of h on the second entry"),
+    "c8-slotine_li": (0.675, CARRIED_ON),
     "c8-V_dot": (0.4, "skew-symmetry taken for granted"),
 }
+
+
+# A newer problem has its own in a file `expected.py` of its folder.
+OWN |= expected("OWN")
+WRONG |= expected("WRONG")
+PARTLY_RIGHT |= expected("PARTLY_RIGHT")
 
 
 @pytest.fixture(scope="module", params=NAMES)
@@ -185,7 +180,9 @@ def given(request):
 
 
 def test_a_person_reads_one_answer_of_each_problem():
-    assert sorted(READ) == sorted(own.read for own in OWN.values())
+    assert sorted(READ) == sorted(own.read for own in OWN.values()), (
+        "READ in autograder/problems/FOLDER/checks.py is the grade_id of the answer that a person reads"
+    )
 
 
 def claims(cell) -> dict:
@@ -202,8 +199,10 @@ def text(notebook) -> str:
 
 def test_every_problem_is_here():
     modules = (ROOT / "tests" / "submissions").glob("[pc][0-9]_*.py")
-    assert sorted(path.stem.replace("_", "-") for path in modules) == NAMES
-    assert sorted(OWN) == NAMES
+    assert sorted(path.stem.replace("_", "-") for path in modules) == NAMES, (
+        "each notebook of solutions/ needs a module in tests/submissions/, and each module a notebook"
+    )
+    assert sorted(OWN) == NAMES, "give tests/autograder/problems/FOLDER/expected.py an OWN"
 
 
 def test_format_and_kernel(given):
@@ -220,7 +219,10 @@ def test_no_outputs_are_stored(given, version):
 
 def test_grade_ids_stay(given):
     ids = [name for name in map(grade_id, given.source.cells) if name]
-    assert ids == OWN[given.name].ids.split()
+    assert ids == OWN[given.name].ids.split(), (
+        "OWN.ids lists all grade_ids in order; of a problem that has been given to students, none may "
+        "change"
+    )
     assert len(ids) == len(set(ids))
 
 
@@ -228,7 +230,9 @@ def test_the_example_is_the_one_that_the_mistakes_know(given):
     """p2 and p3 know of none."""
     folder = given.name.replace("-", "_")
     known = getattr(import_module(f"autograder.problems.{folder}.mistakes"), "EXAMPLE", None)
-    assert bool(known) == (given.name[:2] not in ("p2", "p3"))
+    assert bool(known) == (given.name[:2] not in ("p2", "p3")), (
+        f"give autograder/problems/{folder}/mistakes.py an EXAMPLE, which the set-up cell has, too"
+    )
     if known:
         namespace = {}
         exec(cell_of(given.source, f"{given.name[:2]}-setup").source, namespace)
@@ -245,7 +249,9 @@ def test_points_are_those_of_the_grade_cells(given):
     points = {
         grade_id(c): claims(c)["points"] for c in given.source.cells if claims(c).get("grade")
     }
-    assert points == given.submissions.POINTS | {own.read: own.points}
+    assert points == given.submissions.POINTS | {own.read: own.points}, (
+        f"POINTS of {given.submissions.__name__}, and OWN, are those of solutions/{given.name}"
+    )
     assert sum(points.values()) == own.total
 
 
@@ -332,6 +338,10 @@ def assert_said(given, kind, expected):
             for one in verdict.diagnosis
             if one not in otherwise and "the values depend" not in one
         )
+        if carried := [one for one in said if "error carried on" in one]:
+            (follows,) = CHECKS[check_id].follows
+            assert all(one.startswith(follows.sentence) for one in carried)
+            said, names = tuple(one for one in said if one not in carried), names[1:]
         # On what its numbers depend is said of a criterion that no mistake explains, and nothing else.
         depends = [
             row.said for row in verdict.rows if any("the values depend" in one for one in row.said)

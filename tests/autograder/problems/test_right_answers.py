@@ -59,7 +59,9 @@ def test_right_in_any_form(check_id, form):
 
 
 def test_ten_styles_at_least():
-    assert RIGHT.keys() == {id for id in CHECKS if not id.startswith("start")}
+    assert RIGHT.keys() == {id for id in CHECKS if not id.startswith("start")}, (
+        "each check needs right answers in tests/autograder/problems/FOLDER/right.py"
+    )
     for check_id, found in RIGHT.items():
         assert len(found) >= 4
         assert len(found) + (len(STYLES) if check_id in NUMBERS else 0) >= 10, check_id

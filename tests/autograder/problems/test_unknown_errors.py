@@ -99,7 +99,9 @@ def test_sympys_own_truth_is_one():
 
 def test_each_problem_has_some():
     for table in ("TRACED", "UNFIT"):
-        assert {id.partition("-")[0] for id, _ in listed(table)} == {p[:2] for p in PROBLEMS}
+        assert {id.partition("-")[0] for id, _ in listed(table)} == {p[:2] for p in PROBLEMS}, (
+            f"each problem's unknown.py needs some in {table}"
+        )
 
 
 def moved(row: Row, wrong, *args):

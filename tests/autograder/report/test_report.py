@@ -63,11 +63,12 @@ def test_mistakes_are_counted_the_most_frequent_first():
 
 def test_the_page_says_it_all():
     text = str(Text(report.page(Class("p3-pendulum", 15.0, CLASS))))
-    assert "4 of 5 submissions graded; mean 4, median 2.5 of 15 points" in text
     assert (
-        "A person still has to read 1 answer; until then, points that marked lines suggest count."
+        "4 of 5 submissions graded. Of the 3 in which everything is read: mean 2, median 1 of 15 points."
         in text
     )
+    assert "A person still has to read 1 answer: points in brackets are without them" in text
+    assert "ada (10) 1" in text
     assert f"2 {CHECK} {M[1].name}. {M[1].sentence} who cem, dee" in text
     assert "bob 4" in text
     assert "<i>eve</i> the notebook is not valid JSON" in text
@@ -81,7 +82,7 @@ def test_nothing_of_a_student_becomes_markup():
 
 def test_the_terminal_gets_the_same_counts():
     lines = report.summary(Class("", 15.0, CLASS)).splitlines()
-    assert lines[0] == "4 of 5 graded, mean 4, median 2.5 of 15 points"
+    assert lines[0] == "4 of 5 graded, 3 of these in full, mean 2, median 1 of 15 points"
     once = {M[0].sentence: M[0].name, UNKNOWN: UNKNOWN}
     assert lines[1:] == [
         f"   2 × {CHECK}: {M[1].name}",
@@ -116,16 +117,25 @@ def test_the_command_reports_what_grading_left(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(root)
     assert main(["grade", P3, "--jobs", "1"]) == 0
     courses.submit(root, "cem", "no notebook")
+    courses.submit(root, "dee", release)
+    (courses.submit(root, "eve", release).parent / "away").symlink_to("/etc/hostname")
+    courses.submit(root, "fay", "{}").unlink()
     capsys.readouterr()
     assert main(["report", P3]) == 0
     said = capsys.readouterr().out
-    assert "2 of 3 graded, mean 5, median 5 of 15 points" in said
+    assert (
+        "2 of 6 graded, 1 of these in full, mean 0, median 0 of 15 points; "
+        "the checks alone: mean 5, median 5 of 10 points"
+    ) in said
     wrong = grade(p3_pendulum.wrong(release), release, "seed").verdicts
     text = str(Text((root / "course" / "report" / f"{P3}.html").read_text(encoding="utf-8")))
     for check, verdict in wrong.items():
         for sentence in verdict.diagnosis:
             assert f"{sentence} who bob" in text, check
-    assert "cem not graded yet, or it could not be graded" in text
+    assert f"cem {P3}.ipynb is not valid JSON: ask the student for it again" in text
+    assert f"dee not graded yet: run `autograder grade {P3}`" in text
+    assert "eve away is a link out of the submission: ask the student for the file itself" in text
+    assert "fay there is no notebook in what was handed in" in text
 
 
 def test_an_unknown_assignment_is_refused_by_name(tmp_path, monkeypatch, capsys):

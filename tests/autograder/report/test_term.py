@@ -39,7 +39,7 @@ def test_assignments_stand_as_they_were_handed_in():
 
 def test_an_assignment_in_figures():
     first, second, third = term.steps(term.in_order(TERM))
-    assert first == term.Step("p3", 4, 10.0, pytest.approx(0.6), None, 4)
+    assert first == term.Step("p3", 4, 10.0, None, None, 4)
     assert second == term.Step("p1", 4, 10.0, pytest.approx(0.6), 3.0, 0)
     assert (third.handed_in, third.share) == (3, pytest.approx(0.6))
     (ungraded,) = term.steps([of_class("p1", 11, {"ada": None})])
@@ -50,10 +50,35 @@ def test_an_assignment_in_figures():
     )
 
 
-def test_totals_are_of_what_is_graded():
+def test_until_a_proof_is_read_the_checks_alone_have_a_mean():
+    students = [Student("ada", 8.0, 1, of_checks=4.0), Student("bob", 6.0, 1, of_checks=5.0)]
+    unread = Class("p1", 10.0, students, of_checks=5.0)
+    (step,) = term.steps([unread])
+    assert (step.share, step.of_checks) == (None, pytest.approx(0.9))
+    page = str(Text(report.term_page([unread])))
+    assert "90 % of the checks" in page
+    assert "ada (8) bob (6)" in page
+    assert "Of the checks alone, of all: mean 4.5, median 4.5 of 5 points" in page
+    read = replace(unread, students=[replace(students[0], to_read=0), students[1]])
+    assert term.steps([read])[0].share == pytest.approx(0.8)
+    said = report.summary(read).splitlines()[0]
+    assert said == (
+        "2 of 2 graded, 1 of these in full, mean 8, median 8 of 10 points; "
+        "the checks alone: mean 4.5, median 4.5 of 5 points"
+    )
+
+
+def test_who_handed_in_nothing_all_term_is_named():
+    classes = [replace(TERM[0], missing=("Nil", "Bo")), replace(TERM[2], missing=("Bo",))]
+    page = str(Text(report.term_page(classes)))
+    assert "1 of the class handed in nothing at all Bo" in page
+
+
+def test_totals_are_of_what_is_graded_and_read():
     found = standings(TERM)
-    assert (found["ada"].points, found["ada"].most) == (24.0, 30.0)
-    assert (found["dee"].points, found["dee"].most) == (8.0, 20.0)
+    assert (found["ada"].points, found["ada"].most) == (16.0, 20.0)
+    assert (found["dee"].points, found["dee"].most) == (4.0, 10.0)
+    assert "ada (8) 8 8 16 80 %" in str(Text(report.term_page(TERM)))
 
 
 def test_who_falls_behind_is_missing_or_lower_than_before():
@@ -105,7 +130,7 @@ def test_a_problem_without_a_family_has_no_arms():
 def test_what_does_not_count_is_shown_and_not_added_up():
     challenge = replace(of_class("c6", 12, {"ada": 9.0}), counts=False)
     found = standings([*TERM, challenge])
-    assert (found["ada"].points, found["ada"].most) == (24.0, 30.0)
+    assert (found["ada"].points, found["ada"].most) == (16.0, 20.0)
     page = str(Text(report.term_page([*TERM, challenge])))
     assert "c6 (10, not counted)" in page
     assert "p1 (10)" in page

@@ -79,7 +79,7 @@ class TestLoss:
         with Room(way) as room:
             room.run("import time\ndef f():\n    time.sleep(0.1)\n    return 1")
             with pytest.raises(RoomLostError, match="no reply within 0"):
-                room.ask([Call("f", ())] * 24, clock=0.35)
+                room.ask([Call("f", ())] * 24, idle=0.35)
 
     def test_a_process_that_does_not_read_is_a_lost_room(self, way, monkeypatch):
         monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.3)

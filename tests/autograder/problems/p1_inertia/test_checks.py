@@ -77,7 +77,7 @@ def test_worst_case_of_a_truth_value():
     asked = "(positive definite told from indefinite)"
     shown = " ".join(str(verdict).split())
     assert f"gave True; the right answer is False {asked}. " in shown
-    shown = " ".join(str(verdict.without_inputs()).split())
+    shown = " ".join(str(verdict.returned()).split())
     assert f"Worst case: your function gave True; the right answer is False {asked}." in shown
 
 

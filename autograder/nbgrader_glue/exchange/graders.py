@@ -1,9 +1,4 @@
-"""nbgrader's exchange, closed between students who have accounts of their own on one machine.
-
-With nbgrader's own, everybody may write to the exchange and to each hand-in, whose name is all that
-hides it. Here a hand-in belongs to the student and to the group of the folder `inbound`, which is the
-graders', and nobody else can open it. What is collected is read as what a stranger wrote.
-"""
+"""The graders' side of the exchange: what is collected is read as what a stranger wrote."""
 
 import os
 import shutil
@@ -15,35 +10,17 @@ from pathlib import Path
 from typing import Any
 
 from nbgrader.exchange import ExchangeError, default
-from nbgrader.utils import check_directory, ignore_patterns
+from nbgrader.utils import ignore_patterns
+from traitlets import Bool
 
+from autograder.nbgrader_glue.exchange.entered import Entered
 from autograder.nbgrader_glue.foreign_folder import ForeignFolderError, copy_foreign
 
 # What a student's clock and a slow disk may differ by.
 TOLERANCE = timedelta(minutes=5)
 
 
-class _Entered(default.Exchange):
-    """Asks of the exchange's folder only that one can enter it; nbgrader asks that one can write."""
-
-    def ensure_root(self) -> None:
-        if not check_directory(self.root, execute=True):
-            self.fail(f"There is no exchange that you can enter at {self.root}.")
-
-
-class FetchAssignment(_Entered, default.ExchangeFetchAssignment):
-    """As nbgrader's."""
-
-
-class FetchFeedback(_Entered, default.ExchangeFetchFeedback):
-    """As nbgrader's."""
-
-
-class List(_Entered, default.ExchangeList):
-    """As nbgrader's."""
-
-
-class ReleaseFeedback(_Entered, default.ExchangeReleaseFeedback):
+class ReleaseFeedback(Entered, default.ExchangeReleaseFeedback):
     """Also lets students read the pages where the graders' own files are closed."""
 
     def copy_files(self) -> None:
@@ -53,7 +30,7 @@ class ReleaseFeedback(_Entered, default.ExchangeReleaseFeedback):
                 os.chmod(page.path, 0o644)
 
 
-class ReleaseAssignment(_Entered, default.ExchangeReleaseAssignment):
+class ReleaseAssignment(Entered, default.ExchangeReleaseAssignment):
     """Also sees to it that nobody can remove or rename what another hands in."""
 
     def ensure_root(self) -> None:
@@ -74,47 +51,14 @@ class ReleaseAssignment(_Entered, default.ExchangeReleaseAssignment):
         os.chmod(self.inbound_path, mode | stat.S_ISVTX | stat.S_ISGID)
 
 
-class Submit(_Entered, default.ExchangeSubmit):
-    """Hands in to the graders alone, and all at once."""
-
-    inbound_path: str
-
-    def copy_files(self) -> None:
-        inbound = self.inbound_path
-        # Nobody else enters this folder, so that what is in it is closed before it gets its name.
-        stage = tempfile.mkdtemp(prefix=".", dir=inbound)
-        try:
-            here, there = os.stat(stage), os.stat(inbound)
-            if here.st_uid != there.st_uid and here.st_gid != there.st_gid:
-                self.fail(
-                    f"{inbound} is not as this version needs it. Ask your instructor to set the "
-                    "exchange up again with `nbgrader release_assignment --force`."
-                )
-            self.inbound_path = stage
-            super().copy_files()
-            made = os.path.join(stage, self.assignment_filename)
-            _give_to_group(here.st_gid, made, stage)
-            self.set_perms(made, fileperms=0o640, dirperms=0o770)
-            os.rename(made, os.path.join(inbound, self.assignment_filename))
-        finally:
-            self.inbound_path = inbound
-            shutil.rmtree(stage)
-
-
-def _give_to_group(group: int, folder: str, stage: str) -> None:
-    """Write those files again that do not belong to the group that the stage hands down.
-
-    These are nbgrader's own two. Before it writes them, it gives the folder the permissions of the
-    student's, and with them the folder no longer hands its group down.
+class Collect(Entered, default.ExchangeCollect):
+    """Takes only what its owner handed in, and no link. A later hand-in takes the place of an earlier
+    one, which stays if the later one cannot be taken.
     """
-    for entry in list(os.scandir(folder)):
-        if entry.is_file() and entry.stat().st_gid != group:
-            again = shutil.copyfile(entry.path, os.path.join(stage, entry.name))
-            os.replace(again, entry.path)
 
-
-class Collect(_Entered, default.ExchangeCollect):
-    """Takes only what its owner handed in, and no link."""
+    update = Bool(
+        True, help="Whether a later hand-in takes the place of one that was collected before."
+    ).tag(config=True)
 
     src_records: list[dict[str, Any]]
 
@@ -138,9 +82,42 @@ class Collect(_Entered, default.ExchangeCollect):
 
     def copy_files(self) -> None:
         self.refused: list[str] = []
-        super().copy_files()
+        self.src_records = [r for r in self.src_records if not self._is_by_hand(r["username"])]
+        with tempfile.TemporaryDirectory(prefix="collected-") as aside:
+            before = {}
+            for number, record in enumerate(self.src_records):
+                there = self._collected(record["username"])
+                if self.coursedir.get_existing_timestamp(str(there)) not in (
+                    None,
+                    record["timestamp"],
+                ):
+                    kept = shutil.copytree(there, Path(aside, str(number)), symlinks=True)
+                    before[record["username"]] = kept
+            try:
+                super().copy_files()
+            finally:
+                for student, kept in before.items():
+                    if not self._collected(student).exists():
+                        shutil.copytree(kept, self._collected(student), symlinks=True)
         if self.refused:
             self.fail("Not collected: " + "; ".join(self.refused))
+
+    def _collected(self, student: str) -> Path:
+        course = self.coursedir
+        folder = course.format_path(course.submitted_directory, student, course.assignment_id)
+        return Path(folder)
+
+    def _is_by_hand(self, student: str) -> bool:
+        """Whether somebody else has put a submission there, which no hand-in may replace unasked."""
+        folder = self._collected(student)
+        if not folder.is_dir() or (folder / "timestamp.txt").exists():
+            return False
+        self.log.warning(
+            "%s has no timestamp.txt: it was not collected, and stays. To take the hand-in of %s "
+            "instead, remove that folder",
+            *(os.path.relpath(folder), student),
+        )
+        return True
 
     def do_copy(self, src: str, dest: str, log: Any = None) -> None:
         ignored: Callable[[str, list[str]], list[str]] = ignore_patterns(

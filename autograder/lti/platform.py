@@ -1,0 +1,108 @@
+"""The services of a platform that sending marks needs: its members, line items and scores."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import requests
+from pylti1p3.assignments_grades import AssignmentsGradesService, TAssignmentsGradersData
+from pylti1p3.exception import LtiException, LtiServiceException
+from pylti1p3.grade import Grade
+from pylti1p3.lineitem import LineItem
+from pylti1p3.names_roles import NamesRolesProvisioningService, TMember
+
+from autograder.lti import LtiError
+from autograder.lti.connection import Connector
+from autograder.lti.key import Key
+from autograder.lti.registration import Registered
+from autograder.protocol import one_line
+
+AGS = "https://purl.imsglobal.org/spec/lti-ags/scope/"
+LEARNER = "Learner"  # with or without the address of its vocabulary before a #
+
+
+class RefusedError(LtiError):
+    """The platform answered that it does not take this; it may take the next."""
+
+
+class Platform:
+    """What is asked of one platform; LtiError where it cannot be reached or its answer is no answer."""
+
+    def __init__(self, registered: Registered, key: Key):
+        self._registered = registered
+        self._connector = Connector(registered, key)
+
+    def learners(self) -> list[TMember]:
+        """The members of the platform's course who are students there now."""
+        of = {"context_memberships_url": self._registered.members_url}
+        with self._understood("its members"):
+            every = NamesRolesProvisioningService(self._connector, of).get_members()  # type: ignore[arg-type]
+            return [
+                one
+                for one in every
+                if one.get("status", "Active") == "Active"
+                and any(str(role).rpartition("#")[2] == LEARNER for role in one.get("roles", ()))
+            ]
+
+    def line_item(self, assignment: str, most: float, make: bool) -> tuple[str, bool]:
+        """The address of an assignment's line item, and whether it is new.
+
+        most: the assignment's points. make: whether one is made where there is none; without, "".
+        """
+        if known := self._registered.line_items.get(assignment):
+            return known, False
+        with self._understood("its line items"):
+            found = self._grades("lineitem").find_lineitem_by_resource_id(assignment)
+            if found is None and not make:
+                return "", True
+            if is_new := found is None:
+                new = LineItem().set_label(assignment).set_resource_id(assignment)
+                new.set_score_maximum(most)
+                found = self._grades("lineitem").find_or_create_lineitem(new, "resource_id")
+            address = found.get_id()
+            if not isinstance(address, str):
+                raise LtiException("a line item without an id")
+            return address, is_new
+
+    def send(self, line_item: str, score: dict) -> None:
+        """Send one student's score. RefusedError if the platform does not take this one."""
+        with self._understood("the score"):
+            self._grades("score").put_grade(
+                Grade().set_extra_claims(score), LineItem({"id": line_item})
+            )
+
+    def _grades(self, scope: str) -> AssignmentsGradesService:
+        data: TAssignmentsGradersData = {
+            "scope": [f"{AGS}{scope}"],  # type: ignore[list-item]
+            "lineitems": self._registered.line_items_url,
+        }
+        return AssignmentsGradesService(self._connector, data)
+
+    @contextmanager
+    def _understood(self, what: str) -> Iterator[None]:
+        """Says of a failed request what the platform answered."""
+        try:
+            yield
+        except LtiServiceException as error:
+            answer = error.response
+            said = one_line(" ".join(answer.text.split()), 200) or answer.reason
+            where = answer.url.partition("?")[0]
+            refused = f"{where} answers {answer.status_code}: {said}"
+            # Without a token, the next is not taken either.
+            is_token = answer.url == self._registered.token_url
+            raise (LtiError if is_token else RefusedError)(refused) from None
+        except requests.TooManyRedirects as error:
+            to = error.response.headers.get("Location", "") if error.response is not None else ""
+            raise LtiError(
+                f"the platform leads on to {one_line(to, 200)}: write the address where it ends"
+            ) from None
+        except requests.JSONDecodeError:
+            raise LtiError(f"the platform's answer to a request for {what} is not JSON") from None
+        except requests.RequestException as error:
+            raise LtiError(f"the platform cannot be reached: {one_line(str(error), 300)}") from None
+        except (LtiException, KeyError, TypeError, AttributeError, ValueError) as error:
+            if isinstance(error, LtiError):
+                raise
+            raise LtiError(
+                f"the platform's answer to a request for {what} is not as LTI lays down: "
+                f"{one_line(f'{type(error).__name__}: {error}', 200)}"
+            ) from None

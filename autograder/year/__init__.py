@@ -1,0 +1,1 @@
+"""Closes a year of the course: `autograder archive`."""

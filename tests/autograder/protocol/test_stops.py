@@ -1,0 +1,198 @@
+"""A stop reaches the code wherever it is, leaves its error, and nothing of it comes afterwards."""
+
+import signal
+import sys
+import time
+import warnings
+
+import pytest
+
+from autograder.protocol import limits
+from autograder.protocol.waiting import Stopwatch, Waiting
+
+OFTEN = 40
+unix = pytest.mark.skipif(not hasattr(signal, "SIGPROF"), reason="needs signals")
+pytestmark = [
+    unix,
+    pytest.mark.filterwarnings("error::pytest.PytestUnraisableExceptionWarning"),
+]
+
+
+class Dying:
+    def __del__(self):
+        sum(range(20_000))
+
+
+def loop():
+    while True:
+        pass
+
+
+def caught():
+    while True:
+        try:  # noqa: SIM105  (as students write it)
+            sum(range(1000))
+        except Exception:
+            pass
+
+
+def at_last():
+    try:
+        loop()
+    finally:
+        sum(range(100_000))
+
+
+def destructors():
+    while True:
+        Dying()
+
+
+def endless_destructor():
+    class Endless:
+        def __del__(self):
+            while True:
+                pass
+
+    Endless()
+    while True:
+        pass
+
+
+def generators():
+    def given():
+        while True:
+            try:
+                yield 1
+            finally:
+                sum(range(10))
+
+    while True:
+        for _ in given():
+            break
+
+
+def warnings_caught():
+    while True:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+
+
+def nested():
+    with pytest.raises(limits.TimeLimitError), limits.time_limit(0.01):
+        loop()
+    loop()
+
+
+@pytest.fixture
+def by_processor(monkeypatch):
+    """On a busy machine, such short limits would be met by the clock first."""
+    monkeypatch.setattr(limits, "PATIENCE", 1e5)
+    monkeypatch.setattr(limits, "FAR", 1e5)
+
+
+CODE = [loop, caught, at_last, destructors, endless_destructor, generators,
+        warnings_caught]  # fmt: skip
+
+
+@pytest.mark.parametrize("code", CODE)
+def test_a_stop_comes_through_and_nothing_afterwards(by_processor, code):
+    hook, trace, handlers = sys.unraisablehook, sys.gettrace(), _handlers()
+    for n in range(OFTEN if code is not endless_destructor else 1):
+        limit = limits.time_limit(0.001 + 0.0003 * (n % 7))
+        with pytest.raises(limits.TimeLimitError) as stopped, limit:
+            code()
+        assert isinstance(limit.error, limits.TimeLimitError)
+        assert stopped.value.seconds == limit.seconds
+        assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
+        assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+        assert (sys.unraisablehook, sys.gettrace(), _handlers()) == (hook, trace, handlers)
+    _compute(0.01)  # what came late would come now
+
+
+def test_code_that_ends_about_its_limit_is_stopped_or_not_and_nothing_in_between(by_processor):
+    for n in range(10 * OFTEN):
+        limit = limits.time_limit(0.0005)
+        stopped = False
+        try:
+            with limit:
+                _compute(0.0003 + 0.000001 * n)
+        except limits.TimeLimitError:
+            stopped = True
+        assert stopped == (limit.error is not None)
+        assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
+
+
+def test_code_that_swallows_the_stop_leaves_its_error_all_the_same(by_processor):
+    with limits.time_limit(0.01) as limit:
+        try:  # noqa: SIM105
+            loop()
+        except BaseException:
+            pass
+    assert isinstance(limit.error, limits.TimeLimitError)
+
+
+def test_a_limit_within_a_limit_leaves_the_outer_one(by_processor):
+    with pytest.raises(limits.TimeLimitError) as stopped, limits.time_limit(0.2):
+        nested()
+    assert stopped.value.seconds == 0.2
+
+
+def test_code_with_timers_of_its_own_is_not_stopped_by_them():
+    heard = []
+    with limits.time_limit(5.0) as limit:
+        signal.setitimer(signal.ITIMER_PROF, 0.005, 0.005)
+        signal.setitimer(signal.ITIMER_REAL, 0.005, 0.005)
+        _compute(0.05)
+        signal.signal(signal.SIGALRM, lambda *_: heard.append(1))
+        signal.setitimer(signal.ITIMER_REAL, 0.001)
+        _compute(0.05)
+    assert limit.error is None
+    assert heard
+
+
+def test_who_sleeps_is_starved_and_who_waits_for_a_processor_is_not(monkeypatch):
+    monkeypatch.setattr(limits, "PATIENCE", 2.0)
+    with pytest.raises(limits.TimeLimitError) as stopped, limits.time_limit(0.1):
+        time.sleep(30)
+    assert stopped.value.starved
+    # As on a machine so busy that the code gets no processor: it was ready all the time.
+    monkeypatch.setattr(Waiting, "look", lambda self: 0.0)
+    with limits.time_limit(0.1) as limit:
+        time.sleep(0.5)
+    assert limit.error is None
+    monkeypatch.setattr(limits, "FAR", 3.0)
+    with pytest.raises(limits.TimeLimitError) as stopped, limits.time_limit(0.1):
+        time.sleep(30)
+    assert (stopped.value.starved, stopped.value.seconds) == (True, pytest.approx(0.3))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux says who waits for a processor")
+def test_time_in_which_something_computes_or_could_is_no_waiting():
+    waiting = Waiting()
+    waiting.look()
+    clock = time.monotonic()
+    _compute(0.3)
+    passed, computing = time.monotonic() - clock, waiting.look()
+    assert computing < 0.5 * passed + 0.1
+    time.sleep(0.3)
+    assert waiting.look() - computing > 0.2
+
+
+def test_a_stopwatch_counts_what_is_computed_and_a_part_of_what_is_slept():
+    watch = Stopwatch()
+    _compute(0.1)
+    assert watch.seconds(5.0) >= 0.1
+    watch = Stopwatch()
+    time.sleep(0.3)
+    assert watch.seconds(3.0) >= 0.09
+
+
+def _compute(seconds: float) -> None:
+    ends = time.process_time() + seconds
+    while time.process_time() < ends:
+        pass
+
+
+def _handlers() -> list:
+    return [signal.getsignal(number) for number in (signal.SIGPROF, signal.SIGALRM)]

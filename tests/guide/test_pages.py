@@ -1,0 +1,245 @@
+"""Each page's commands run as they stand there, with their exit status, in a course with students."""
+
+import re
+import shutil
+from collections import Counter
+from datetime import UTC, datetime, timedelta
+
+import pytest
+from nbgrader.apps.nbgraderapp import NbGraderApp
+
+from autograder import roster, term_calendar
+from autograder.cli import main
+from autograder.roster import Person
+from tests.autograder import courses
+from tests.autograder.courses import NOTEBOOK, P3
+from tests.autograder.lms.platforms import canvas_sheet, moodle_folder, moodle_sheet, zipped
+from tests.guide.document import LANGUAGES, ROOT, Page, pages
+from tests.guide.not_run import REASONS
+from tests.guide.people import hand_in, lay_in, mark_proofs, notebook
+from tests.guide.session import follow
+
+TWO_DAYS_LATE = datetime(2026, 11, 30, 18, tzinfo=UTC)  # 25 hours after the guide's due date
+FILES = {"csv": "course/class.csv", "toml": "course/calendar.toml"}
+# Which test runs the commands of a page, that is, which sessions are below.
+FOLLOWED = {
+    "README.md",
+    "docs/instructors.md",
+    "docs/handing-out.md",
+    "docs/grading-rules.md",
+    "docs/platforms.md",
+    "docs/own-problem.md",
+    "CONTRIBUTING.md",
+}
+
+
+def class_hands_in(root):
+    hand_in(root, "ada", "right")
+    hand_in(root, "bob", "partly_right", TWO_DAYS_LATE)
+    hand_in(root, "eve", "blank")
+
+
+def test_the_term_of_the_guide(tmp_path):
+    course = courses.before_the_first_command(tmp_path / "course")
+    printed = follow(
+        "docs/instructors.md",
+        course,
+        {
+            "nbgrader collect p3-pendulum": class_hands_in,
+            "nbgrader collect --update p3-pendulum": lambda root: hand_in(
+                root, "eve", "right", TWO_DAYS_LATE + timedelta(days=1)
+            ),
+            "nbgrader generate_feedback p3-pendulum": mark_proofs,
+        },
+        FILES,
+    )
+    assert "Still open" not in printed
+    marks, sums = ((course / name).read_text("utf-8-sig") for name in ("marks.csv", "sums.csv"))
+    assert marks.count("graded") == 3
+    assert sums.count("Lovelace") == 1
+    archives = sorted(path.name for path in (course / "archive").iterdir())
+    assert sorted("without-names" in name for name in archives) == [False, False, True]
+    left = {path.name for path in (course / "course").iterdir()}
+    assert {"calendar-of-last-year.toml", "release", "gradebook.db"} <= left
+    assert not {"class.csv", "calendar.toml", "submitted", "feedback", "seed"} & left
+
+
+def test_the_minute_of_the_readme_is_the_guides_term_in_short():
+    """So that its commands run with the guide's, in the same order and to the same end."""
+    short = [one for one in Page("README.md").commands if one.text not in REASONS]
+    long = iter([one for one in Page("docs/instructors.md").commands if one.text not in REASONS])
+    assert len(short) > 5
+    for command in short:
+        found = any((one.text, one.status) == (command.text, command.status) for one in long)
+        assert found, (
+            f"{command.place}: {command.text} is not in docs/instructors.md, in this order"
+        )
+
+
+NAMES = {"ada": "Ada Lovelace", "bob": "Bob Doe"}
+
+
+def moodle_gives(root):
+    (root / "course" / "class.csv").write_text(
+        "id,last_name,first_name,email,lms_id\n"
+        "ada,Lovelace,Ada,ada@x.org,11\nbob,Doe,Bob,bob@x.org,12\n"
+    )
+    numbers = dict(zip(NAMES, ("301", "302"), strict=True))
+    zipped(
+        root / "submissions.zip",
+        {
+            f"{moodle_folder(NAMES[one], numbers[one])}/{NOTEBOOK}": notebook(root, "right")
+            for one in NAMES
+        },
+    )
+    time = "Saturday, 28 November 2026, 5:59 PM"
+    rows = [{"number": numbers[one], "name": NAMES[one], "email": f"{one}@x.org", "submitted": time}
+            for one in NAMES]  # fmt: skip
+    moodle_sheet(root / "worksheet.csv", rows, "en", "15.00")
+
+
+def canvas_gives(root):
+    rows = [{"name": name, "number": 11 + at} for at, name in enumerate(NAMES.values())]
+    canvas_sheet(root / "gradebook.csv", rows, {f"{P3} (77)": "15"})
+
+
+def pages_are_made(root):
+    mark_proofs(root)
+    courses.run(root, "nbgrader", "generate_feedback", P3)
+    canvas_gives(root)
+
+
+def test_the_pages_by_subject(tmp_path):
+    """A class of notebooks that came by mail; then one in Moodle."""
+    root = courses.new_course(tmp_path / "course")
+    lay_in(root, "cem", "right")
+    lay_in(root, "dan", "wrong")
+    follow("docs/grading-rules.md", root, {}, {})
+    assert (root / "course" / "report" / f"{P3}.html").exists()
+    follow("docs/handing-out.md", root, {}, {})
+    assert (root / "course" / "worked-answers.json").exists()
+    in_moodle = f"autograder export --for moodle {P3} --sheet worksheet.csv --to filled.csv"
+    others = {
+        f"autograder collect-zip {P3} submissions.zip --sheet worksheet.csv": moodle_gives,
+        f"{in_moodle} --feedback pages.zip": pages_are_made,
+    }
+    follow("docs/platforms.md", root, others, {})
+    assert (root / "pages.zip").exists()
+
+
+def test_the_class_list_and_the_calendar_of_the_page_are_read(tmp_path):
+    page = Page("docs/class-list.md")
+    (listed,), (calendar,) = page.texts("csv"), page.texts("toml")
+    for name in re.findall(r"^\[([\w-]+)\]", calendar, re.M):
+        (tmp_path / "solutions" / name).mkdir(parents=True)
+    (tmp_path / "course").mkdir()
+    (tmp_path / roster.FILE).write_text(listed, encoding="utf-8")
+    (tmp_path / term_calendar.FILE).write_text(calendar, encoding="utf-8")
+    people = roster.read(tmp_path / roster.FILE).people
+    assert people["bob"] == Person("bob", "Doe, Jr.", "Bob", "bob@example.org", "4712")
+    assert term_calendar.read_if_there(tmp_path).of("p4-gravity").penalty == term_calendar.ZERO
+
+
+def the_file_is_filled_in(root):
+    path = root / "solutions" / "block" / "block.py"
+    if not (root / "solutions" / "block" / "block.ipynb").exists() and path.exists():
+        (example,) = (
+            text for text in Page("docs/own-problem.md").texts("python") if 'name="block"' in text
+        )
+        path.write_text(example, encoding="utf-8")
+
+
+def test_problems_of_ones_own(tmp_path):
+    course = courses.new_course(tmp_path / "course")
+    (course / "lessons").symlink_to(ROOT / "lessons")
+    others = {"autograder new-problem block": the_file_is_filled_in}
+    follow("docs/own-problem.md", course, others, {})
+    for name in ("cart-pole", "block"):
+        assert (course / "course" / "release" / name / f"{name}.ipynb").exists()
+
+
+def test_what_contributors_type(tmp_path):
+    shutil.copytree(ROOT / "lessons", tmp_path / "lessons")
+    (tmp_path / "nbgrader_config.py").touch()
+    first = next((tmp_path / "lessons").glob("05-*.ipynb"))
+    first.rename(first.with_name("NN-title.ipynb"))
+    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    (tmp_path / ".venv").symlink_to(ROOT / ".venv")
+    follow("CONTRIBUTING.md", tmp_path, {}, {})
+
+
+def test_each_block_says_what_it_is_and_no_command_is_left_out():
+    for page in pages():
+        for block in page.blocks:
+            assert block.language in LANGUAGES, f"{page.name}:{block.line}: name the language"
+        if page.name not in FOLLOWED:
+            assert page.commands == [], f"{page.name}: a session in tests/guide has to run these"
+
+
+def test_the_list_of_what_is_not_run_is_no_longer_than_it_has_to_be():
+    shown = Counter(command.text for page in pages() for command in page.commands)
+    assert set(REASONS) - set(shown) == set()
+    for name in re.findall(r"tests/[\w/]+\.py", " ".join(REASONS.values())):
+        assert (ROOT / name).is_file(), name
+
+
+def anchors(page: Page) -> set[str]:
+    """The headings of a page, as links name them."""
+    heads = re.findall(r"^#+ (.+)$", (ROOT / page.name).read_text(encoding="utf-8"), re.M)
+    return {re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head in heads}
+
+
+def test_a_link_from_page_to_page_leads_to_a_heading():
+    known = {(ROOT / page.name): anchors(page) for page in pages()}
+    for page in pages():
+        path = ROOT / page.name
+        text = path.read_text(encoding="utf-8")
+        for to, anchor in re.findall(r"\]\(([^)#\s:]*\.md|)(?:#([^)\s]+))?\)", text):
+            target = (path.parent / to).resolve() if to else path
+            assert target.is_file(), f"{page.name}: {to}"
+            if anchor and target in known:
+                assert anchor in known[target], f"{page.name}: {to}#{anchor}"
+
+
+def options_of_autograder(name: str, capsys) -> set[str]:
+    with pytest.raises(SystemExit):
+        main([name, "--help"])
+    return set(re.findall(r"--[\w-]+", capsys.readouterr().out))
+
+
+def options_of_nbgrader(name: str) -> set[str]:
+    app = NbGraderApp.subcommands[name][0]
+    known = {*app.flags, *app.aliases, "help", "debug", "student", "assignment"}
+    return {f"--{one}" for group in known for one in (group if type(group) is tuple else (group,))}
+
+
+def test_an_option_that_a_sentence_names_is_there(capsys):
+    known: dict[tuple[str, str], set[str]] = {}
+    seen = 0
+    for page in pages():
+        for text in page.inline:
+            found = re.match(r"(nbgrader|autograder) ([a-z_-]+)\b(.*)", text, re.S)
+            if (
+                not found
+                or found[2] == "lab"
+                or not (options := re.findall(r"(?<!\S)--[\w-]+", found[3]))
+            ):
+                continue
+            key = found[1], found[2]
+            if key not in known:
+                known[key] = (options_of_nbgrader(found[2]) if found[1] == "nbgrader"
+                              else options_of_autograder(found[2], capsys))  # fmt: skip
+            assert set(options) <= known[key], f"{page.name}: {text}"
+            seen += 1
+    assert seen > 3
+
+
+def test_the_guide_is_a_term_from_the_class_list_to_the_next_year():
+    text = (ROOT / "docs" / "instructors.md").read_text(encoding="utf-8")
+    order = re.findall(r"^## (.+)$", text, re.M)
+    wanted = [
+        *("The class list and the calendar", "Set up an assignment", "Release", "The deadline"),
+        *("Collect", "Grade", "Mark the proofs", "Feedback", "Export", "Corrections", "Next year"),
+    ]
+    assert [heading for heading in order if heading in wanted] == wanted
+    assert len(text.splitlines()) < 320
