@@ -1,4 +1,4 @@
-"""`python -m tests.rehearsal [STUDENTS]`: a whole term, in a folder that is kept where marks are wrong."""
+"""`python -m tests.rehearsal [STUDENTS]`: a whole term, in a folder that is kept."""
 
 import sys
 import tempfile

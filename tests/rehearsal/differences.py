@@ -28,11 +28,14 @@ def of_the_gradebook(term: Term) -> Iterator[str]:
                 yield f"{where}: no row"
                 continue
             yield from _differ(where, "score", row.score, ledger.raw(student, name))
-            yield from _differ(where, "penalty", row.late_submission_penalty or 0.0, ledger.penalty(student, name))  # fmt: skip
+            taken = row.late_submission_penalty or 0.0
+            yield from _differ(where, "penalty", taken, ledger.penalty(student, name))
             if row.needs_manual_grade != entry.unread:
                 yield f"{where}: waits for a person: {row.needs_manual_grade}, not {entry.unread}"
         for (student, name), row in rows.items():
-            if row.notebooks and any(grade.auto_score for one in row.notebooks for grade in one.grades):
+            if row.notebooks and any(
+                grade.auto_score for one in row.notebooks for grade in one.grades
+            ):
                 yield f"gradebook: {student}, {name}: a row with points, and nothing was handed in"
 
 
@@ -49,11 +52,16 @@ def of_the_long_table(term: Term, path: Path) -> Iterator[str]:
             if row is None:
                 continue
             where = f"{path.name}: {student.id}, {name}"
-            yield from _differ(where, "points", points(row["points"]), ledger.mark(student.id, name))
+            yield from _differ(
+                where, "points", points(row["points"]), ledger.mark(student.id, name)
+            )
             status = row["status"].split(", late")[0]
             if status != ledger.status(student.id, name):
                 yield f"{where}: {status}, not {ledger.status(student.id, name)}"
-            if harmless(student.last) != row["last_name"] or harmless(student.first) != row["first_name"]:
+            if (
+                harmless(student.last) != row["last_name"]
+                or harmless(student.first) != row["first_name"]
+            ):
                 yield f"{where}: {row['first_name']} {row['last_name']} is not {student.name}"
 
 

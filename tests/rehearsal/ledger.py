@@ -1,4 +1,4 @@
-"""What each student earns, computed from what was handed in and what the lecturer decided: no code of the kit."""
+"""What each student earns, from what was handed in and what the lecturer decided: no code of the kit."""
 
 import math
 import random
@@ -37,7 +37,9 @@ def due(month: int, day: int, hour: int = 18) -> datetime:
 RULES = {
     "p1-inertia": Rule(due(10, 9), "{ percent-per-day = 10, most-percent = 50 }", percent(10, 50)),
     "p2-energy-skew": Rule(due(10, 16), '"zero"', percent(100)),
-    "p3-pendulum": Rule(due(10, 24), "{ points-per-day = 1, grace-minutes = 15 }", by_points(1, 15)),
+    "p3-pendulum": Rule(
+        due(10, 24), "{ points-per-day = 1, grace-minutes = 15 }", by_points(1, 15)
+    ),
     "p4-gravity": Rule(due(10, 30), '"none"', lambda points, late: 0.0),
     "p5-state-space": Rule(due(11, 6), "{ percent-per-day = 25 }", percent(25)),
     "c6-regressor": Rule(due(11, 13), '"none"', lambda points, late: 0.0, False),

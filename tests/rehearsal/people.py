@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 FIRST = ("Ada", "Ève", "José María", "Zoë", "Nguyễn Văn", "Søren", "Łukasz", "İpek", "Ὑπατία", "小明",
          "محمد", "Jean-Luc", "Anne  Marie", "Δ", "Siân", "=HYPERLINK", "D'Arcy", "Björk")  # fmt: skip
-LAST = ("Lovelace", "Doe, Jr.", "O'Neil", "Gauß", "de la Cruz, III", "Åström", "Nuñez", "d’Alembert",
-        "McDonald", "王", "Æsir", '"Bob" Smith', "+1", "@home", "-Dash", "St. John", "Null", "O")  # fmt: skip
+LAST = ("Lovelace", "Doe, Jr.", "O'Neil", "Gauß", "de la Cruz, III", "Åström", "Nuñez",
+        "d\u2019Alembert", "McDonald", "王", "Æsir", '"Bob" Smith', "+1", "@home", "-Dash", "St. John", "Null", "O")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,20 @@ class Student:
 
 def class_of(size: int, dice: random.Random) -> list[Student]:
     """Students whose names hold commas, apostrophes, quotes, signs of formulas and other scripts."""
-    shapes = ("s{:05d}", "ab{:d}cd", "Müller.{:d}", "x-{:d}_y", "{:d}", "ünï{:d}", "O'Brien{:d}", "a b {:d}")
+    shapes = (
+        "s{:05d}",
+        "ab{:d}cd",
+        "Müller.{:d}",
+        "x-{:d}_y",
+        "{:d}",
+        "ünï{:d}",
+        "O'Brien{:d}",
+        "a b {:d}",
+    )
     return [
-        Student(shapes[at % len(shapes)].format(at), dice.choice(FIRST), dice.choice(LAST), 4000 + at)
+        Student(
+            shapes[at % len(shapes)].format(at), dice.choice(FIRST), dice.choice(LAST), 4000 + at
+        )
         for at in range(size)
     ]
 

@@ -17,20 +17,23 @@ def tell(term: Term) -> Iterator[str]:
             yield from _the_own_test_is_mended(term)
         term.grade(name)
         term.read_proofs(name)
-    term.grade(P1)  # once more, after the proofs: nothing of a person's is lost
+    term.grade(term.names[0])  # once more, after the proofs: nothing of a person's is lost
+    term.run(
+        "autograder", "export"
+    )  # settles the late penalties of proofs that were read meanwhile
     yield from differences.of_the_gradebook(term)
     if P2 in term.names:
         late = term.late_ones(P2)[0]
         term.extend(P2, late, timedelta(days=8))
-        same, other = term.hand_in_again(P2)
+        same, _ = term.hand_in_again(P2)
         yield from differences.of_the_gradebook(term)
         term.withdraw(same)
     if P4 in term.names:
         term.change_points(P4, "p4-g_vec", 4)
     yield from differences.of_the_gradebook(term)
     yield from _exported(term)
-    term.run("nbgrader", "generate_feedback", P1)
-    term.run("autograder", "report", P1)
+    term.run("nbgrader", "generate_feedback", term.names[0])
+    term.run("autograder", "report", term.names[0])
     term.run("autograder", "report")
 
 
@@ -53,7 +56,9 @@ def _exported(term: Term) -> Iterator[str]:
     term.run("autograder", "export", "--wide", "--to", "wide.csv")
     yield from differences.of_the_wide_table(term, term.root / "wide.csv")
     if P3 in term.names:
-        rows = [{"number": one.number, "name": one.name, "email": one.email} for one in term.students]
+        rows = [
+            {"number": one.number, "name": one.name, "email": one.email} for one in term.students
+        ]
         sheet = moodle_sheet(term.root / "worksheet.csv", rows)
         command = ["autograder", "export", P3, "--for", "moodle", "--sheet", str(sheet)]
         term.run(*command, "--to", "filled-moodle.csv")

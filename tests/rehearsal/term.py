@@ -1,6 +1,7 @@
 """The term, event by event, each by the command that the guide gives for it."""
 
 import random
+import re
 import shutil
 import time
 from collections.abc import Iterable
@@ -15,13 +16,13 @@ from tests.autograder import courses
 from tests.autograder.lms.platforms import canvas_name, moodle_folder, moodle_sheet, zipped
 from tests.rehearsal.hand_ins import DAMAGED, Problem, hand_in, problem
 from tests.rehearsal.ledger import RULES, HandIn, Ledger, calendar, drawn
-from tests.rehearsal.people import Student, class_list, class_of
+from tests.rehearsal.people import class_list, class_of
 
 ROOT = Path(__file__).parents[2]
 P1, P2, P3, P4 = "p1-inertia", "p2-energy-skew", "p3-pendulum", "p4-gravity"
 SEED = "rehearsed"
-# A lecturer's own test that is wrong: no answer passes it, until it is mended.
-OWN_TEST = "\n### BEGIN HIDDEN TESTS\nassert is_spd([[1.0, 2.0], [2.0, 1.0]])\n### END HIDDEN TESTS"
+# A lecturer's own test that asks too much: NumPy's True, which students return, is not Python's.
+OWN_TEST = "\n### BEGIN HIDDEN TESTS\nassert is_spd(np.eye(2)) is True\n### END HIDDEN TESTS"
 ITS_CELL = "p1-is_spd"
 
 
@@ -49,6 +50,7 @@ class Term:
         shutil.copy(ROOT / "nbgrader_config.py", self.root)
         for name in self.names:
             shutil.copytree(ROOT / "solutions" / name, self.root / "solutions" / name)
+            self._give_all_the_same_arm(name)
         if P1 in self.names:
             self._edit(P1, ITS_CELL, lambda cell: cell.update(source=cell.source + OWN_TEST))
         for name in self.names:
@@ -69,7 +71,8 @@ class Term:
             if one is not None:
                 self.ledger.hand_ins[student.id, name] = one
                 texts[student.id] = of.notebook(one.answered, one.proof)
-        for id, text in zip(self.dice.sample(sorted(texts), min(len(DAMAGED), len(texts) // 4)), DAMAGED):
+        unlucky = self.dice.sample(sorted(texts), min(len(DAMAGED), len(texts) // 4))
+        for id, text in zip(unlucky, DAMAGED, strict=False):
             self.ledger.hand_ins[id, name].damaged = True
             texts[id] = text
         take = {P3: self._from_moodle, P4: self._from_canvas}.get(name, self._as_collected)
@@ -91,7 +94,9 @@ class Term:
 
     def mend_the_own_test(self) -> None:
         """All of p1 is judged again; what a person gave is kept."""
-        self._edit(P1, ITS_CELL, lambda cell: cell.update(source=cell.source.removesuffix(OWN_TEST)))
+        self._edit(
+            P1, ITS_CELL, lambda cell: cell.update(source=cell.source.removesuffix(OWN_TEST))
+        )
         self.run("nbgrader", "generate_assignment", P1, "--force")
         self.grade(P1)
 
@@ -102,7 +107,9 @@ class Term:
         self.grade(name)
 
     def hand_in_again(self, name: str) -> tuple[str, str]:
-        """After a person's marks: one with the same proof, whose mark stands, one with another, to be read."""
+        """After a person's marks: one with the same proof, whose mark stands, and one with another, which
+        is to be read.
+        """
         read = sorted(student for (student, of), one in self.ledger.hand_ins.items()
                       if of == name and one.read is not None and not one.damaged)  # fmt: skip
         same, other = self.dice.sample(read, 2)
@@ -142,6 +149,14 @@ class Term:
                 grade = gradebook.find_grade(self.problems[name].proof, name, name, student)
                 grade.manual_score, grade.needs_manual_grade = points, False
             gradebook.db.commit()
+
+    def _give_all_the_same_arm(self, name: str) -> None:
+        """The ledger knows the answers for the arm of the book alone."""
+        path = self.root / "solutions" / name / f"{name}.ipynb"
+        text = path.read_text(encoding="utf-8")
+        path.write_text(
+            re.sub(r"(own_arm\(.*?)\)", r"\1, same_for_all=True)", text), encoding="utf-8"
+        )
 
     def _edit(self, name: str, id: str, change) -> None:
         path = self.root / "solutions" / name / f"{name}.ipynb"
@@ -188,7 +203,9 @@ class Term:
         for at, one in enumerate(self.students):
             if one.id in texts:
                 late = self.ledger.hand_ins[one.id, name].late > 0
-                shown = canvas_name(f"{one.last}, {one.first}", one.number, 7000 + at, f"{name}.ipynb", late)
+                shown = canvas_name(
+                    f"{one.last}, {one.first}", one.number, 7000 + at, f"{name}.ipynb", late
+                )
                 files[shown] = texts[one.id]
         archive = zipped(self.root / "canvas.zip", files)
         self.run("autograder", "collect-zip", name, str(archive), status=1)
