@@ -1,4 +1,4 @@
-.PHONY: help lab test test-all coverage lint hooks lessons bench site book browser installed
+.PHONY: help rehearse lab test test-all coverage lint hooks lessons bench site book browser installed
 .SUFFIXES:
 
 ARGS =
@@ -13,6 +13,7 @@ help:
 	@echo 'make test      ruff, mypy, pytest; every lesson and solution is run again; ARGS="-k chain"'
 	@echo 'make test-all  the same, and long tests that only repeat what short ones show'
 	@echo 'make coverage  which lines the tests run; fails below the floor in pyproject.toml'
+	@echo 'make rehearse  200 students through eight assignments, against a ledger; ARGS=60 for fewer'
 	@echo 'make hooks     have git run "make lint" before each commit'
 	@echo 'make bench     time library, ports, grading and feedback; writes docs/benchmarks.md'
 	@echo 'make lessons   run the lessons, store their outputs; writes docs/course-map.md, references.md'
@@ -34,6 +35,9 @@ test: .venv/$(TESTED).done
 
 test-all:
 	@$(MAKE) test ARGS='-m "long or not long" $(ARGS)'
+
+rehearse: .venv/$(TESTED).done
+	.venv/bin/python -m tests.rehearsal $(ARGS)
 
 # Slower than `make test`, and without the notebooks: it says what the tests see. One test sends os._exit to
 # another process, which coverage's own os._exit does not survive.

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 FIRST = ("Ada", "Ève", "José María", "Zoë", "Nguyễn Văn", "Søren", "Łukasz", "İpek", "Ὑπατία", "小明",
          "محمد", "Jean-Luc", "Anne  Marie", "Δ", "Siân", "=HYPERLINK", "D'Arcy", "Björk")  # fmt: skip
 LAST = ("Lovelace", "Doe, Jr.", "O'Neil", "Gauß", "de la Cruz, III", "Åström", "Nuñez",
-        "d\u2019Alembert", "McDonald", "王", "Æsir", '"Bob" Smith', "+1", "@home", "-Dash", "St. John", "Null", "O")  # fmt: skip
+        "d\u2019Alembert", "McDonald", "王", "Æsir", '"Bob" Smith', "+1", "@home", "-Dash", "St. John",
+        "Null", "O")  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -107,8 +107,8 @@ class Term:
         self.grade(name)
 
     def hand_in_again(self, name: str) -> tuple[str, str]:
-        """After a person's marks: one with the same proof, whose mark stands, and one with another, which
-        is to be read.
+        """After a person's marks: one with the same proof, whose mark stands, and one with another,
+        which is to be read.
         """
         read = sorted(student for (student, of), one in self.ledger.hand_ins.items()
                       if of == name and one.read is not None and not one.damaged)  # fmt: skip
