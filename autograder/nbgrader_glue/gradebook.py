@@ -105,7 +105,10 @@ class Rows:
 
         unchanged: the cells whose answers have not changed since they were last graded.
         """
-        return patiently(lambda: self._recorded(student, timestamp, graded, unchanged), self.forget)
+        return patiently(
+            lambda: self._recorded(student, timestamp, graded, unchanged),
+            lambda: self._drop(student),
+        )
 
     def _recorded(
         self, student: str, timestamp: datetime | None, graded: NotebookNode, unchanged: Set[str]
@@ -147,11 +150,17 @@ class Rows:
             self.enter(student, timestamp)
             self._commit()
 
-        patiently(work, self.forget)
+        patiently(work, lambda: self._drop(student))
 
     def _commit(self) -> None:
         self._db.commit()
         self._db.expunge_all()  # so that the last submission takes no longer than the first one
+
+    def _drop(self, student: str) -> None:
+        """Drop what was not committed of one student, without reading."""
+        self._db.rollback()
+        self._db.expunge_all()
+        self._students.discard(student)
 
     def forget(self) -> None:
         """Drop what was not committed, after an error."""

@@ -59,6 +59,11 @@ def endless_destructor():
         pass
 
 
+def destructors_below_c():
+    """Hardly any time passes but in a destructor, and no Python stands above it but the caller of C."""
+    all(Dying() for _ in iter(int, 1))
+
+
 def generators():
     def given():
         while True:
@@ -91,8 +96,8 @@ def by_processor(monkeypatch):
     monkeypatch.setattr(limits, "FAR", 1e5)
 
 
-CODE = [loop, caught, at_last, destructors, endless_destructor, generators,
-        warnings_caught]  # fmt: skip
+CODE = [loop, caught, at_last, destructors, destructors_below_c, endless_destructor,
+        generators, warnings_caught]  # fmt: skip
 
 
 @pytest.mark.parametrize("code", CODE)
