@@ -18,6 +18,7 @@ from autograder.nbgrader_glue.agreement import of_gradebook
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.late import Lateness, seconds_late, settle_one
 from autograder.nbgrader_glue.locked import patiently
+from autograder.nbgrader_glue.names import release_first
 from autograder.notebook.suggestion import suggestion_of
 from autograder.terminal import say
 
@@ -236,7 +237,7 @@ class Rows:
 
     def _read_cells(self, name: str) -> None:
         """Copy the gradebook's cells, so that no commit expires them."""
-        command = f"run `nbgrader generate_assignment {name}` first"
+        command = release_first(name)
         try:
             assignment = self._gradebook.find_assignment(name)
         except api.MissingEntry:
