@@ -6,7 +6,7 @@ from pathlib import Path
 
 from autograder import commands
 from autograder.commands import try_mechanism
-from autograder.commands.saying import complain
+from autograder.commands.saying import complain, of_gradebook
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -33,4 +33,9 @@ def main(arguments: list[str] | None = None) -> int:
             f"{root} is not the course's folder: it has no nbgrader_config.py; "
             "change to the folder that holds solutions/ and try again"
         )
-    return given.run(root, given)
+    try:
+        return given.run(root, given)
+    except Exception as error:
+        if said := of_gradebook(error):
+            return complain(said)
+        raise

@@ -10,6 +10,15 @@ def complain(what: str, status: int = 2) -> int:
     return status
 
 
+def of_gradebook(error: Exception) -> str:
+    """What to say of an error of the gradebook's database; "" for any other error."""
+    if "sqlalchemy" not in sys.modules:
+        return ""
+    from autograder.nbgrader_glue.locked import why_unusable  # loaded with the gradebook
+
+    return why_unusable(error)
+
+
 def to_be_looked_at(faults: list[str]) -> int:
     """Say what needs a look; the exit status."""
     if faults:

@@ -19,6 +19,7 @@ from autograder.marking.rubric import rubrics
 from autograder.nbgrader_glue import answer_page
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.items import NO_RESPONSE, titles_above
+from autograder.nbgrader_glue.locked import is_locked, why_unusable
 from autograder.nbgrader_glue.release import configuration
 
 PATIENCE = 30.0  # s, while another program writes into the gradebook
@@ -148,6 +149,6 @@ def _patiently(does: Callable[[], T]) -> T:
         try:
             return does()
         except OperationalError as error:
-            if "locked" not in str(error) or time.monotonic() > until:
-                raise OSError(f"the gradebook cannot be used: {error.orig}") from None
+            if not is_locked(error) or time.monotonic() > until:
+                raise OSError(why_unusable(error)) from None
             time.sleep(0.1)

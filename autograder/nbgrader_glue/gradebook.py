@@ -18,6 +18,7 @@ from autograder.nbgrader_glue.agreement import of_gradebook
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.late import Lateness, seconds_late, settle_one
 from autograder.nbgrader_glue.locked import patiently
+from autograder.nbgrader_glue.names import release_first
 from autograder.notebook.suggestion import suggestion_of
 from autograder.terminal import say
 
@@ -105,7 +106,10 @@ class Rows:
 
         unchanged: the cells whose answers have not changed since they were last graded.
         """
-        return patiently(lambda: self._recorded(student, timestamp, graded, unchanged), self.forget)
+        return patiently(
+            lambda: self._recorded(student, timestamp, graded, unchanged),
+            lambda: self._drop(student),
+        )
 
     def _recorded(
         self, student: str, timestamp: datetime | None, graded: NotebookNode, unchanged: Set[str]
@@ -147,11 +151,17 @@ class Rows:
             self.enter(student, timestamp)
             self._commit()
 
-        patiently(work, self.forget)
+        patiently(work, lambda: self._drop(student))
 
     def _commit(self) -> None:
         self._db.commit()
         self._db.expunge_all()  # so that the last submission takes no longer than the first one
+
+    def _drop(self, student: str) -> None:
+        """Drop what was not committed of one student, without reading."""
+        self._db.rollback()
+        self._db.expunge_all()
+        self._students.discard(student)
 
     def forget(self) -> None:
         """Drop what was not committed, after an error."""
@@ -227,7 +237,7 @@ class Rows:
 
     def _read_cells(self, name: str) -> None:
         """Copy the gradebook's cells, so that no commit expires them."""
-        command = f"run `nbgrader generate_assignment {name}` first"
+        command = release_first(name)
         try:
             assignment = self._gradebook.find_assignment(name)
         except api.MissingEntry:

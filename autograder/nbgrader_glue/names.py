@@ -3,6 +3,7 @@
 import glob
 import os
 import re
+import shlex
 import unicodedata
 from collections.abc import Iterator
 
@@ -21,6 +22,16 @@ TURNING = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}
 def refusal(student: str) -> str:
     """Why a folder of this name cannot be graded, and what to do; empty if it can be."""
     return f"{why}: rename the folder" if (why := _fault(student)) else ""
+
+
+def release_first(assignment: str) -> str:
+    """What to do about an assignment that is not in the gradebook yet."""
+    if found := PATTERN.search(assignment):
+        return (
+            f"nbgrader takes the {found[0]} in its name for a pattern, and cannot release it: give the "
+            f"folder solutions/{assignment} and its notebook a name without it"
+        )
+    return f"run `nbgrader generate_assignment {shlex.quote(assignment)}` first"
 
 
 def _fault(student: str) -> str:

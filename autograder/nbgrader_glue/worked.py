@@ -15,6 +15,7 @@ from nbgrader.coursedir import CourseDirectory
 from traitlets.config import Config
 
 from autograder import worked_answers
+from autograder.nbgrader_glue.names import release_first
 from autograder.nbgrader_glue.release import configuration
 from autograder.notebook.answers import model_answers
 from autograder.notebook.grade import is_judged
@@ -36,9 +37,7 @@ def open_answers(root: Path, when: dict[str, str]) -> Iterator[str]:
         time = worked_answers.time_of(said)
         folders = places(root, assignment)
         if not folders:
-            raise ValueError(
-                f"{assignment} is not released: run `nbgrader generate_assignment {assignment}` first"
-            )
+            raise ValueError(f"{assignment} is not released: {release_first(assignment)}")
         said = said if time is None else time.isoformat(timespec="minutes")
         worked_answers.write(root / SETTINGS, settings(root) | {assignment: said})
         is_open = time is not None and time <= datetime.now().astimezone()

@@ -13,7 +13,7 @@ import numpy as np
 
 from . import causes, riddles
 from .arguments import changed, real
-from .limits import PATIENCE, TimeLimitError, time_limit
+from .limits import PATIENCE, Limit, TimeLimitError, time_limit
 from .own_code import line_of
 from .readings import (
     MOST_NUMBERS,
@@ -142,9 +142,23 @@ def _closed(namespace: Mapping, names: tuple[str, ...]) -> Iterator[None]:
 
 
 def _called(call: Call, function: Callable, given: list, seconds: float) -> Reply:
-    """One call with the arguments in `given`; an empty list gets new ones first."""
+    """One call with the arguments in `given`; an empty list gets new ones first.
+
+    What comes after a stop that the function swallowed is no answer: it was stopped anywhere.
+    """
+    limit = time_limit(seconds)
+    reply = _within(limit, call, function, given)
+    return reply if limit.error is None else _stopped(limit.error)
+
+
+def _stopped(error: TimeLimitError) -> Reply:
+    kind = FaultKind.STARVED if error.starved else FaultKind.TIMED_OUT
+    return Reply(fault=Fault(kind, f"{error.seconds:g} s"))
+
+
+def _within(limit: Limit, call: Call, function: Callable, given: list) -> Reply:
     try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"), time_limit(seconds):
+        with warnings.catch_warnings(), np.errstate(all="ignore"), limit:
             warnings.simplefilter("ignore")
             given += [] if given else map(real, call.args)
             result = function(*given)
@@ -157,9 +171,8 @@ def _called(call: Call, function: Callable, given: list, seconds: float) -> Repl
         return Reply(fault=Fault(error.kind, shortened(str(error)), riddle=riddle))
     except NotImplementedError:
         return Reply(fault=Fault(FaultKind.NOT_IMPLEMENTED))
-    except TimeLimitError as limit:
-        kind = FaultKind.STARVED if limit.starved else FaultKind.TIMED_OUT
-        return Reply(fault=Fault(kind, f"{limit.seconds:g} s"))
+    except TimeLimitError as error:
+        return _stopped(error)
     except (Exception, SystemExit) as error:
         text = message_of(error)
         message = shortened(f"{type(error).__name__}: {text}")

@@ -100,6 +100,7 @@ class _Stopping(Limit):
         self._waiting = Waiting()
         self._unreported, sys.unraisablehook = sys.unraisablehook, self._swallowed
         self._traced: list[FrameType] = []
+        self._tracing = False
         self._trace = sys.gettrace()
         return self
 
@@ -128,8 +129,12 @@ class _Stopping(Limit):
             self._raise_above(sys._getframe(1))
 
     def _raise_above(self, frame: FrameType | None) -> None:
+        """Raise the error in this frame or one above, or in the next that begins or goes on: what C code
+        calls, such as the generator of `all(…)`, is not above its destructors.
+        """
+
         def raise_in(at: FrameType, event: str, found: object) -> None:
-            if self._armed and self.error is not None:
+            if self._armed and self.error is not None and at.f_code not in _OURS:
                 self._untrace()
                 raise TimeLimitError(*self.error.args)
 
@@ -138,10 +143,12 @@ class _Stopping(Limit):
             frame.f_trace = raise_in
             self._traced.append(frame)
             frame = frame.f_back
-        sys.settrace(_nothing)
+        self._tracing = True
+        sys.settrace(raise_in)
 
     def _untrace(self) -> None:
-        if self._traced:
+        if self._tracing:
+            self._tracing = False
             sys.settrace(self._trace)
             for frame in self._traced:
                 frame.f_trace = None
@@ -242,10 +249,6 @@ class _ByLooking(_Stopping):
         self._due = 0.0
 
 
-def _nothing(*_: object) -> None:
-    pass
-
-
 def _codes(*functions: Callable) -> frozenset:
     return frozenset(function.__code__ for function in functions)
 
@@ -254,6 +257,7 @@ def _codes(*functions: Callable) -> frozenset:
 _OURS = _codes(
     _BySignals.__enter__,
     _BySignals.__exit__,
+    _BySignals._came,
     _ByLooking.__enter__,
     _ByLooking.__exit__,
     _Stopping.__exit__,

@@ -2,10 +2,7 @@
 
 `ways.py` says what keeps the process apart, and how it is started.
 
-Limits on time count the processor's time, of all processes of a room together: on a busy machine, an
-honest answer takes longer on the clock, but no more processor time. Beside each stands a limit on the
-time in which no process of the room computes or is ready to, which is PATIENCE times as long, and far
-behind it one on the clock.
+`clock.py` says what its limits on time count.
 """
 
 import base64
@@ -16,14 +13,12 @@ import os
 import select
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from functools import cache
 from typing import NoReturn
 
 from autograder.protocol import (
     CALL_SECONDS,
-    FAR,
     MOST_NUMBERS,
     PATIENCE,
     Call,
@@ -32,6 +27,7 @@ from autograder.protocol import (
     encode_call,
     one_line,
 )
+from autograder.sandbox.clock import Clock, RoomLostError, StarvedError, TooLongError
 from autograder.sandbox.ways import Shared, Way, started, warm_process_of, ways_here
 
 log = logging.getLogger(__name__)
@@ -42,8 +38,6 @@ CELL_SECONDS = 10.0
 STARTED = 3.0
 # Code should stop at its limit inside the room. If it runs on for this long, the room is ended.
 GRACE_SECONDS = 3.0
-# A room's watch must answer within this time, also on a busy machine.
-WATCH_SECONDS = 60.0
 # How often the judge asks a silent room what it has used.
 LOOK_SECONDS = 0.25
 # Most notebooks import these; where the room's process is new, the first cell must not pay for it.
@@ -53,20 +47,6 @@ MOST_BYTES = 32 << 20
 MOST_VALUES = 1 << 20
 MOST_OUTPUTS = 110
 BYTES_A_NUMBER = 32
-
-
-class RoomLostError(Exception):
-    """The room's process ended, fell silent, or wrote something that is not a reply; it is gone now."""
-
-
-class TooLongError(RoomLostError):
-    """The room used more processor time than its limit, and did not stop by itself."""
-
-
-class StarvedError(RoomLostError):
-    """The room was silent until it had waited, or the clock had run, for too long, and had used less
-    processor time than it may.
-    """
 
 
 class Room:
@@ -84,7 +64,7 @@ class Room:
         self._buffer = bytearray()
         self._process = started(self.way)
         os.set_blocking(self._process.requests, False)
-        self._before = self._used = self._idle = self._waited = 0.0
+        self._clock = Clock(self._process)
         try:
             hello = self._receive(math.inf, START_SECONDS, MOST_BYTES, MOST_VALUES)
             if not hello.get("ready"):
@@ -94,7 +74,7 @@ class Room:
         except RoomLostError as error:
             # Nothing of the student's has run yet.
             raise OSError(f"the sandbox did not start: {error}") from None
-        self._forget_time()
+        self._clock.begin()
 
     @classmethod
     def loaded(cls, files: Mapping[str, bytes] | None = None) -> "Room":
@@ -107,7 +87,7 @@ class Room:
                 room._lay(files)
         except RoomLostError as error:
             raise OSError(f"the sandbox did not start: {error}") from None
-        room._forget_time()
+        room._clock.begin()
         return room
 
     def __enter__(self):
@@ -119,12 +99,12 @@ class Room:
     @property
     def used(self) -> float:
         """The processor time of all processes of the room, s, when it was last asked for."""
-        return self._used - self._before
+        return self._clock.counted
 
     @property
     def idle(self) -> float:
         """How long, while the room had something to do, no process of it computed or was ready to, s."""
-        return self._waited
+        return self._clock.waited
 
     def run(self, source: str, seconds: float = CELL_SECONDS) -> list[dict]:
         """Run a cell, and return its outputs.
@@ -133,7 +113,7 @@ class Room:
         """
         idle = PATIENCE * seconds + GRACE_SECONDS
         most = STARTED * seconds + GRACE_SECONDS
-        with self._working():
+        with self._clock.working():
             self._send({"run": source, "seconds": seconds})
             message = self._receive(most, idle, MOST_BYTES, MOST_VALUES)
             outputs = message.get("outputs")
@@ -151,22 +131,23 @@ class Room:
         also has limits of its own, inside the room and, for code that ignores those, here.
         """
         replies: list[Reply] = []
-        with self._working():
-            ends, most = self._idle + idle, self._used + seconds
+        with self._clock.working():
+            clock = self._clock
+            ends, most = clock.idle + idle, clock.used + seconds
             self._send({"ask": [encode_call(call) for call in calls]})
             looked = time.monotonic()
             while len(replies) < len(calls):
                 # Quick replies leave no silence in which to look.
                 if time.monotonic() - looked > LOOK_SECONDS:
-                    self._look()
+                    clock.look()
                     looked = time.monotonic()
-                if self._used > most:
+                if clock.used > most:
                     self._lost(f"no reply within {seconds:g} s of processor time", TooLongError)
-                if self._idle > ends:
+                if clock.idle > ends:
                     self._lost(f"no reply within {max(idle, 0):g} s", StarvedError)
                 message = self._receive(
-                    min(CALL_SECONDS + GRACE_SECONDS, most - self._used),
-                    min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - self._idle),
+                    min(CALL_SECONDS + GRACE_SECONDS, most - clock.used),
+                    min(PATIENCE * CALL_SECONDS + GRACE_SECONDS, ends - clock.idle),
                     BYTES_A_NUMBER * MOST_NUMBERS,
                     4 * MOST_NUMBERS,
                 )
@@ -177,16 +158,6 @@ class Room:
                     break
             self._sweep()
         return replies
-
-    @contextmanager
-    def _working(self) -> Iterator[None]:
-        """Count the time of waiting in the block; between requests, a room waits for the judge."""
-        self._look()
-        idle = self._idle
-        try:
-            yield
-        finally:
-            self._waited += self._idle - idle
 
     @property
     def closed(self) -> bool:
@@ -216,7 +187,7 @@ class Room:
                     left = left[os.write(stdin, left) :]
                     continue
                 # A process that does not read must not make the judge wait for ever.
-                over = over or self._over(GRACE_SECONDS, GRACE_SECONDS)
+                over = over or self._clock.over(GRACE_SECONDS, GRACE_SECONDS)
                 if over():
                     self._lost("it stopped listening")
         except OSError:
@@ -224,19 +195,8 @@ class Room:
 
     def _sweep(self) -> None:
         """End what the student's code started; if that fails, end the room."""
-        used = self._process.ask_watch("sweep", WATCH_SECONDS)
-        if used is None:
+        if not self._clock.look("sweep"):
             self._lost("it left processes behind")
-        self._used, self._idle = used
-
-    def _look(self) -> None:
-        used = self._process.ask_watch("used", WATCH_SECONDS)
-        self._used, self._idle = used or (self._used, self._idle)
-
-    def _forget_time(self) -> None:
-        """Do not count the time that the room has used so far."""
-        self._look()
-        self._before = self._used
 
     def _receive(self, seconds: float, idle: float, most_bytes: int, most_values: int) -> dict:
         line = self._read_line(seconds, idle, most_bytes)
@@ -255,20 +215,6 @@ class Room:
             self._lost("it wrote something that is not a reply")
         return message
 
-    def _over(self, seconds: float, idle: float) -> Callable[[], type[RoomLostError] | None]:
-        """A function that looks, and says by what kind of limit the room is over, counted from now."""
-        self._look()
-        most, longest = self._used + seconds, self._idle + idle
-        far = time.monotonic() + FAR / PATIENCE * idle
-
-        def over() -> type[RoomLostError] | None:
-            self._look()
-            if self._used > most:
-                return TooLongError
-            return StarvedError if self._idle > longest or time.monotonic() > far else None
-
-        return over
-
     def _read_line(self, seconds: float, idle: float, most_bytes: int) -> bytes:
         stdout = self._process.replies
         searched, over = 0, None
@@ -278,7 +224,7 @@ class Room:
                 self._lost("it wrote too much")
             if not select.select([stdout], [], [], LOOK_SECONDS)[0]:
                 # Between calls nobody asks for the time used, so that this call's time starts here.
-                over = over or self._over(seconds, idle)
+                over = over or self._clock.over(seconds, idle)
                 kind = over()
                 if kind is TooLongError:
                     self._lost(f"no reply within {seconds:g} s of processor time", kind)

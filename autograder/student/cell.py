@@ -123,9 +123,9 @@ def verdict_on(id: str, namespace: Mapping, fresh: bool = False) -> Verdict:
             return [Reply(fault=Fault(FaultKind.CELL_FAILED, error))]
         return replies
 
-    started = time.monotonic()
+    started = time.process_time()
     verdict = judged.run(ask, rng, count, Carrying(partial(_earlier, id)))
-    quick = time.monotonic() - started < SLOW
+    quick = time.process_time() - started < SLOW  # on a busy machine too
     return as_pasted(verdict, judged, ask, asked, namespace) if quick else verdict
 
 

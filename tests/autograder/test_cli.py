@@ -146,3 +146,22 @@ def test_a_grammar_that_nobody_needs_is_not_loaded(command, tmp_path):
         "assert 'nbformat' in sys.modules\nsys.exit('lark' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], cwd=tmp_path).returncode == 0
+
+
+def test_a_folder_whose_name_nbgrader_takes_for_a_pattern_is_written_and_named(course, capsys):
+    name = "x [y]"
+    (course / "solutions" / P3).rename(course / "solutions" / name)
+    folder = course / "solutions" / name
+    (folder / f"{P3}.ipynb").rename(folder / f"{name}.ipynb")
+    (course / "course").mkdir()
+    assert main(["problems"]) == 0
+    assert f"problems/{name}/{name}.ipynb: written" in capsys.readouterr().out
+    written = nbformat.read(course / "problems" / name / f"{name}.ipynb", as_version=4)
+    assert "BEGIN SOLUTION" not in "".join(cell.source for cell in written.cells)
+    for command in (["grade", name, "--jobs", "1"], ["report", name]):
+        assert main(command) == 2
+        assert capsys.readouterr().err == (
+            "autograder: the gradebook does not know x [y]: nbgrader takes the [ in its name for a "
+            "pattern, and cannot release it: give the folder solutions/x [y] and its notebook a name "
+            "without it\n"
+        )

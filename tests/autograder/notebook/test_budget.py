@@ -86,6 +86,30 @@ def test_a_budget_that_was_waited_through_is_not_certain():
         assert sitting.uncertain == ["the cell that begins with “1 s”", "150 s asleep"]
 
 
+def test_a_budget_that_was_computed_and_waited_through_is_certain():
+    """The processor's time alone would have ended it too."""
+    budget = Budget("the cells", 10.0)
+    budget.take("one", 11.0, 51.0)
+    assert budget.is_over
+    assert not budget.is_over_by_waiting
+    assert "had used up the 10 s that they have together (one took 11 s)" in budget.spent()
+
+
+def test_a_cell_that_a_clock_ended_is_not_certain(monkeypatch):
+    """In the room, where it goes on, and by the judge, who closes it."""
+    monkeypatch.setattr("autograder.sandbox.room.GRACE_SECONDS", 0.2)
+    monkeypatch.setattr(Room.run, "__defaults__", (0.05,))
+    sleep = "import time\ntime.sleep(30)"
+    stop = "import os, signal\nos.kill(os.getpid(), signal.SIGSTOP)"
+    with Sitting(Room) as sitting:
+        (shown,) = sitting.run(sleep)
+        assert shown["evalue"] == "this cell had not ended after 0.25 s on the clock"
+        assert sitting.uncertain == ["the cell that begins with “import time”"]
+        (shown,) = sitting.run(stop)
+        assert shown["ename"] == "RoomLostError"
+        assert sitting.uncertain[1:] == ["the cell that begins with “import os, signal”"]
+
+
 def test_a_cell_may_hold_any_text():
     budget = Budget("the cells", 1.0)
     budget.take(sitting_module.cell("\n  \x1b[31m" + "x" * 99), 1.0, 0.0)

@@ -1,6 +1,7 @@
 """A stop reaches the code wherever it is, leaves its error, and nothing of it comes afterwards."""
 
 import signal
+import subprocess
 import sys
 import time
 import warnings
@@ -8,6 +9,7 @@ import warnings
 import pytest
 
 from autograder.protocol import limits
+from autograder.protocol import waiting as waiting_module
 from autograder.protocol.waiting import Stopwatch, Waiting
 
 OFTEN = 40
@@ -59,6 +61,11 @@ def endless_destructor():
         pass
 
 
+def destructors_below_c():
+    """Hardly any time passes but in a destructor, and no Python stands above it but the caller of C."""
+    all(Dying() for _ in iter(int, 1))
+
+
 def generators():
     def given():
         while True:
@@ -91,8 +98,8 @@ def by_processor(monkeypatch):
     monkeypatch.setattr(limits, "FAR", 1e5)
 
 
-CODE = [loop, caught, at_last, destructors, endless_destructor, generators,
-        warnings_caught]  # fmt: skip
+CODE = [loop, caught, at_last, destructors, destructors_below_c, endless_destructor,
+        generators, warnings_caught]  # fmt: skip
 
 
 @pytest.mark.parametrize("code", CODE)
@@ -179,13 +186,60 @@ def test_time_in_which_something_computes_or_could_is_no_waiting():
     assert waiting.look() - computing > 0.2
 
 
-def test_a_stopwatch_counts_what_is_computed_and_a_part_of_what_is_slept():
+COMPUTE = "import time\nwhile time.process_time() < 0.8: pass"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux says what other processes compute")
+def test_what_a_program_computes_that_was_started_is_no_waiting():
+    """While it runs, as a student's compiler does, and when it has ended since the last look."""
+    waiting = Waiting()
+    waiting.look()
+    clock = time.monotonic()
+    with subprocess.Popen([sys.executable, "-c", COMPUTE]) as program:
+        while program.poll() is None:
+            assert time.monotonic() - clock < 60
+            time.sleep(0.02)
+            waiting.look()
+    assert waiting.look() < 0.5 * (time.monotonic() - clock)
+    # Nobody looked while this one ran.
+    waiting = Waiting()
+    waiting.look()
+    clock = time.monotonic()
+    subprocess.run([sys.executable, "-c", COMPUTE], check=True, timeout=60)
+    assert waiting.look() < time.monotonic() - clock - 0.7
+
+
+def test_where_the_system_tells_nothing_what_does_not_compute_waits(monkeypatch):
+    """As on macOS and Windows, which have no /proc."""
+
+    def nothing(*_):
+        raise FileNotFoundError
+
+    monkeypatch.setattr("builtins.open", nothing)
+    monkeypatch.setattr("os.listdir", nothing)
+    monkeypatch.delattr("os.sysconf")
+    waiting, watch = Waiting(), Stopwatch()
+    assert waiting.look() == 0.0
+    time.sleep(0.2)
+    assert waiting.look() >= 0.19
+    assert watch.seconds(2.0) >= 0.09
+
+
+def test_a_stopwatch_counts_what_is_computed_and_a_part_of_what_is_slept(monkeypatch):
     watch = Stopwatch()
     _compute(0.1)
     assert watch.seconds(5.0) >= 0.1
     watch = Stopwatch()
+    clock = time.monotonic()
     time.sleep(0.3)
-    assert watch.seconds(3.0) >= 0.09
+    slept = watch.seconds(3.0)
+    assert 0.09 <= slept <= (time.monotonic() - clock) / 3
+    # Ready, and without a processor for all of it.
+    watch = Stopwatch()
+    delay = waiting_module._delay
+    monkeypatch.setattr(waiting_module, "_delay", lambda path: delay(path) + 0.3)
+    time.sleep(0.3)
+    assert watch.seconds(1.0) < slept
 
 
 def _compute(seconds: float) -> None:

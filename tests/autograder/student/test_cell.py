@@ -1,15 +1,18 @@
 """check() where students call it: in a notebook's kernel, under nbgrader validate, and elsewhere."""
 
+import itertools
 import re
+import time
 
 import nbclient
 import nbformat
+import numpy as np
 import pytest
 
 from autograder import check, hint, look_at
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS, UnknownCheckError, nearest
-from autograder.student.cell import NotCorrectError
+from autograder.student.cell import NotCorrectError, verdict_on
 
 START = "start-kinetic-energy"
 BODIES = {
@@ -200,3 +203,13 @@ def test_visible_cases_stay_and_fresh_ones_change():
 
     assert worst() == worst()
     assert worst(fresh=True) != worst(fresh=True)
+
+
+def test_a_busy_machine_changes_nothing_on_a_card(monkeypatch):
+    wrong = {"g_vec": lambda q, pend: [pend.m * pend.g * pend.lc * np.cos(q[0])]}
+    expected = verdict_on("p3-g_vec", wrong)
+    ticks = itertools.count(step=3.0)
+    monkeypatch.setattr(
+        time, "monotonic", lambda: next(ticks)
+    )  # hardly any of it is this program's
+    assert verdict_on("p3-g_vec", wrong).witness.call == expected.witness.call
