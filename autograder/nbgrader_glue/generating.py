@@ -31,13 +31,11 @@ class ReleaseExporter(NotebookExporter):
     def __init__(self, config=None, **kw):
         super().__init__(config=config, **kw)
         converter = self.parent
-        if converter is None:
+        if converter is None or converter.no_database:
             return
         for notebooks in getattr(converter, "assignments", {}).values():
             for path in map(Path, sorted(notebooks)):
                 look_at(path, converter.coursedir.ignore, converter.log)
-        if converter.no_database:
-            return
         can_start(converter)
         convert = converter.convert_notebooks
 

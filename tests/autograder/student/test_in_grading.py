@@ -8,7 +8,7 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell
 
-from autograder.notebook import sitting
+from autograder.notebook import budget
 from autograder.sandbox import room
 from autograder.student import in_grading
 from autograder.student.in_grading import Told, of_file
@@ -23,7 +23,7 @@ P3 = "p3-pendulum"
 def test_the_limits_are_the_graders():
     assert (in_grading.CELL_SECONDS, in_grading.NOTEBOOK_SECONDS) == (
         room.CELL_SECONDS,
-        sitting.NOTEBOOK_SECONDS,
+        budget.OWN_SECONDS,
     )
 
 
