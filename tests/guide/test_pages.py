@@ -5,6 +5,7 @@ import shutil
 from collections import Counter
 from datetime import UTC, datetime, timedelta
 
+import nbformat
 import pytest
 from nbgrader.apps.nbgraderapp import NbGraderApp
 
@@ -18,6 +19,7 @@ from tests.guide.document import LANGUAGES, ROOT, Page, pages
 from tests.guide.not_run import REASONS
 from tests.guide.people import hand_in, lay_in, mark_proofs, notebook
 from tests.guide.session import follow
+from tests.submissions.answers import cell_of
 
 TWO_DAYS_LATE = datetime(2026, 11, 30, 18, tzinfo=UTC)  # 25 hours after the guide's due date
 FILES = {"csv": "course/class.csv", "toml": "course/calendar.toml"}
@@ -28,6 +30,7 @@ FOLLOWED = {
     "docs/handing-out.md",
     "docs/grading-rules.md",
     "docs/platforms.md",
+    "docs/marking.md",
     "docs/own-problem.md",
     "CONTRIBUTING.md",
 }
@@ -39,6 +42,25 @@ def class_hands_in(root):
     hand_in(root, "eve", "blank")
 
 
+def eve_hands_in_again(root):
+    """Once the class is collected: "run it again: the latest counts"."""
+    if not (root / "course" / "autograded").exists():
+        hand_in(root, "eve", "right", TWO_DAYS_LATE + timedelta(days=1))
+        courses.run(root, "nbgrader", "collect", P3)
+
+
+def more_points(root):
+    path = root / "solutions" / P3 / NOTEBOOK
+    source = nbformat.read(path, as_version=4)
+    cell_of(source, "p3-M").metadata["nbgrader"]["points"] = 2
+    nbformat.write(source, path)
+
+
+def pages_are_made_again(root):
+    for command in ("generate_feedback", "release_feedback"):
+        courses.run(root, "nbgrader", command, P3)
+
+
 def test_the_term_of_the_guide(tmp_path):
     course = courses.before_the_first_command(tmp_path / "course")
     printed = follow(
@@ -46,9 +68,9 @@ def test_the_term_of_the_guide(tmp_path):
         course,
         {
             "nbgrader collect p3-pendulum": class_hands_in,
-            "nbgrader collect --update p3-pendulum": lambda root: hand_in(
-                root, "eve", "right", TWO_DAYS_LATE + timedelta(days=1)
-            ),
+            "autograder grade p3-pendulum": eve_hands_in_again,
+            "nbgrader generate_assignment p3-pendulum --force": more_points,
+            "autograder archive": pages_are_made_again,
             "nbgrader generate_feedback p3-pendulum": mark_proofs,
         },
         FILES,
@@ -149,12 +171,33 @@ def the_file_is_filled_in(root):
         path.write_text(example, encoding="utf-8")
 
 
+def the_model_answers_are_written(root):
+    """Those of the file that the first command wrote, once there is a notebook."""
+    path = root / "solutions" / "crane" / "crane.ipynb"
+    if path.exists():
+        source = nbformat.read(path, as_version=4)
+        for name, lines in CRANE.items():
+            cell = cell_of(source, f"answer-crane-{name}")
+            cell.source = re.sub("raise NotImplementedError.*", lines, cell.source)
+        nbformat.write(source, path)
+
+
+CRANE = {
+    "small_swing": "return np.sqrt((arm.mt + arm.ml) * arm.g / (arm.mt * arm.l))",
+    "M": """c = arm.ml * arm.l * np.cos(q[1])
+    return np.array([[arm.mt + arm.ml, c], [c, arm.ml * arm.l**2]])""",
+}
+
+
 def test_problems_of_ones_own(tmp_path):
     course = courses.new_course(tmp_path / "course")
     (course / "lessons").symlink_to(ROOT / "lessons")
-    others = {"autograder new-problem block": the_file_is_filled_in}
+    others = {
+        "autograder new-problem block": the_file_is_filled_in,
+        "autograder try crane": the_model_answers_are_written,
+    }
     follow("docs/own-problem.md", course, others, {})
-    for name in ("cart-pole", "block"):
+    for name in ("cart-pole", "block", "crane"):
         assert (course / "course" / "release" / name / f"{name}.ipynb").exists()
 
 
