@@ -28,7 +28,8 @@ REASONS = {
     'pip install -c constraints.txt -e ".[test]"': REGISTRY,
     'pip install -c constraints.txt -e ".[browser]"': REGISTRY,
     "pip install --dry-run --ignore-installed --only-binary=:all: --python-version 3.11.0 --target "
-    'nowhere --report report.json appnope colorama pywinpty ".[browser,dev,hub,lti,peers,site]"': REGISTRY,
+    "nowhere --report report.json "
+    'appnope colorama pywinpty ".[browser,dev,hub,lti,peers,site]"': REGISTRY,
     "make site": "tests/browser/test_site.py does, where .[site] is installed",
     "make book": "tests/test_book.py makes one, where .[site] is installed",
     "make browser": "tests/browser/test_in_browser.py does, where Pyodide is at hand",
