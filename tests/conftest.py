@@ -33,6 +33,7 @@ PROGRAMS = {
 FIRST = (
     "test_class_server.py",
     "test_nbgrader.py",
+    "test_sessions.py",
     "test_kills.py",
     "test_wolfram.py",
     "test_hostile_files.py",

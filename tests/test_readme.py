@@ -64,7 +64,7 @@ def test_feedback_reaches_students_by_the_commands_of_the_readme():
     )
     shown = ["problems", "lab"]
     assert [one for one in commands if one not in shown] == [
-        *("generate_assignment", "release_assignment", "collect", "grade"),
+        *("generate_assignment", "release_assignment", "collect", "grade", "mark"),
         *("generate_feedback", "release_feedback", "export", "archive"),
     ]
 

@@ -21,7 +21,7 @@ marks.csv              a row for each student and assignment
 marks-by-student.csv   a row for each student
 course/                all that the course held: gradebook.db, submitted/, autograded/, feedback/,
                        release/, seed, and class.csv and calendar.toml if there were such files
-solutions/, nbgrader_config.py   by which it was graded
+solutions/, checks/, nbgrader_config.py   by which it was graded
 SHA256SUMS             a sum of each file
 
 Is it whole?  In this folder:  sha256sum --check --quiet SHA256SUMS

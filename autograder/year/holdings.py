@@ -10,7 +10,13 @@ COURSE = "course"
 MADE_AGAIN = ("cache-of-results",)  # in course/: what commands make again when it is needed
 OF_THE_MOMENT = ("grading.lock",)
 PARTS = (".part", "-journal", "-wal", "-shm")  # what a file ends with that is being written
-BESIDE_IT = ("solutions", "nbgrader_config.py")  # without which no mark could be explained
+# How a platform knows the course: of no year, and who has the key can send marks.
+OF_THE_PLATFORM = ("lti-key.pem", "lti-public.pem", "lti-key-set.json", "lti.toml")
+BESIDE_IT = (
+    "solutions",
+    "checks",
+    "nbgrader_config.py",
+)  # without which no mark could be explained
 
 
 @dataclass
@@ -38,7 +44,7 @@ def holdings(root: Path) -> Holdings:
 
 def _below(folder: Path) -> Iterator[Path]:
     """All that is in a folder and is no folder; what stands directly in it may be a link to one."""
-    for path in sorted(folder.iterdir()):
+    for path in sorted(folder.iterdir()) if folder.exists() else ():
         if path.name in (".ipynb_checkpoints", "__pycache__"):
             continue
         if not path.is_dir():
@@ -57,7 +63,7 @@ def _passing(name: Path) -> bool:
     top, *below = name.parts
     if top != COURSE or not below:
         return False
-    return below[0] in (*MADE_AGAIN, *OF_THE_MOMENT) or name.name.endswith(PARTS)
+    return below[0] in (*MADE_AGAIN, *OF_THE_MOMENT, *OF_THE_PLATFORM) or name.name.endswith(PARTS)
 
 
 def _unfit(path: Path, name: str) -> str:

@@ -11,6 +11,8 @@ import os
 import subprocess
 import sys
 import tempfile
+import threading
+import traceback
 from functools import cache
 from pathlib import Path
 
@@ -73,7 +75,28 @@ def _run(main, arguments, folder, environment, log) -> None:
     os.environ.clear()
     os.environ.update(environment)
     sys.argv = arguments
-    sys.exit(main())
+    _exit(main)
+
+
+def _exit(main) -> None:
+    """End as Python does after `main`, but do not take the modules apart: that takes longer than most
+    commands.
+    """
+    try:
+        code = main()
+    except SystemExit as ended:
+        code = ended.code
+    except BaseException:
+        traceback.print_exc()
+        code = 1
+    if not isinstance(code, int | None):
+        print(code, file=sys.stderr)
+        code = 1
+    threading._shutdown()  # type: ignore[attr-defined]  # waits for threads
+    atexit._run_exitfuncs()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code or 0)
 
 
 if __name__ == "__main__":

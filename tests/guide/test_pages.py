@@ -1,67 +1,29 @@
-"""Each page's commands run as they stand there, with their exit status, in a course with students."""
+"""What the pages say beside their commands: none is left out, and names, links and options are there."""
 
 import re
-import shutil
 from collections import Counter
-from datetime import UTC, datetime, timedelta
 
 import pytest
 from nbgrader.apps.nbgraderapp import NbGraderApp
 
 from autograder import roster, term_calendar
 from autograder.cli import main
+from autograder.lti import registration
 from autograder.roster import Person
-from tests.autograder import courses
-from tests.autograder.courses import NOTEBOOK, P3
-from tests.autograder.lms.platforms import canvas_sheet, moodle_folder, moodle_sheet, zipped
 from tests.guide.document import LANGUAGES, ROOT, Page, pages
 from tests.guide.not_run import REASONS
-from tests.guide.people import hand_in, lay_in, mark_proofs, notebook
-from tests.guide.session import follow
 
-TWO_DAYS_LATE = datetime(2026, 11, 30, 18, tzinfo=UTC)  # 25 hours after the guide's due date
-FILES = {"csv": "course/class.csv", "toml": "course/calendar.toml"}
-# Which test runs the commands of a page, that is, which sessions are below.
+# The pages whose commands test_sessions.py runs.
 FOLLOWED = {
     "README.md",
     "docs/instructors.md",
     "docs/handing-out.md",
     "docs/grading-rules.md",
     "docs/platforms.md",
+    "docs/marking.md",
     "docs/own-problem.md",
     "CONTRIBUTING.md",
 }
-
-
-def class_hands_in(root):
-    hand_in(root, "ada", "right")
-    hand_in(root, "bob", "partly_right", TWO_DAYS_LATE)
-    hand_in(root, "eve", "blank")
-
-
-def test_the_term_of_the_guide(tmp_path):
-    course = courses.before_the_first_command(tmp_path / "course")
-    printed = follow(
-        "docs/instructors.md",
-        course,
-        {
-            "nbgrader collect p3-pendulum": class_hands_in,
-            "nbgrader collect --update p3-pendulum": lambda root: hand_in(
-                root, "eve", "right", TWO_DAYS_LATE + timedelta(days=1)
-            ),
-            "nbgrader generate_feedback p3-pendulum": mark_proofs,
-        },
-        FILES,
-    )
-    assert "Still open" not in printed
-    marks, sums = ((course / name).read_text("utf-8-sig") for name in ("marks.csv", "sums.csv"))
-    assert marks.count("graded") == 3
-    assert sums.count("Lovelace") == 1
-    archives = sorted(path.name for path in (course / "archive").iterdir())
-    assert sorted("without-names" in name for name in archives) == [False, False, True]
-    left = {path.name for path in (course / "course").iterdir()}
-    assert {"calendar-of-last-year.toml", "release", "gradebook.db"} <= left
-    assert not {"class.csv", "calendar.toml", "submitted", "feedback", "seed"} & left
 
 
 def test_the_minute_of_the_readme_is_the_guides_term_in_short():
@@ -74,57 +36,6 @@ def test_the_minute_of_the_readme_is_the_guides_term_in_short():
         assert found, (
             f"{command.place}: {command.text} is not in docs/instructors.md, in this order"
         )
-
-
-NAMES = {"ada": "Ada Lovelace", "bob": "Bob Doe"}
-
-
-def moodle_gives(root):
-    (root / "course" / "class.csv").write_text(
-        "id,last_name,first_name,email,lms_id\n"
-        "ada,Lovelace,Ada,ada@x.org,11\nbob,Doe,Bob,bob@x.org,12\n"
-    )
-    numbers = dict(zip(NAMES, ("301", "302"), strict=True))
-    zipped(
-        root / "submissions.zip",
-        {
-            f"{moodle_folder(NAMES[one], numbers[one])}/{NOTEBOOK}": notebook(root, "right")
-            for one in NAMES
-        },
-    )
-    time = "Saturday, 28 November 2026, 5:59 PM"
-    rows = [{"number": numbers[one], "name": NAMES[one], "email": f"{one}@x.org", "submitted": time}
-            for one in NAMES]  # fmt: skip
-    moodle_sheet(root / "worksheet.csv", rows, "en", "15.00")
-
-
-def canvas_gives(root):
-    rows = [{"name": name, "number": 11 + at} for at, name in enumerate(NAMES.values())]
-    canvas_sheet(root / "gradebook.csv", rows, {f"{P3} (77)": "15"})
-
-
-def pages_are_made(root):
-    mark_proofs(root)
-    courses.run(root, "nbgrader", "generate_feedback", P3)
-    canvas_gives(root)
-
-
-def test_the_pages_by_subject(tmp_path):
-    """A class of notebooks that came by mail; then one in Moodle."""
-    root = courses.new_course(tmp_path / "course")
-    lay_in(root, "cem", "right")
-    lay_in(root, "dan", "wrong")
-    follow("docs/grading-rules.md", root, {}, {})
-    assert (root / "course" / "report" / f"{P3}.html").exists()
-    follow("docs/handing-out.md", root, {}, {})
-    assert (root / "course" / "worked-answers.json").exists()
-    in_moodle = f"autograder export --for moodle {P3} --sheet worksheet.csv --to filled.csv"
-    others = {
-        f"autograder collect-zip {P3} submissions.zip --sheet worksheet.csv": moodle_gives,
-        f"{in_moodle} --feedback pages.zip": pages_are_made,
-    }
-    follow("docs/platforms.md", root, others, {})
-    assert (root / "pages.zip").exists()
 
 
 def test_the_class_list_and_the_calendar_of_the_page_are_read(tmp_path):
@@ -140,32 +51,13 @@ def test_the_class_list_and_the_calendar_of_the_page_are_read(tmp_path):
     assert term_calendar.read_if_there(tmp_path).of("p4-gravity").penalty == term_calendar.ZERO
 
 
-def the_file_is_filled_in(root):
-    path = root / "solutions" / "block" / "block.py"
-    if not (root / "solutions" / "block" / "block.ipynb").exists() and path.exists():
-        (example,) = (
-            text for text in Page("docs/own-problem.md").texts("python") if 'name="block"' in text
-        )
-        path.write_text(example, encoding="utf-8")
-
-
-def test_problems_of_ones_own(tmp_path):
-    course = courses.new_course(tmp_path / "course")
-    (course / "lessons").symlink_to(ROOT / "lessons")
-    others = {"autograder new-problem block": the_file_is_filled_in}
-    follow("docs/own-problem.md", course, others, {})
-    for name in ("cart-pole", "block"):
-        assert (course / "course" / "release" / name / f"{name}.ipynb").exists()
-
-
-def test_what_contributors_type(tmp_path):
-    shutil.copytree(ROOT / "lessons", tmp_path / "lessons")
-    (tmp_path / "nbgrader_config.py").touch()
-    first = next((tmp_path / "lessons").glob("05-*.ipynb"))
-    first.rename(first.with_name("NN-title.ipynb"))
-    (tmp_path / "tests").symlink_to(ROOT / "tests")
-    (tmp_path / ".venv").symlink_to(ROOT / ".venv")
-    follow("CONTRIBUTING.md", tmp_path, {}, {})
+def test_the_registration_of_the_page_is_read(tmp_path):
+    (held,) = Page("docs/platforms.md").texts("toml")
+    (tmp_path / "course").mkdir()
+    (tmp_path / registration.FILE).write_text(held, encoding="utf-8")
+    found = registration.read(tmp_path)
+    assert (found.client_id, found.issuer) == ("Zk3xQ7", "https://moodle.example.edu")
+    assert found.members_url.endswith("/memberships")
 
 
 def test_each_block_says_what_it_is_and_no_command_is_left_out():

@@ -21,10 +21,8 @@ P3 = "p3-pendulum"
 
 
 def test_the_limits_are_the_graders():
-    assert (in_grading.CELL_SECONDS, in_grading.NOTEBOOK_SECONDS) == (
-        room.CELL_SECONDS,
-        budget.OWN_SECONDS,
-    )
+    assert in_grading.CELL_SECONDS == room.CELL_SECONDS
+    assert {in_grading.CELLS_SECONDS} == {budget.GIVEN_SECONDS, budget.OWN_SECONDS}
 
 
 class Shell:
@@ -90,18 +88,20 @@ def test_a_module_beside_the_notebook_is_told_and_one_elsewhere_costs(tmp_path, 
 
 
 @pytest.mark.parametrize(
-    ("seconds", "said"),
+    ("seconds", "said", "costs"),
     [
-        ([9.0, 9.0], None),
-        ([1.0, 12.4], "took 12 s of processor time; the grader stops a cell after 10 s."),
-        ([9.5] * 7, "took 66 s of processor time; the grader stops after 60 s."),
+        ([9.0, 9.0], None, False),
+        ([1.0, 12.4], "took 12 s of processor time; the grader stops a cell after 10 s.", True),
+        ([9.5] * 7, "gives 60 s to the problem's cells, and 60 s to your own.", False),
+        ([9.5] * 13, "gives 60 s to the problem's cells, and 60 s to your own.", True),
     ],
 )
-def test_times_are_told(seconds, said):
+def test_times_are_told(seconds, said, costs):
     cells = in_grading.Cells(Shell())
     cells._seconds = dict(enumerate(seconds))
     found = cells.told()
     assert [one.said.endswith(said or "") for one in found] == ([True] if said else [])
+    assert [one.costs for one in found] == ([costs] if said else [])
 
 
 def write(folder, notebook, name=f"{P3}.ipynb"):

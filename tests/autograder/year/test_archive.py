@@ -7,6 +7,7 @@ import zipfile
 
 import pytest
 
+from autograder.lti import key, registration
 from autograder.year import archive
 from autograder.year.archive import DamagedError, read_back, write
 from autograder.year.holdings import holdings
@@ -80,6 +81,27 @@ def test_where_it_does_not_come_back_nothing_is_left(contents, tmp_path, monkeyp
     with pytest.raises(DamagedError):
         write(tmp_path / "year.zip", "year", contents)
     assert [path for path in tmp_path.iterdir() if path.is_file()] == []
+
+
+def test_what_a_person_wrote_beside_the_course_is_kept_and_no_key_of_the_platform(tmp_path):
+    for name in (
+        "solutions/crane/crane.ipynb",
+        "checks/crane.py",
+        "course/seed",
+        "nbgrader_config.py",
+    ):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    kept = set(holdings(tmp_path).files)
+    for one in (key.PRIVATE, key.PUBLIC, key.KEY_SET, registration.FILE):
+        (tmp_path / one).touch()
+    assert set(holdings(tmp_path).files) == kept
+    assert kept == {
+        "solutions/crane/crane.ipynb",
+        "checks/crane.py",
+        "course/seed",
+        "nbgrader_config.py",
+    }
 
 
 def test_links_and_pipes_are_named_and_not_followed(tmp_path):
