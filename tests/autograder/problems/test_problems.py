@@ -327,6 +327,17 @@ def test_a_right_submission_is_right_however_its_cells_are_dressed(given):
     assert graded.notes == ()
 
 
+def test_each_lost_point_of_a_submission_traces_to_a_sentence(given):
+    for kind in ("blank", "wrong", "partly_right", "crashing", "mangled"):
+        if kind != "blank" and not hasattr(given.submissions, kind):
+            continue
+        for id, verdict in given.graded(kind).verdicts.items():
+            if verdict.credit < 1 and not verdict.rows:
+                assert verdict.problem or verdict.next_step, (kind, id)
+            for row, said in verdict.said_of_rows():
+                assert bool(said) != row.met, (kind, id, row.text, said)
+
+
 def assert_said(given, kind, expected):
     """Beside what is said where a criterion knows no mistake, or on what its numbers depend."""
     for check_id, verdict in given.graded(kind).verdicts.items():
