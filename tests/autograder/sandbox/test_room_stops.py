@@ -96,15 +96,15 @@ def test_a_cell_ends_at_its_limit_with_our_sentence_whatever_it_catches(way):
 @COLD_AT_NIGHT
 def test_a_cell_that_swallows_every_stop_is_a_loss_that_is_named(way, monkeypatch):
     monkeypatch.setattr(sandbox, "GRACE_SECONDS", 0.4)
+    cell = "while True:\n    try:\n        while True: pass\n    except: pass"
     with Room(way) as room:
         try:
-            shown = room.run(
-                "while True:\n    try:\n        while True: pass\n    except: pass", LIMIT
-            )
+            said = room.run(cell, LIMIT)[-1]["evalue"]
         except TooLongError as lost:
-            assert "no reply within 1 s of processor" in str(lost)
-        else:  # a stop came between one try and the next
-            assert shown[-1]["evalue"] == "this cell ran longer than 0.2 s"
+            said = str(lost)
+    # The first where a stop came between one try and the next.
+    told = "this cell ran longer than 0.2 s", "no reply within 1 s of processor"
+    assert any(one in said for one in told)
 
 
 @COLD_AT_NIGHT
