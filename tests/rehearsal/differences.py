@@ -80,6 +80,19 @@ def of_a_sheet(term: Term, path: Path, name: str, key: str, mark: str) -> Iterat
         yield from _differ(where, "points", points(found), term.ledger.mark(student.id, name))
 
 
+def of_the_files(term: Term, name: str) -> Iterator[str]:
+    """A page for each whose hand-in could be read, and nothing that other accounts can open."""
+    for (student, of), entry in term.ledger.hand_ins.items():
+        page = term.root / "course" / "feedback" / student / of / f"{of}.html"
+        if of == name and page.is_file() == entry.damaged:
+            yield f"{student}, {name}: {'a' if entry.damaged else 'no'} feedback page"
+    for path in (term.root / "course", *term.root.glob("archive/*")):
+        if path.stat().st_mode & 0o077:
+            yield f"{path.name} is open to other accounts: {path.stat().st_mode:o}"
+    if not list(term.root.glob("archive/*.zip")):
+        yield "there is no archive"
+
+
 def table(path: Path) -> list[dict[str, str]]:
     with path.open(newline="", encoding="utf-8-sig") as file:
         return list(csv.DictReader(file))

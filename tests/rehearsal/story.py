@@ -35,6 +35,8 @@ def tell(term: Term) -> Iterator[str]:
     term.run("nbgrader", "generate_feedback", term.names[0])
     term.run("autograder", "report", term.names[0])
     term.run("autograder", "report")
+    term.run("autograder", "archive", "--anyway")  # some proofs are unread, and hand-ins damaged
+    yield from differences.of_the_files(term, term.names[0])
 
 
 def _the_own_test_is_mended(term: Term) -> Iterator[str]:
