@@ -2,7 +2,7 @@
 
 from playwright.sync_api import expect
 
-from tests.browser.test_student import Problem
+from tests.browser.test_student import Problem, shows
 
 LINKS = ('check("p1-M")', "By hand: the 2R arm"), ('check("p1-is_spd")', "4 · Testing it")
 
@@ -13,7 +13,8 @@ def test_each_link_leads_to_its_own_section_of_an_open_lesson(page, opened, tmp_
     expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle")
     problem.run("from autograder import check")
     lesson = page.locator(".jp-NotebookPanel:visible", has_text="03 · The inertia matrix")
+    tab = page.locator(".lm-DockPanel-tabBar .lm-TabBar-tab", has_text="p1-inertia")
     for check, section in LINKS:
-        page.locator(".lm-DockPanel-tabBar .lm-TabBar-tab", has_text="p1-inertia").click()
-        problem.run(check).get_by_role("link", name=section).click()
-        expect(lesson.get_by_role("heading", name=section)).to_be_in_viewport()
+        tab.click()
+        link = problem.run(check).get_by_role("link", name=section)
+        assert shows(link, lesson.get_by_role("heading", name=section), tab)

@@ -1,6 +1,7 @@
 """A student's problems, in JupyterLab in a browser: blank, mistaken, named, drawn, right, validated."""
 
 import re
+from contextlib import suppress
 
 import pytest
 from playwright.sync_api import expect
@@ -234,15 +235,31 @@ def test_a_mistake_is_named_drawn_and_mended(inertia):
     inertia.picture("mended")
 
 
+def shows(link, heading, back) -> bool:
+    """Whether the link brings the heading into view, at the latest when it is clicked once more: on a
+    busy machine JupyterLab still lays out the lesson when it goes to the section, which then moves away.
+    """
+    for _ in range(2):
+        link.click()
+        with suppress(AssertionError):
+            expect(heading).to_be_in_viewport(timeout=30_000)
+            return True
+        back.click()
+    return False
+
+
 def test_a_card_leads_to_the_section_of_the_lesson(inertia, page):
     inertia.run("from autograder import check")
     card = inertia.run('check("p1-is_spd")')
     inertia.picture("before the link")
-    card.get_by_role("link", name="4 · Testing it on a computer").click()
-    tab = page.locator(".lm-DockPanel-tabBar .lm-TabBar-tab", has_text="03-inertia-matrix.ipynb")
-    expect(tab).to_have_class(re.compile("lm-mod-current"))
+    section = "4 · Testing it on a computer"
     lesson = page.locator(".jp-NotebookPanel:visible").filter(has_text="The inertia matrix")
-    expect(lesson.get_by_role("heading", name="4 · Testing it on a computer")).to_be_in_viewport()
+    tabs = page.locator(".lm-DockPanel-tabBar .lm-TabBar-tab")
+    link, heading = (one.get_by_role(role, name=section)
+                     for one, role in ((card, "link"), (lesson, "heading")))  # fmt: skip
+    assert shows(link, heading, tabs.filter(has_text="p1-inertia"))
+    lessons_tab = tabs.filter(has_text="03-inertia-matrix.ipynb")
+    expect(lessons_tab).to_have_class(re.compile("lm-mod-current"))
     inertia.picture("the section")
 
 
