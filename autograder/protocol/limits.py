@@ -94,8 +94,10 @@ class _Stopping(Limit):
     """Raises the error while the block runs, and nowhere else."""
 
     _armed = False
+    _looking = False  # a timer may come while the last one is still answered
 
     def __enter__(self) -> Limit:
+        self._thread = threading.get_ident()
         self._begin, self._start = time.process_time(), time.monotonic()
         self._waiting = Waiting()
         self._unreported, sys.unraisablehook = sys.unraisablehook, self._swallowed
@@ -198,7 +200,13 @@ class _BySignals(_Stopping):
         if number == signal.SIGPROF:  # a timer of the student's own
             signal.setitimer(signal.ITIMER_PROF, max(left, 0.001), AGAIN)
             return
-        left = self._left()
+        if self._looking:
+            return
+        self._looking = True
+        try:
+            left = self._left()
+        finally:
+            self._looking = False
         if left <= 0:
             raise self._stop(starved=True)
         signal.setitimer(signal.ITIMER_REAL, max(min(self._step, left), 0.001), AGAIN)
@@ -236,6 +244,8 @@ class _ByLooking(_Stopping):
     def _look(self, code: Any, *_: object) -> None:
         now = time.monotonic()
         if now < self._due or not self._armed or code in _OURS:
+            return
+        if threading.get_ident() != self._thread:
             return
         left = self.seconds - (time.process_time() - self._begin)
         waited = self._left()

@@ -104,9 +104,9 @@ def test_a_lock_that_stays_ends_the_run_and_the_next_goes_on(course, monkeypatch
             before_recording(patched, "bob", other.lock)
             assert main(["grade", P3, "--jobs", "1"]) == 2
         assert capsys.readouterr().err == f"{locked.WAITING}\n{STAYS}"
-        # Also before anything is judged.
+        # Also before anything is judged; there may be no time left to wait.
         assert main(["grade", P3, "--jobs", "1"]) == 2
-        assert capsys.readouterr().err == f"{locked.WAITING}\n{STAYS}"
+        assert capsys.readouterr().err in (STAYS, f"{locked.WAITING}\n{STAYS}")
     assert scores(course) == {"ada": 10.0}
     tasks = []
     task = pipeline._Run._task
