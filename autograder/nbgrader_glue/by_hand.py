@@ -1,6 +1,5 @@
 """Reads and writes, in nbgrader's gradebook, the points that people give to answers."""
 
-import time
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
@@ -19,7 +18,7 @@ from autograder.marking.rubric import rubrics
 from autograder.nbgrader_glue import answer_page
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.items import NO_RESPONSE, titles_above
-from autograder.nbgrader_glue.locked import is_locked, why_unusable
+from autograder.nbgrader_glue.locked import patiently, why_unusable
 from autograder.nbgrader_glue.release import configuration
 
 PATIENCE = 30.0  # s, while another program writes into the gradebook
@@ -144,11 +143,7 @@ def _papers(db, proof: Proof) -> Iterator[Paper]:
 
 def _patiently(does: Callable[[], T]) -> T:
     """What the function gives, after waiting for another program that keeps the gradebook locked."""
-    until = time.monotonic() + PATIENCE
-    while True:
-        try:
-            return does()
-        except OperationalError as error:
-            if not is_locked(error) or time.monotonic() > until:
-                raise OSError(why_unusable(error)) from None
-            time.sleep(0.1)
+    try:
+        return patiently(does, seconds=PATIENCE)
+    except OperationalError as error:
+        raise OSError(why_unusable(error)) from None

@@ -27,12 +27,18 @@ UNUSABLE = (
 Found = TypeVar("Found")
 
 
-def patiently(work: Callable[[], Found], undo: Callable[[], object] = lambda: None) -> Found:
+def patiently(
+    work: Callable[[], Found],
+    undo: Callable[[], object] = lambda: None,
+    seconds: float | None = None,
+) -> Found:
     """What `work` gives; while the database is locked, `undo` and try again.
 
-    BusyError if it stays locked for WAIT_SECONDS.
+    seconds: how long, without a word; None for WAIT_SECONDS, of which a line tells at the first wait.
+    BusyError if it stays locked for longer.
     """
-    ends, told = time.monotonic() + WAIT_SECONDS, False
+    told = seconds is not None
+    ends = time.monotonic() + (WAIT_SECONDS if seconds is None else seconds)
     while True:
         try:
             return work()
@@ -41,7 +47,7 @@ def patiently(work: Callable[[], Found], undo: Callable[[], object] = lambda: No
                 raise
             undo()
         if time.monotonic() > ends:
-            raise BusyError(STAYS)
+            raise BusyError(STAYS if seconds is None else LOCKED)
         if not told:
             say(WAITING, sys.stderr)
             told = True
