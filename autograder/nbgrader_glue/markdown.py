@@ -14,6 +14,7 @@ from pathlib import Path
 
 import bleach
 from jinja2 import pass_context
+from jinja2.utils import LRUCache
 from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
 
 from autograder.nbgrader_glue.formulas import FORMULA, mathml
@@ -38,6 +39,8 @@ LOOSE = (
 )
 IMG = re.compile(r"<img\b(?:\"[^\"]*\"|'[^']*'|[^'\">])*>", re.IGNORECASE)
 TAG = re.compile(r"<(?:\"[^\"]*\"|'[^']*'|[^'\">])*>")
+# A class's pages repeat the problem's text. What has pictures differs with the folder beside it.
+SHOWN = LRUCache(200)
 PICTURES = "armdyn_pictures"  # where a page's resources keep them
 
 
@@ -46,6 +49,8 @@ def markdown2html(context, source: str) -> str:
     """A cell's Markdown as HTML, with MathML for its formulas and with its pictures in it; what could
     run is shown as text.
     """
+    if source in SHOWN:
+        return SHOWN[source]
     if len(IN_TEXT.sub("", source)) > MOST_TEXT:
         return f"<pre>{html.escape(shortened(source, MOST_TEXT))}</pre>"
     cell = context.get("cell") or {}
@@ -56,9 +61,12 @@ def markdown2html(context, source: str) -> str:
         shown = markdown.render(IN_TEXT.sub(page.set_aside, source))
         # Each page gets its own cleaner, which is not made for threads.
         clean = bleach.clean(shown, set(TAGS.split()), _is_kept, {"http", "https", "mailto"})
-        return page.filled(clean)
+        shown = page.filled(clean)
     except Exception:  # quotes nested too deep would stop the page
         return f"<pre>{html.escape(source)}</pre>"
+    if not page.has_pictures:
+        SHOWN[source] = shown
+    return shown
 
 
 def pictures_of(resources) -> Pictures:
@@ -83,12 +91,14 @@ class _Page(IPythonRenderer):
         super().__init__(escape=False, exclude_anchor_links=True)
         self._pictures, self._own = pictures, attachments
         self._name = secrets.token_hex(8)
+        self.has_pictures = False
         self._kept: list[tuple[Callable[[], str], str]] = []  # how it is shown, and as plain text
         self._data: dict[str, str] = {}
         self._place = re.compile(rf"p{self._name}(\d+)p")
 
     def set_aside(self, found: re.Match) -> str:
         """A short name for a picture that stands in the text, which may have megabytes."""
+        self.has_pictures = True
         name = f"d{self._name}{len(self._data)}d"
         self._data[name] = found[0]
         return name
@@ -149,6 +159,7 @@ class _Page(IPythonRenderer):
         return self._keep(lambda: mathml(latex, is_display, source), source)
 
     def _picture(self, url: str, alt: str, size: dict[str, str]) -> str:
+        self.has_pictures = True
         alt = self._place.sub(self._text, alt)
         url = self._data.get(url, url)
         return self._keep(lambda: self._pictures.img(url, alt, self._own, size), alt)

@@ -186,7 +186,7 @@ def test_honest_text_is_shown_as_it_was_meant(exporter):
     for part in (">H</h", "<em>a</em>", "<strong>b</strong>", "<code>c&lt;d</code>",
                  '<a href="https://f.org">e</a>', "h i.png was not handed in", 'type="checkbox"',
                  "<td>m</td>", "<summary>o</summary>", "<sub>1</sub>", '<span class="mi">1</span>',
-                 f'<img alt="r" src="data:image/png;base64,{PIXEL}"'):  # fmt: skip
+                 f'src="data:image/png;base64,{PIXEL}"', 'alt="r"'):  # fmt: skip
         assert part in page
 
 
