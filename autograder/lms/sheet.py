@@ -114,6 +114,8 @@ def number(cell: str) -> float | None:
 
 
 def written(points: float, comma: bool = False) -> str:
-    """Points as platforms read them: two digits after the point, less if they are zeros."""
-    text = f"{round(points, 2) + 0.0:.2f}".rstrip("0").rstrip(".")
+    """Points as platforms read them: five digits after the point, as many as Moodle keeps, less if they
+    are zeros: a quarter taken off half a point is 0.375, and a sum of such must come out right.
+    """
+    text = f"{round(points, 5) + 0.0:.5f}".rstrip("0").rstrip(".")
     return text.replace(".", ",") if comma else text

@@ -18,9 +18,7 @@ def tell(term: Term) -> Iterator[str]:
         term.grade(name)
         term.read_proofs(name)
     term.grade(term.names[0])  # once more, after the proofs: nothing of a person's is lost
-    term.run(
-        "autograder", "export"
-    )  # settles the late penalties of proofs that were read meanwhile
+    term.settle()
     yield from differences.of_the_gradebook(term)
     if P2 in term.names:
         for late in term.late_ones(P2)[:1]:
@@ -45,6 +43,7 @@ def _the_own_test_is_mended(term: Term) -> Iterator[str]:
     points, term.ledger.points[P1][at] = term.ledger.points[P1][at], 0.0
     term.grade(P1)
     term.read_proofs(P1)
+    term.settle()
     yield from differences.of_the_gradebook(term)
     term.ledger.points[P1][at] = points
     term.mend_the_own_test()

@@ -12,6 +12,9 @@ from zoneinfo import ZoneInfo
 import nbformat
 from nbgrader.api import Gradebook
 
+from autograder.marking.desk import Desk
+from autograder.marking.kept import Kept
+from autograder.nbgrader_glue.by_hand import ByHand
 from tests.autograder import courses
 from tests.autograder.course_problems import without_plots
 from tests.autograder.lms.platforms import canvas_name, moodle_folder, moodle_sheet, zipped
@@ -43,7 +46,8 @@ class Term:
         """One command of the kit or of nbgrader; it must end with this status."""
         begun = time.monotonic()
         said = self.said[" ".join(command[1:])] = courses.run(self.root, *command, status=status)
-        self.seconds[" ".join(command)[:60]] = time.monotonic() - begun
+        what = " ".join(command[:3])
+        self.seconds[what] = self.seconds.get(what, 0.0) + time.monotonic() - begun
         return said
 
     def set_up(self) -> None:
@@ -87,14 +91,20 @@ class Term:
         self.run("autograder", "grade", name, "--jobs", "2", status=int(broken))
 
     def read_proofs(self, name: str) -> None:
-        """A person reads most of the proofs, and gives half points, too."""
+        """A person reads most of the proofs, and gives half points, too: p2's on the page of `autograder
+        mark`, the others in the formgrader.
+        """
         most = self.problems[name].points[self.problems[name].proof]
         marks = {}
         for (student, of), one in self.ledger.hand_ins.items():
             if of == name and one.unread and not one.damaged and self.dice.random() < 0.95:
                 one.read = marks[student] = self.dice.randint(0, int(2 * most)) / 2
                 one.to_read_again = False
-        self._mark(name, marks)
+        (self._mark_at_the_desk if name == P2 else self._mark)(name, marks)
+
+    def settle(self) -> None:
+        """What being late costs, of proofs that were read in the formgrader, which does not say so."""
+        self.run("autograder", "export")
 
     def mend_the_own_test(self) -> None:
         """All of p1 is judged again; what a person gave is kept."""
@@ -153,6 +163,17 @@ class Term:
                 grade = gradebook.find_grade(self.problems[name].proof, name, name, student)
                 grade.manual_score, grade.needs_manual_grade = points, False
             gradebook.db.commit()
+
+    def _mark_at_the_desk(self, name: str, marks: dict[str, float]) -> None:
+        book = ByHand(self.root)
+        desk = Desk(book, Kept(self.root))
+        (proof,) = (one for one in book.proofs() if one.assignment == name)
+        id_of = {paper.student: paper.id for paper in book.papers(proof)}
+        for student, points in marks.items():
+            where = name, proof.cell, id_of[student]
+            said = dict(zip(("assignment", "cell", "id"), where, strict=True))
+            said |= {"total": points, "given": [0] * len(proof.rubric.rows), "comment": ""}
+            desk.save(said | {"version": desk.answer(*where)["version"]})
 
     def _give_all_the_same_arm(self, name: str) -> None:
         """The ledger knows the answers for the arm of the book alone."""
