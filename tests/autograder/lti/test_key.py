@@ -26,6 +26,9 @@ def test_the_key_is_made_once_and_is_nobody_elses(tmp_path, capsys):
     assert "BEGIN PUBLIC KEY" in first
     assert "PRIVATE" not in first
     (held,) = json.loads((tmp_path / key.KEY_SET).read_text())["keys"]
+    printed = first[first.index("{") : first.rindex("}") + 1]  # as one pastes it into Canvas
+    assert json.loads(printed) == held
+    assert {"kty", "e", "n", "kid", "alg", "use"} <= held.keys()
     assert (held["kty"], held["alg"], held["use"]) == ("RSA", "RS256", "sig")
     assert "d" not in held
     if os.name == "posix":
