@@ -177,7 +177,7 @@ MAY_IMPORT = {
         "notebook",
         "report",
         "marking",
-        *("roster", "term_calendar", "lms"),
+        *("roster", "term_calendar", "lms", "lti.sent"),
     ),
     "commands": (
         *("arguments", "authoring", "bundle", "files", "lab", "lab_server", "lean", "lms", "lti"),

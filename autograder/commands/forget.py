@@ -19,7 +19,8 @@ def add_to(commands) -> None:
 def run(root: Path, given: argparse.Namespace) -> int:
     """Remove a student from the course, after asking; the exit status is 1 if nothing was removed."""
     from autograder import lean, roster  # noqa: F401  before nbformat is imported
-    from autograder.nbgrader_glue.forget import mentions, traces
+    from autograder.nbgrader_glue.forget import person, traces
+    from autograder.nbgrader_glue.mentions import Called, mentions
     from autograder.pipeline import run as pipeline
     from autograder.pipeline.lock import locked
 
@@ -35,7 +36,7 @@ def run(root: Path, given: argparse.Namespace) -> int:
             say(f"Kept about {shown}:")
             for trace in found:
                 say(f"  {shown_note(trace.what)}")
-            for path in mentions(root, student):
+            for path in mentions(root, Called(person(root, student))):
                 say(f"  {path.relative_to(root)} names the student, too, and will be left as it is")
             if not given.yes and not agreed("Remove all of it? It cannot be undone. [y/N] "):
                 return complain("nothing was removed", 1)

@@ -1,6 +1,7 @@
 """Sends marks to a learning platform by LTI 1.3."""
 
 import argparse
+import json
 from pathlib import Path
 
 from autograder import arguments as argument
@@ -53,7 +54,9 @@ def make_key(root: Path, given: argparse.Namespace) -> int:
     say(f"{root / key.PRIVATE}: {'made' if is_new else 'there already'}. Keep it to yourself.")
     say(f"The public key, for platforms that ask for it (Moodle), is in {root / key.PUBLIC}:\n")
     say(made.public)
-    say(f"For those that ask for a JWK or a key set (Canvas), it is in {root / key.KEY_SET}.")
+    say("For those that ask for a JWK (Canvas):\n")
+    say(f"{json.dumps(made.jwk, indent=2)}\n")
+    say(f"For those that ask for a key set, it is in {root / key.KEY_SET}.")
     return 0
 
 

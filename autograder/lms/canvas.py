@@ -10,6 +10,9 @@ from autograder.protocol import one_line
 from autograder.roster import folded
 
 POSSIBLE = "points possible"
+READ_ONLY = re.compile(r"read\s+only", re.IGNORECASE)
+# In place of a mark: the teacher has excused the student, or not assigned it.
+EXCUSED, NOT_ASSIGNED = "EX", "N/A"
 TITLE = re.compile(r"(.*) \((\d+)\)", re.DOTALL)
 IDS = ("SIS User ID", "SIS Login ID", "Integration ID")
 
@@ -33,14 +36,26 @@ class Gradebook:
     def name(self, row: list[str]) -> str:
         return " ".join(row[at] for at in reversed(self.names_at))
 
+    def is_test_student(self, row: list[str]) -> bool:
+        """Canvas's own, with whom teachers try things."""
+        return self.name(row).strip() in ("Student, Test", "Test Student")
+
     def cells(self, row: list[str]) -> list[str]:
         """What a row says of who it is about."""
         return [self.name(row), *(row[at] for at in self.ids_at)]
 
     def most(self, column: int) -> tuple[float | None, bool]:
-        """The points that an assignment gives in Canvas, and whether they are written with a comma."""
+        """The points that an assignment gives in Canvas, and whether they are written with a comma.
+
+        SheetError if it is a column of Canvas's own, which it takes no marks into.
+        """
         for row in self.sheet.rows:
             if POSSIBLE in row[0].casefold():
+                if READ_ONLY.search(row[column]):
+                    raise SheetError(
+                        f"{self.sheet.path.name}: Canvas takes no marks into the column "
+                        f"{one_line(self.sheet.head[column], 80)!r}: it is read only"
+                    )
                 return sheet.number(row[column]), "," in row[column]
         return None, False
 

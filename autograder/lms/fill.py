@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from autograder.lms import people
+from autograder.lms import canvas, people
 from autograder.lms.canvas import Gradebook
 from autograder.lms.marks import Column, Mark, Marks
 from autograder.lms.moodle import Worksheet
@@ -70,7 +70,7 @@ def fill_gradebook(
     known = [
         (row, _who(done, roster, held.name(row), held.cells(row), held.number(row)))
         for row in held.rows
-        if not _is_test_student(held, row)
+        if not held.is_test_student(row)
     ]
     seen = set()
     for row, person in _once(done, known):
@@ -78,7 +78,12 @@ def fill_gradebook(
         for column in wanted:
             factor, comma = how[column.assignment]
             at = columns[column.assignment]
-            done.put(row, at, column.of(person.id), unread, factor, comma)
+            if row[at].strip() == canvas.EXCUSED:
+                done.left["excused in Canvas"] += 1
+            elif row[at].strip() == canvas.NOT_ASSIGNED:
+                done.left["not assigned to the student in Canvas"] += 1
+            else:
+                done.put(row, at, column.of(person.id), unread, factor, comma)
     _look_for_others(done, wanted, roster, seen)
     return done
 
@@ -92,11 +97,6 @@ def _factor(shown: str, column: Column, most: float | None, scale: bool) -> floa
         f"{shown}: there it gives {written(most)} points, here {written(column.most)}: "
         "make them the same on the platform, or add --scale"
     )
-
-
-def _is_test_student(held: Gradebook, row: list[str]) -> bool:
-    """Canvas's own student, with whom teachers try things."""
-    return row[held.names_at[0]].strip() in ("Student, Test", "Test Student")
 
 
 def _who(

@@ -71,6 +71,9 @@ def read(path: Path, grade: str | None = None) -> Worksheet:
     greatest = {row[at + 1].strip() for row in held.rows} if at + 1 < len(held.head) else set()
     only = greatest.pop() if len(greatest) == 1 else ""
     made = Worksheet(held, identifier, at, sheet.number(only), "," in only)
+    held.delimiter = (
+        ","  # whatever a spreadsheet made of it: most versions of Moodle take no other back
+    )
     if not any(map(made.name, held.rows)):
         raise SheetError(
             f"{path.name}: it names nobody: reveal the students' names in Moodle first"

@@ -11,6 +11,10 @@ class UnknownError(ValueError):
     """It is not certain who is meant; the message says why, and what to do."""
 
 
+class NobodyError(UnknownError):
+    """Nobody of the class list is meant."""
+
+
 def who(roster: Roster, name: str, cells: Iterable[str] = (), lms_id: str = "") -> Person:
     """The student, by the platform's number, by what its sheet says, or by the name.
 
@@ -29,7 +33,7 @@ def who(roster: Roster, name: str, cells: Iterable[str] = (), lms_id: str = "") 
                 f"{shown} may be any of {ids}: put what the platform calls them into the column "
                 f"lms_id or email of {FILE}, and give its sheet with --sheet"
             )
-    raise UnknownError(f"{shown} is not in {FILE}: add the student, or mend the name there")
+    raise NobodyError(f"{shown} is not in {FILE}: add the student, or mend the name there")
 
 
 def _named(roster: Roster, names: list[str]) -> list[Person]:

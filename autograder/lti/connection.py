@@ -3,8 +3,9 @@
 import time
 from http import HTTPStatus
 
+from pylti1p3.exception import LtiServiceException
 from pylti1p3.registration import Registration
-from pylti1p3.service_connector import ServiceConnector
+from pylti1p3.service_connector import ServiceConnector, TServiceConnectorResponse
 from requests import PreparedRequest, Response, Session
 from requests.adapters import HTTPAdapter
 from urllib3.util import Retry
@@ -55,7 +56,19 @@ class Connector(ServiceConnector):
             registration.set_auth_audience(registered.audience)
         registration.set_tool_private_key(key.private).set_tool_public_key(key.public)
         super().__init__(registration, _session())
+        self._token_url = registered.token_url
         self._tokens: dict[str, tuple[str, float]] = {}
+
+    def make_service_request(self, *args, **options) -> TServiceConnectorResponse:
+        """Ask once more with a new token where the platform has ended one before its time."""
+        try:
+            return super().make_service_request(*args, **options)
+        except LtiServiceException as error:
+            answer = error.response
+            if answer.status_code != HTTPStatus.UNAUTHORIZED or answer.url == self._token_url:
+                raise
+        self._tokens.clear()
+        return super().make_service_request(*args, **options)
 
     def _get_cached_access_token(self, scope_key: str) -> str | None:
         token, until = self._tokens.get(scope_key, ("", 0.0))

@@ -5,8 +5,10 @@ public one.
 import json
 import os
 import stat
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from autograder.files import put_in_place
 from autograder.lti import LtiError
@@ -24,6 +26,13 @@ class Key:
     private: str
     public: str
 
+    @property
+    def jwk(self) -> Mapping[str, Any]:
+        """The public key as a JSON Web Key, with the id by which a request for a token names it."""
+        from pylti1p3.registration import Registration
+
+        return Registration.get_jwk(self.public)
+
 
 def make(root: Path) -> tuple[Key, bool]:
     """The course's key, and whether it is new; the public forms are written again in any case.
@@ -31,7 +40,6 @@ def make(root: Path) -> tuple[Key, bool]:
     LtiError if the key that is there cannot be used, OSError if one cannot be written.
     """
     from jwcrypto.jwk import JWK
-    from pylti1p3.registration import Registration
 
     is_new = not (root / PRIVATE).exists()
     if is_new:
@@ -40,8 +48,7 @@ def make(root: Path) -> tuple[Key, bool]:
         put_in_place(root / PRIVATE, pair.export_to_pem(private_key=True, password=None), 0o600)
     key = read(root)
     put_in_place(root / PUBLIC, key.public)
-    key_set = {"keys": [Registration.get_jwk(key.public)]}
-    put_in_place(root / KEY_SET, f"{json.dumps(key_set, indent=2)}\n")
+    put_in_place(root / KEY_SET, f"{json.dumps({'keys': [key.jwk]}, indent=2)}\n")
     return key, is_new
 
 

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from http import HTTPStatus
 
 import requests
 from pylti1p3.assignments_grades import AssignmentsGradesService, TAssignmentsGradersData
@@ -14,14 +16,31 @@ from autograder.lti import LtiError
 from autograder.lti.connection import Connector
 from autograder.lti.key import Key
 from autograder.lti.registration import Registered
+from autograder.lti.scores import number
 from autograder.protocol import one_line
 
 AGS = "https://purl.imsglobal.org/spec/lti-ags/scope/"
-LEARNER = "Learner"  # with or without the address of its vocabulary before a #
+# With or without the address of its vocabulary before a #.
+LEARNER, TRIES_THINGS = "Learner", "TestUser"
+RIGHTS = {  # by what is asked for
+    "its members": "to read its members",
+    "its line items": "to manage line items",
+    "the score": "to send scores",
+}
+REASONS = ("reason", "error_description", "message", "error", "errors")
 
 
 class RefusedError(LtiError):
     """The platform answered that it does not take this; it may take the next."""
+
+
+@dataclass(frozen=True)
+class LineItemThere:
+    """A line item of the platform; "" where there is none yet. most: its points, None if not known."""
+
+    address: str
+    is_new: bool
+    most: float | None
 
 
 class Platform:
@@ -40,28 +59,31 @@ class Platform:
                 one
                 for one in every
                 if one.get("status", "Active") == "Active"
-                and any(str(role).rpartition("#")[2] == LEARNER for role in one.get("roles", ()))
+                and LEARNER
+                in (roles := {str(role).rpartition("#")[2] for role in one.get("roles", ())})
+                and TRIES_THINGS not in roles
             ]
 
-    def line_item(self, assignment: str, most: float, make: bool) -> tuple[str, bool]:
-        """The address of an assignment's line item, and whether it is new.
+    def line_item(self, assignment: str, most: float, make: bool) -> LineItemThere:
+        """An assignment's line item. most: its points. make: whether one is made where there is none.
 
-        most: the assignment's points. make: whether one is made where there is none; without, "".
+        RefusedError if the platform gives none for this assignment.
         """
         if known := self._registered.line_items.get(assignment):
-            return known, False
+            return LineItemThere(known, False, None)
         with self._understood("its line items"):
             found = self._grades("lineitem").find_lineitem_by_resource_id(assignment)
             if found is None and not make:
-                return "", True
+                return LineItemThere("", True, None)
             if is_new := found is None:
                 new = LineItem().set_label(assignment).set_resource_id(assignment)
-                new.set_score_maximum(most)
+                new.set_score_maximum(number(most))
                 found = self._grades("lineitem").find_or_create_lineitem(new, "resource_id")
             address = found.get_id()
             if not isinstance(address, str):
                 raise LtiException("a line item without an id")
-            return address, is_new
+            there = found.get_score_maximum()
+            return LineItemThere(address, is_new, None if there is None else float(there))
 
     def send(self, line_item: str, score: dict) -> None:
         """Send one student's score. RefusedError if the platform does not take this one."""
@@ -84,12 +106,13 @@ class Platform:
             yield
         except LtiServiceException as error:
             answer = error.response
-            said = one_line(" ".join(answer.text.split()), 200) or answer.reason
             where = answer.url.partition("?")[0]
-            refused = f"{where} answers {answer.status_code}: {said}"
-            # Without a token, the next is not taken either.
             is_token = answer.url == self._registered.token_url
-            raise (LtiError if is_token else RefusedError)(refused) from None
+            refused = f"{where} answers {answer.status_code}: {_said(answer)}"
+            # Without a token, the next is not taken either.
+            raise (LtiError if is_token else RefusedError)(
+                refused + _hint(answer, what if is_token else "")
+            ) from None
         except requests.TooManyRedirects as error:
             to = error.response.headers.get("Location", "") if error.response is not None else ""
             raise LtiError(
@@ -106,3 +129,28 @@ class Platform:
                 f"the platform's answer to a request for {what} is not as LTI lays down: "
                 f"{one_line(f'{type(error).__name__}: {error}', 200)}"
             ) from None
+
+
+def _said(answer: requests.Response) -> str:
+    """The platform's words, without what it wraps them in."""
+    text = answer.text
+    try:
+        found = answer.json()
+        while isinstance(found, dict):
+            found = next((found[name] for name in REASONS if found.get(name)), None)
+        text = found if isinstance(found, str) else text
+    except requests.JSONDecodeError:
+        if text.lstrip().startswith("<"):
+            text = f"a web page ({answer.reason}), as where an address is wrong"
+    return one_line(" ".join(text.split()), 200) or answer.reason
+
+
+def _hint(answer: requests.Response, what: str) -> str:
+    """Where to look. what: what a token was asked for, "" if it was none."""
+    if what and "invalid_scope" in answer.text:
+        return f": the platform does not allow the course {RIGHTS[what]}"
+    if what and "invalid_client" in answer.text:
+        return ": look at client-id, the public key that the platform has, and this machine's clock"
+    if answer.status_code == HTTPStatus.CONFLICT:
+        return ": the platform has a later score: is this machine's clock right?"
+    return ""

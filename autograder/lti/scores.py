@@ -1,8 +1,12 @@
-"""A mark as a score of the Assignment and Grade Services."""
+"""A mark as a score of the Assignment and Grade Services, and as it goes out."""
 
 from datetime import UTC, datetime
 
 from autograder.lms.marks import GRADED, UNREAD, Mark
+
+# Canvas's own key. It makes a submission of each score that does not say otherwise: one more attempt,
+# handed in when the score came where the score says no other time. Other platforms do not read it.
+OF_CANVAS = "https://canvas.instructure.com/lti/submission"
 
 
 def score_of(mark: Mark, most: float, user: str, unread: bool = False) -> dict | None:
@@ -22,10 +26,29 @@ def score_of(mark: Mark, most: float, user: str, unread: bool = False) -> dict |
     }
     points = mark.so_far if unread else mark.points
     if points is not None:
-        score |= {"scoreGiven": round(points, 2) + 0.0, "scoreMaximum": most}
+        score |= {"scoreGiven": number(round(points, 2) + 0.0), "scoreMaximum": number(most)}
     if mark.handed_in:
         score["submission"] = {"submittedAt": in_time(mark.handed_in.replace(tzinfo=UTC))}
     return score
+
+
+def outgoing(score: dict, before: dict | None) -> dict:
+    """The score as it is sent now. before: what the platform got of this student's last time.
+
+    Students see each comment, and Canvas keeps all: "graded" is sent only in place of another one.
+    """
+    out = score | {"timestamp": in_time(datetime.now(UTC))}
+    if score["comment"] == GRADED and (before is None or before["comment"] == GRADED):
+        del out["comment"]
+    when = score.get("submission")
+    if when is None or (before is not None and before.get("submission") == when):
+        out[OF_CANVAS] = {"new_submission": False}
+    return out
+
+
+def number(points: float) -> int | float:
+    """Points as JSON that a platform which counts in whole ones reads, too: 15 and not 15.0."""
+    return int(points) if points == int(points) else points
 
 
 def in_time(when: datetime) -> str:

@@ -2,16 +2,18 @@
 
 from collections import Counter
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
 from pathlib import Path
 
 from autograder.lms.marks import Column, Marks
+from autograder.lms.sheet import written
 from autograder.lti import LtiError, key, members, registration
 from autograder.lti.platform import Platform, RefusedError
-from autograder.lti.scores import in_time, score_of
+from autograder.lti.scores import outgoing, score_of
 from autograder.lti.sent import Sent
 from autograder.protocol import one_line
 from autograder.roster import FILE, Roster
+
+SHOWN = 5
 
 
 @dataclass
@@ -37,15 +39,19 @@ def send(root: Path, marks: Marks, how: How) -> Done:
     platform, sent, done = Platform(registered, key.read(root)), Sent(root), Done()
     if registered.members_url:
         roster = Roster({one.id: one for one in marks.people})
-        numbers, done.faults = members.users(roster, platform.learners())
+        found = members.users(roster, platform.learners())
+        numbers, done.lines, done.faults = found.users, found.lines, found.faults
         unknown = "the platform's course has nobody who is this student"
     else:
         numbers = members.by_number(marks.people)
         unknown = f"{FILE} has no lms_id, and {registration.FILE} no members-url to ask"
     try:
         for column in marks.columns:
-            _send_column(platform, column, marks, numbers, unknown, sent, how, done)
-    except LtiError as error:  # what is said of one student is caught where it arises
+            try:
+                _send_column(platform, column, marks, numbers, unknown, sent, how, done)
+            except RefusedError as error:
+                done.faults.append(f"{column.assignment}: not sent: {error}")
+    except LtiError as error:
         rest = "" if how.dry else "; when that is mended, run the command again: it sends the rest"
         done.faults.append(f"{error}{rest}")
     finally:
@@ -58,34 +64,48 @@ def _send_column(
     platform: Platform, column: Column, marks: Marks, numbers: dict[str, str], unknown: str,
     sent: Sent, how: How, done: Done,
 ) -> None:  # fmt: skip
-    """Send one assignment's. RefusedError, LtiError where the platform takes none of them."""
-    line_item, is_new = platform.line_item(column.assignment, column.most, make=not how.dry)
+    """Send one assignment's. RefusedError where the platform has no line item for it, LtiError where it
+    takes nothing more at all.
+    """
+    item = platform.line_item(column.assignment, column.most, make=not how.dry)
     count, left, same = 0, Counter[str](), 0
+    refused: dict[str, list[str]] = {}
     try:
         for person in marks.people:
             mark = column.of(person.id)
             score = score_of(mark, column.most, numbers.get(person.id, ""), how.unread)
             if score is None:
                 left[mark.state] += 1
-            elif not score["userId"]:
-                done.faults.append(f"{column.assignment}, {one_line(person.id, 64)}: {unknown}")
-            elif not how.again and sent.has(line_item, score):
+                continue
+            before = sent.of(item.address, person.id)
+            if not score["userId"]:
+                refused.setdefault(unknown, []).append(person.id)
+            elif not how.again and score == before:
                 same += 1
             else:
                 try:
                     if not how.dry:
-                        now = in_time(datetime.now(UTC))
-                        platform.send(line_item, score | {"timestamp": now})
-                        sent.note(line_item, score)
+                        platform.send(item.address, outgoing(score, before))
+                        sent.note(item.address, person.id, score)
                     count += 1
                 except RefusedError as error:
-                    said = f"{column.assignment}, {one_line(person.id, 64)}: not sent: {error}"
-                    done.faults.append(said)
+                    refused.setdefault(f"not sent: {error}", []).append(person.id)
     finally:
         would = "would be sent" if how.dry else "sent"
-        new = f", in a new line item{' to be made' if how.dry else ''}" if is_new else ""
+        new = f", in a new line item{' to be made' if how.dry else ''}" if item.is_new else ""
         scores = "1 score" if count == 1 else f"{count} scores"
         done.lines.append(f"{column.assignment}: {scores} {would}{new}")
+        if item.most is not None and abs(item.most - column.most) > 1e-9:
+            points = f"{written(item.most)} points there, {written(column.most)} here"
+            done.lines.append(f"  {points}: the platform converts the marks")
         if same:
             done.lines.append(f"  as they were sent before: {same}")
         done.lines += [f"  not sent: {n}, {why}" for why, n in sorted(left.items())]
+        done.faults += [
+            f"{column.assignment}, {_named(ids)}: {why}" for why, ids in refused.items()
+        ]
+
+
+def _named(ids: list[str]) -> str:
+    more = f" and {len(ids) - SHOWN} more" if len(ids) > SHOWN else ""
+    return ", ".join(one_line(id, 64) for id in ids[:SHOWN]) + more

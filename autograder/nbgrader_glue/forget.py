@@ -1,8 +1,6 @@
 """Finds all that a course keeps about one student, and removes it: `autograder forget`."""
 
-import re
 import shutil
-import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -15,13 +13,14 @@ from traitlets.config import Config
 
 from autograder import roster, term_calendar
 from autograder.files import put_in_place
+from autograder.lti.sent import FILE as SENT
+from autograder.lti.sent import Sent
 from autograder.marking.kept import Kept
 from autograder.nbgrader_glue.folders import QUIET
+from autograder.nbgrader_glue.mentions import Called, written
 from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.shelf import REPLACED
-
-# What commands write about the whole class, and can write again without the student.
-WRITTEN = ("course/report/*.html", "course/grades.csv", "course/marks*.csv")
+from autograder.roster import Person
 
 
 @dataclass(frozen=True)
@@ -44,8 +43,22 @@ def traces(root: Path, student: str, results: list[Path]) -> list[Trace]:
         what = f"{_shown(root, results[0].parents[2])}: {len(results)} files"
         found.append(Trace(what, partial(_remove_all, results)))
     found += _gradebook(course, student)
-    found += _files_of_the_class(root, student)
+    found += _files_of_the_class(root, student, Called(person(root, student)))
     return found
+
+
+def person(root: Path, student: str) -> Person:
+    """What the class list, or else the gradebook, says of a student. ValueError if the list is wrong."""
+    listed = root / roster.FILE
+    if listed.is_file() and student in (people := roster.read(listed).people):
+        return people[student]
+    course = CourseDirectory(config=configuration(root), log=QUIET)
+    with api.Gradebook(course.db_url, course.course_id) as gradebook:
+        try:
+            row = gradebook.find_student(student)
+        except api.MissingEntry:
+            return Person(student)
+        return Person(student, row.last_name or "", row.first_name or "", row.email or "")
 
 
 def _folders(root: Path, course: CourseDirectory, student: str) -> Iterator[Trace]:
@@ -102,7 +115,7 @@ def _remove_rows(course: CourseDirectory, student: str) -> None:
     engine.dispose()
 
 
-def _files_of_the_class(root: Path, student: str) -> Iterator[Trace]:
+def _files_of_the_class(root: Path, student: str, called: Called) -> Iterator[Trace]:
     listed, calendar = root / roster.FILE, root / term_calendar.FILE
     if listed.is_file() and student in roster.read(listed).people:
         rest = roster.without(listed, student)
@@ -116,42 +129,13 @@ def _files_of_the_class(root: Path, student: str) -> Iterator[Trace]:
     for path in kept.naming(student):
         what = f"{_shown(root, path)}, where the student's proofs are marked"
         yield Trace(what, partial(kept.forget, path, student))
-    for path in _naming(root, student, WRITTEN):
+    sent = Sent(root)
+    if sent.names(student):
+        what = f"{SENT}, the marks that were sent to a platform"
+        yield Trace(what, partial(sent.forget, student))
+    for path in written(root, called):
         what = f"{_shown(root, path)}, which names the student: write it again"
         yield Trace(what, partial(_remove, path))
-
-
-def mentions(root: Path, student: str) -> list[Path]:
-    """Tables in the course's folder that name a student, and that no command of ours wrote; and the
-    archives of `autograder archive` that do.
-    """
-    ours = _naming(root, student, WRITTEN)
-    tables = [path for path in _naming(root, student, ("*.csv", "course/*.csv"))
-              if path not in ours and path != root / roster.FILE]  # fmt: skip
-    return [*tables, *_archives(root, student)]
-
-
-def _archives(root: Path, student: str) -> Iterator[Path]:
-    named = _name(student)
-    for path in sorted(root.glob("archive/*.zip")):
-        try:
-            with zipfile.ZipFile(path) as archive:
-                tables = [name for name in archive.namelist() if name.endswith("/marks.csv")]
-                texts = [archive.read(name).decode("utf-8", errors="replace") for name in tables]
-        except (OSError, zipfile.BadZipFile):
-            continue
-        if any(named.search(text) for text in texts):
-            yield path
-
-
-def _name(student: str) -> re.Pattern[str]:
-    return re.compile(rf"(?<![\w.@-]){re.escape(student)}(?![\w@-])")
-
-
-def _naming(root: Path, student: str, patterns: tuple[str, ...]) -> list[Path]:
-    named = _name(student)
-    files = (path for pattern in patterns for path in sorted(root.glob(pattern)) if path.is_file())
-    return [path for path in files if named.search(path.read_text("utf-8", errors="replace"))]
 
 
 def _remove(path: Path) -> None:

@@ -109,7 +109,8 @@ def test_columns_that_a_site_adds_do_not_matter(tmp_path):
     rows = [["Teilnehmer/in7", "Ada Lovelace", "42", "x", "A", "", "15,00", "offen", "Ja", "-"]]
     (tmp_path / "s.csv").write_text("\n".join(map(";".join, [head, *rows])))
     held = moodle.read(tmp_path / "s.csv")
-    assert (held.identifier, held.grade, held.most, held.sheet.delimiter) == (0, 5, 15.0, ";")
+    assert (held.identifier, held.grade, held.most) == (0, 5, 15.0)
+    assert held.sheet.text().startswith("ID,Name,Matrikel,")  # Moodle reads commas alone
 
 
 def test_where_it_is_not_clear_one_is_asked_and_can_tell(tmp_path):
@@ -169,6 +170,44 @@ def test_canvas_takes_marks_and_keeps_the_rest(tmp_path, sign, bom):
     ]
     assert filled.marks == 2
     assert filled.faults == []
+
+
+def test_what_canvas_will_not_take_is_left_and_said(tmp_path):
+    """A mark would end an excuse; and one for whom it is not assigned is dropped without a word."""
+    title = "P3 Pendulum (501)"
+    marks = {11: "EX", 12: "N/A", 13: "", 14: "1"}
+    rows = [{"name": f"{one.last_name}, {one.first_name}", "number": int(one.lms_id),
+             "marks": {title: marks[int(one.lms_id)]}} for one in PEOPLE[:4]]  # fmt: skip
+    held = canvas.read(canvas_sheet(tmp_path / "b.csv", rows, {title: "15"}))
+    of = {one.id: Mark(GRADED, 9.0) for one in PEOPLE[:4]}
+    column = Column(P3, 15.0, None, of)
+    filled = fill_gradebook(held, Marks(PEOPLE, [column]), {P3: 5}, ROSTER)
+    assert [row[5] for row in held.rows[:4]] == ["EX", "N/A", "9", "9"]
+    assert filled.marks == 2
+    assert dict(filled.left) == {
+        "excused in Canvas": 1, "not assigned to the student in Canvas": 1,
+    }  # fmt: skip
+
+
+def test_a_column_that_canvas_only_shows_is_refused(tmp_path):
+    path = canvas_sheet(tmp_path / "b.csv", BOOK, {"P3 Pendulum (501)": "(read  only)"})
+    held = canvas.read(path)
+    with pytest.raises(
+        SheetError, match=r"takes no marks into the column 'P3 Pendulum .*read only"
+    ):
+        fill_gradebook(held, Marks(PEOPLE, [COLUMN]), {P3: 5}, ROSTER)
+
+
+def test_canvas_sheet_with_names_in_two_columns(tmp_path):
+    """As an account may set it; the student with whom teachers try things is nobody there, either."""
+    path = canvas_sheet(tmp_path / "b.csv", [], {"P3 Pendulum (501)": "15"})
+    head = "LastName,FirstName,ID,SIS Login ID,Section,P3 Pendulum (501)\n"
+    rows = "    Points Possible,,,,,15\nLovelace,Ada,11,,G,\nStudent,Test,99,a8f3,G,\n"
+    path.write_text(head + rows)
+    held = canvas.read(path)
+    filled = fill_gradebook(held, Marks(PEOPLE[:1], [COLUMN]), {P3: 5}, Roster({"ada": PEOPLE[0]}))
+    assert filled.faults == []
+    assert [row[5] for row in held.rows] == ["12.35", ""]
 
 
 def test_a_column_that_no_title_tells_is_asked_for(tmp_path):

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 import shutil
 import zipfile
 from contextlib import chdir, redirect_stdout
@@ -298,6 +299,10 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     (course / "course" / "replaced" / "bob").mkdir(parents=True)
     (course / "course" / "calendar.toml").write_text(CALENDAR + 'bob = "2026-11-30"\n')
     assert main(["export"]) == 0
+    command = ["export", P3, "--for", "moodle", "--sheet", "sheet.csv"]  # which has no id of ours
+    courses.run(course, "nbgrader", "generate_feedback", P3, "--student", "bob")
+    assert main([*command, "--feedback", "course/pages.zip"]) == 0
+    pages = zipped(course / "mine.zip", {"doejrbob_12_5_p3-pendulum.ipynb": "{}"})
     assert main(["report", P3]) == 0
     page = (course / "course" / "report" / f"{P3}.html").read_text()
     assert "1 of the class handed in nothing" in page
@@ -311,21 +316,24 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     assert main(["forget", "bob"]) == 1
     assert submitted.exists()
     capsys.readouterr()
-    written(course / "course" / "notes.csv", "bob;a talk on Monday\n")
+    written(course / "course" / "notes.txt", "Bob Doe, Jr.: a talk on Monday\n")
     assert main(["forget", "bob", "--yes"]) == 0
     said = capsys.readouterr().out
-    assert "course/notes.csv names the student, too, and will be left as it is" in said
-    (course / "course" / "notes.csv").unlink()
+    for name in ("course/notes.txt", pages.name, "all.zip", "sheet.csv"):
+        assert f"{name} names the student, too, and will be left as it is" in said
+    assert "notes" not in said.replace("course/notes.txt", "")
+    (course / "course" / "notes.txt").unlink()
     for what in (
         *("submitted/bob", "autograded/bob", "replaced/bob", "inbound/bob+", "armdyn/feedback/"),
         *("cache-of-results", "the gradebook", "the line in course/class.csv", "1 extensions in"),
         *("course/marks.csv", f"course/report/{P3}.html", f"course/marking/{P3}.json"),
+        *("course/marks-moodle.csv", "course/pages.zip"),
     ):
         assert what in said, what
     left = [path for path in (course / "course").rglob("*") if path.is_file()]
-    traces = [path for path in left
-              if "bob" in str(path.relative_to(course)).replace("bobby", "") or
-              b"bob" in path.read_bytes().replace(b"bobby", b"")]  # fmt: skip
+    traces = [path for path in left if re.search(
+        rb"bob(?!by)|Doe, Jr", str(path.relative_to(course)).encode() + path.read_bytes(), re.I)
+    ]  # fmt: skip
     assert traces == []
     assert list(Kept(course).of(P3, "p3-derivation")) == ["bobby"]
     assert (inbound / "bobby+p3-pendulum+2026-11-28 10:00:00 UTC+abc").exists()
@@ -369,3 +377,12 @@ def test_the_marks_of_the_term_reach_a_platform_by_lti(course, capsys):
         printed = capsys.readouterr().out
         assert "p3-pendulum: 1 score sent\n  as they were sent before: 4" in printed
         assert sent["u-ada"]["scoreGiven"] == 14
+        record = course / "course" / "lti-sent.json"
+        assert '"bob"' in record.read_text()
+        assert main(["forget", "bob", "--yes"]) == 0
+        assert "course/lti-sent.json, the marks that were sent" in capsys.readouterr().out
+        assert "bob" not in record.read_text()
+        assert main(["lti", "send"]) == 0
+        printed = capsys.readouterr().out
+        assert "in the platform's course and not in course/class.csv: Bob Doe, Jr." in printed
+        assert "p3-pendulum: 0 scores sent\n  as they were sent before: 4" in printed
