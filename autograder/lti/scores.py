@@ -26,7 +26,7 @@ def score_of(mark: Mark, most: float, user: str, unread: bool = False) -> dict |
     }
     points = mark.so_far if unread else mark.points
     if points is not None:
-        score |= {"scoreGiven": number(round(points, 2) + 0.0), "scoreMaximum": number(most)}
+        score |= {"scoreGiven": number(round(points, 5) + 0.0), "scoreMaximum": number(most)}
     if mark.handed_in:
         score["submission"] = {"submittedAt": in_time(mark.handed_in.replace(tzinfo=UTC))}
     return score
