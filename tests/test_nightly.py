@@ -16,7 +16,7 @@ SECONDS = 60.0
 
 
 class Host:
-    """A machine with all packages: what was committed to its checkout, and its folder for temporary files."""
+    """A machine with all packages: its checkout, and its folder for temporary files."""
 
     def __init__(self, root: Path):
         self.checkout, self.temporary = root / "armdyn", root / "tmp"
