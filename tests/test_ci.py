@@ -1,6 +1,9 @@
-"""`.ci/nightly`, in a repository whose Makefile only says what it was asked for."""
+"""What `.ci/run` leaves out on the plain machine; and `.ci/nightly`, in a repository whose Makefile only
+says what it was asked for.
+"""
 
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -95,3 +98,29 @@ def test_the_makefile_has_what_the_night_asks_for():
     targets = (ROOT / "Makefile").read_text(encoding="utf-8")
     assert "\ntest-all:" in targets
     assert "\nrehearse:" in targets
+
+
+@pytest.mark.skipif(not shutil.which("bash"), reason="needs bash: apt install bash")
+def test_the_plain_machine_runs_all_that_may_end_otherwise_there():
+    text = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    lists = re.findall(r"^\w+=\(\n.*?^\)$", text, re.M | re.S)
+    assert len(lists) == 2
+    script = "\n".join(["shopt -s extglob", *lists, "printf '%s\\n' ${computed[@]} ${started[@]}"])
+    listed = subprocess.run(
+        ["bash", "-euc", script],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=SECONDS,
+    ).stdout.split()
+    missing = [path for path in listed if not (ROOT / path).exists()]
+    assert missing == [], "these have another name now, and would be run twice"
+    tests = ROOT / "tests"
+    left_out = {(ROOT / path).relative_to(tests).as_posix() for path in listed}
+    for kept in ("guide", "autograder/sandbox", "autograder/notebook", "autograder/pipeline",
+                 "autograder/protocol", "autograder/student", "autograder/bundle/test_student.py",
+                 "autograder/nbgrader_glue/test_nbgrader.py", "armdyn/test_codegen_numpy.py",
+                 "test_readme.py"):  # fmt: skip
+        assert (tests / kept).exists()
+        assert not left_out & {kept, *(str(parent) for parent in Path(kept).parents)}, kept
