@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
+from tests import once
+
 # Debian keeps PostgreSQL's server off PATH; its client is on it.
 SERVERS = Path("/usr/lib/postgresql").glob("*/bin/initdb") if shutil.which("psql") else ()
 # Debian package → the names its program may have, or a file of a package without a program.
@@ -58,6 +60,14 @@ settings.register_profile("local", deadline=None)
 settings.register_profile("ci", deadline=None, derandomize=True)
 # The same examples in each run, as CI asks for in both of its runs.
 settings.load_profile(os.environ.get("EXAMPLES") or ("ci" if os.environ.get("CI") else "local"))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def shared(tmp_path_factory):
+    """A home for what the processes of this run share."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(once, "folder", once.of_the_run(tmp_path_factory.getbasetemp()))
+        yield
 
 
 @pytest.fixture(scope="session")
