@@ -34,19 +34,25 @@ PROGRAMS = {
 
 FIRST = (
     "test_class_server.py",
-    "test_nbgrader.py",
+    "test_student.py",
     "test_sessions.py",
-    "test_kills.py",
+    "test_rehearsal.py",
+    "test_book.py",
     "test_wolfram.py",
+    "test_verdicts.py",
+    "test_corrections.py",
+    "test_nbgrader.py",
+    "test_kills.py",
     "test_hostile_files.py",
     "test_dask.py",
-    "test_student.py",
-    "test_record.py",
-    "test_hostile.py",
-    "test_honest.py",
-    "test_from_file.py",
     "test_agreement.py",
     "test_mistakes.py",
+    "test_right_answers.py",
+    "test_hostile.py",
+    "test_record.py",
+    "test_carried_on.py",
+    "test_honest.py",
+    "test_from_file.py",
 )
 
 # In the reason of a skip that is none of CI's business: the test needs what the project may not contain.
