@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
+from tests import once
+
 # Debian keeps PostgreSQL's server off PATH; its client is on it.
 SERVERS = Path("/usr/lib/postgresql").glob("*/bin/initdb") if shutil.which("psql") else ()
 # Debian package → the names its program may have, or a file of a package without a program.
@@ -32,19 +34,25 @@ PROGRAMS = {
 
 FIRST = (
     "test_class_server.py",
-    "test_nbgrader.py",
+    "test_student.py",
     "test_sessions.py",
-    "test_kills.py",
+    "test_rehearsal.py",
+    "test_book.py",
     "test_wolfram.py",
+    "test_verdicts.py",
+    "test_corrections.py",
+    "test_nbgrader.py",
+    "test_kills.py",
     "test_hostile_files.py",
     "test_dask.py",
-    "test_student.py",
-    "test_record.py",
-    "test_hostile.py",
-    "test_honest.py",
-    "test_from_file.py",
     "test_agreement.py",
     "test_mistakes.py",
+    "test_right_answers.py",
+    "test_hostile.py",
+    "test_record.py",
+    "test_carried_on.py",
+    "test_honest.py",
+    "test_from_file.py",
 )
 
 # In the reason of a skip that is none of CI's business: the test needs what the project may not contain.
@@ -58,6 +66,14 @@ settings.register_profile("local", deadline=None)
 settings.register_profile("ci", deadline=None, derandomize=True)
 # The same examples in each run, as CI asks for in both of its runs.
 settings.load_profile(os.environ.get("EXAMPLES") or ("ci" if os.environ.get("CI") else "local"))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def shared(tmp_path_factory):
+    """A home for what the processes of this run share."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(once, "folder", once.of_the_run(tmp_path_factory.getbasetemp()))
+        yield
 
 
 @pytest.fixture(scope="session")

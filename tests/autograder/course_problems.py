@@ -2,7 +2,6 @@
 
 import copy
 import importlib
-import tempfile
 from functools import cache, cached_property
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from autograder.judging.verdict import State
 from autograder.nbgrader_glue import write_problem
 from autograder.notebook.grade import Graded, grade
 from autograder.notebook.recognise import grade_id
+from tests.once import made_once
 from tests.submissions import answers
 from tests.submissions.dressed import dressed
 
@@ -43,14 +43,8 @@ class Problem:
         return nbformat.read(self.folder / f"{self.name}.ipynb", as_version=4)
 
     @cached_property
-    def _released(self) -> tempfile.TemporaryDirectory:
-        folder = tempfile.TemporaryDirectory(prefix="release-")
-        write_problem(ROOT, self.name, Path(folder.name))
-        return folder
-
-    @property
     def release_folder(self) -> Path:
-        return Path(self._released.name)
+        return made_once(self.name, lambda folder: write_problem(ROOT, self.name, folder))
 
     @cached_property
     def release(self) -> NotebookNode:

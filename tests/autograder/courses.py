@@ -5,8 +5,6 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
-from functools import cache
 from pathlib import Path
 
 import nbformat
@@ -14,6 +12,7 @@ import sqlalchemy
 
 from tests.autograder.course_problems import problem, without_plots
 from tests.autograder.nbgrader_forks import nbgrader
+from tests.once import made_once
 
 ROOT = Path(__file__).parents[2]
 P3 = "p3-pendulum"
@@ -49,18 +48,15 @@ def before_the_first_command(root: Path) -> Path:
     return root
 
 
-@cache
-def _released() -> tempfile.TemporaryDirectory:
-    folder = tempfile.TemporaryDirectory(prefix="course-")
-    root = before_the_first_command(Path(folder.name))
+def _release(root: Path) -> None:
+    before_the_first_command(root)
     run(root, "nbgrader", "generate_assignment", P3)
     (root / "course" / "seed").write_text(SEED)
-    return folder
 
 
 def new_course(root: Path) -> Path:
     """A course whose p3, without its figures, is released, in the folder `root`, which is made."""
-    shutil.copytree(_released().name, root)
+    shutil.copytree(made_once("course", _release), root)
     return root
 
 

@@ -5,12 +5,13 @@ import shutil
 import subprocess
 import sys
 import sysconfig
-import time
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+from tests.once import made_once
 
 ROOT = Path(__file__).parents[3]
 
@@ -36,23 +37,8 @@ class Installed:
 
 
 @pytest.fixture(scope="session")
-def installed(tmp_path_factory) -> Installed:
-    """Made once for all processes of a test run."""
-    top = tmp_path_factory.getbasetemp()
-    top = (top.parent if "PYTEST_XDIST_WORKER" in os.environ else top) / "bundle"
-    try:
-        top.mkdir()
-    except FileExistsError:
-        while not (top / "done").exists():
-            assert not (top / "failed").exists()
-            time.sleep(0.2)
-    else:
-        try:
-            _make(top)
-        except BaseException:
-            (top / "failed").touch()
-            raise
-        (top / "done").touch()
+def installed() -> Installed:
+    top = made_once("bundle", _make)
     (archive,) = (top / "archive").iterdir()
     return Installed(archive, top / "armdyn", top / "env" / "bin" / "python")
 
