@@ -3,7 +3,7 @@
 REGISTRY = "it installs packages from a registry: .ci/run and `make` do so before each test"
 WINDOW = "it opens a browser's window and does not end: tests/autograder/test_lab.py starts it"
 MARKS = "it does not end by itself: tests/browser/test_marking.py marks with it in a browser"
-SENDS = "it needs a platform, and .[lti]: tests/autograder/lti/test_lti.py has both"
+SENDS = "it needs a platform, and .[lti]: tests/autograder/lti/test_scores.py has both"
 NEW = "it adds to the repository: tests/new/test_new.py does so in a copy"
 WHOLE = "it runs all tests, this one among them"
 
