@@ -55,7 +55,7 @@ class AskedAgain:
                 return said
             tried = [one for one in (self._tried(worst), found) if one]
             parts.append(error_of.sentence(criterion.text, k, tried))
-        elif not self.calls[last].at:  # of symbols no argument is changed alone
+        elif self._probes(last):  # which gave no numbers
             return ""
         if of_units := self._once(("units", worst), lambda: self._in_other_units(worst)):
             parts.insert(0, scaling.sentence(criterion.text, k, of_units))
@@ -76,12 +76,16 @@ class AskedAgain:
         """The call with one number changed at a time, if numbers came for all."""
 
         def tried() -> dependence.Tried | None:
-            call = self.calls[case]
-            probes = [] if isinstance(call, Loop) else dependence.probes(self.signature, call)
-            both = self._both([call, *(probe.call for probe in probes)]) if probes else None
-            return dependence.Tried(probes, *both) if both else None
+            calls = [self.calls[case], *(probe.call for probe in self._probes(case))]
+            both = self._both(calls) if len(calls) > 1 else None
+            return dependence.Tried(self._probes(case), *both) if both else None
 
         return self._once(("tried", case), tried)
+
+    def _probes(self, case: int) -> list[dependence.Probe]:
+        """None of arguments that are not plain numbers."""
+        call = self.calls[case]
+        return [] if isinstance(call, Loop) else dependence.probes(self.signature, call)
 
     def _in_other_units(self, case: int) -> scaling.InOtherUnits | None:
         call = self.calls[case]
