@@ -8,21 +8,23 @@ import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from autograder.judging import changes, dependence, findings, verdict
+from autograder.judging import changes, findings, verdict
+from autograder.judging.asked_again import AskedAgain
 from autograder.judging.call_text import given_by
 from autograder.judging.carried.follows import Follows
 from autograder.judging.criterion import Criterion, errors_of, met_by
 from autograder.judging.diagnosis import Catalogue, Mistake, sentences
 from autograder.judging.faults import describe_fault, describe_second_fault
 from autograder.judging.given import Describe, Given, NoNumbersError, Reading
-from autograder.judging.loops import Loop, asked, seconds_of
+from autograder.judging.loops import asked, seconds_of
 from autograder.judging.models import Model, evaluated
+from autograder.judging.on_top import on_top
 from autograder.judging.places import NOWHERE, place
 from autograder.judging.quantities import Numbers, Quantities, each, one_number
 from autograder.judging.section import Section
@@ -249,65 +251,25 @@ class Check:
         """What to say of each criterion: nothing of one that is met."""
         layout = layouts(given, expected)
         wrong = wrong_numbers(self.mistakes, self.catalogue, self.quantities, layout, calls)
-        if mistake := wrong.explaining(self.criteria, layout, rows(layout, given), met):
+        right, theirs = rows(layout, expected), rows(layout, given)
+        if mistake := wrong.explaining(self.criteria, layout, theirs, met):
             return [() if ok else (mistake.sentence,) for ok in met]
 
-        @cache  # calls are made once, and only where something is left to explain
-        def tried(case: int) -> dependence.Tried | None:
-            return self._tried(ask, calls[case]) if ask else None
-
-        @cache
-        def repeated() -> Given | None:
-            return self._repeated(ask, calls) if ask else None
-
-        def unsteady(k: int) -> str:
-            if (again := repeated()) is None or again.spoilt[k]:
-                return ""
-            first, second = ([case[k] for case in numbers] for numbers in (given, again.numbers))
-            return findings.of_repeats(self.criteria[k], first, second)
-
-        def elsewhere(k: int) -> str:
-            criterion = self.criteria[k]
-            last = len(calls) - 1
-            if not criterion.unit or criterion.is_property or (found := tried(last)) is None:
-                return ""
-            errors = errors_of(self.criteria, expected, given)[k][:last]
-            best = int(np.argmin(errors)) if len(errors) else last
-            return dependence.sentence(criterion.text, k, found, lambda: tried(best))
+        apart = isinstance(self.quantities, each)
+        again = AskedAgain(
+            ask, self.signature, self.criteria, calls, expected, given, self._given,
+            partial(self._quantities_of, self.reference) if apart else None,
+        )  # fmt: skip
 
         @cache
         def parts() -> list[tuple[Term, Numbers]]:
             terms = self.terms if isinstance(self.terms, tuple) else self.terms()
             return [(term, self._quantities_of(term.model, calls)) for term in terms]
 
-        return sentences(self.criteria, expected, given, met, wrong, parts, unsteady, elsewhere)
-
-    def _repeated(self, ask: Ask, calls: list[Call]) -> Given | None:
-        """What the same calls give once more; None where that is no answer, or would cost whole runs."""
-        if any(isinstance(call, Loop) for call in calls):
-            return None
-        replies = ask(calls)
-        try:
-            return self._given(calls, replies) if len(replies) == len(calls) else None
-        except NoNumbersError:
-            return None
-
-    def _tried(self, ask: Ask, base: Call) -> dependence.Tried | None:
-        """The call with one number changed at a time, if numbers came for all."""
-        probes = [] if isinstance(base, Loop) else dependence.probes(self.signature, base)
-        if not probes or not isinstance(self.quantities, each):
-            return None
-        calls = [base, *(probe.call for probe in probes)]
-        replies = ask(calls)
-        if len(replies) < len(calls) or any(reply.fault for reply in replies):
-            return None
-        try:
-            theirs = self._given(calls, replies)
-        except NoNumbersError:
-            return None
-        if any(theirs.spoilt):
-            return None
-        return dependence.Tried(probes, self._quantities_of(self.reference, calls), theirs.numbers)
+        return sentences(
+            self.criteria, expected, given, met, wrong, parts, again.unsteady, again.elsewhere,
+            lambda: on_top(wrong, self.criteria, layout, right, theirs, met),
+        )  # fmt: skip
 
     def _witness(
         self, calls: list[Call], expected: Numbers, given: Numbers, met: list[bool],

@@ -12,10 +12,17 @@ from autograder.judging.stacked import Layout
 
 # Before a sentence that says more than one part of the answer shows, and no other part bears out.
 OF_A_PART = "Judging by this part alone: "
+# Before what is wrong beside a factor of the whole, of which the sentence before speaks.
+ON_TOP = "With that mended, this is left: "
 # So many mistakes are named of one criterion.
 MOST_NAMED = 2
 # A criterion of more numbers than these is taken as one.
 MOST_NUMBERS = 12
+
+
+def as_written(sentence: str) -> str:
+    """A sentence of a mistake without what a card says before it."""
+    return sentence.removeprefix(OF_A_PART).removeprefix(ON_TOP)
 
 
 class Claim(Enum):

@@ -84,10 +84,10 @@ def sentence(text: str, k: int, at: Tried, elsewhere: Callable[[], Tried | None]
         )
     said = []
     if extra:
-        said.append(f"the values depend on {_listed(extra)}; the right ones do not")
+        said.append(f"the values depend on {listed(extra)}; the right ones do not")
     if missing:
         own = "they" if said else "the values"
-        said.append(f"{own} do not depend on {_listed(missing)}; the right ones do")
+        said.append(f"{own} do not depend on {listed(missing)}; the right ones do")
     return f"In your {text}, {', and '.join(said)}." if said else ""
 
 
@@ -126,7 +126,8 @@ def _changed(name: str, value, changes: tuple[Callable, ...]) -> Iterator[tuple[
             yield name, change(value)
 
 
-def _listed(names: list[str]) -> str:
+def listed(names: list[str]) -> str:
+    """Their names in a sentence; of too many the first few."""
     if len(names) > MOST_LISTED:
         return f"{', '.join(names[:3])} and {len(names) - 3} other numbers"
     *first, last = names

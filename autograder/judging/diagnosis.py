@@ -87,12 +87,14 @@ def sentences(
     terms: Callable[[], list[tuple[Term, Numbers]]],
     unsteady: Callable[[int], str],
     elsewhere: Callable[[int], str],
+    on_top: Callable[[], list[tuple[str, ...]]],
 ) -> list[tuple[str, ...]]:
     """What to say of each criterion, where no mistake explains the whole answer: () of those met.
 
     terms, unsteady, elsewhere: asked only where no mistake matches. unsteady: what to say of criterion k
     where the same calls give other numbers. elsewhere: what more can be found out of it. Both give ""
-    for nothing, and may cost calls.
+    for nothing, and may cost calls. on_top: what to say of all criteria, where two mistakes are on top
+    of each other, and not side by side; [] for nothing.
     """
     layout = layouts(given, expected)
     compared = Compared(
@@ -100,6 +102,10 @@ def sentences(
         [mistake.claim for mistake in wrong.mistakes],
     )  # fmt: skip
     shown, true = _named(compared, expected, given, met, wrong.mistakes)
+    if any(
+        not (met[k] or shown[k] or criterion.is_property) for k, criterion in enumerate(criteria)
+    ) and (both := on_top()):
+        return both
     said: list[str] = []
     of_each: list[tuple[str, ...]] = [()] * len(criteria)
     for k, criterion in enumerate(criteria):

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from autograder.judging import zeros
 from autograder.judging.call_text import by_name, given_by, shapes, shown_call
 from autograder.judging.faults import NUMBERS, describe_unfit
 from autograder.judging.models import Model, evaluated
@@ -108,6 +109,8 @@ class Reading:
         )
         if cause := replies[bad[0]].cause:
             problem += f" {cause.sentence}"
+        if where := zeros.sentence(self.signature, calls, bad):
+            problem += f" {where}"
         if at_points:  # the call that is shown has numbers for its symbols: those that give this
             point = first.at[first_bad_point(np.asarray(value))]
             calls = [*calls[: bad[0]], replace(first, at=(point,)), *calls[bad[0] + 1 :]]
@@ -125,6 +128,9 @@ class Reading:
         said = self.describe(fault, name, self.signature, needed(calls[0]))
         if fault.kind in UNCALLED:
             return NoNumbersError(said)
+        if fault.message.startswith("ZeroDivisionError"):
+            where = zeros.sentence(self.signature, calls[: len(replies)], faults)
+            said = f"{said} {where}".strip()
         return NoNumbersError(said, self._failed(calls[: len(replies)], faults, len(calls)))
 
     def _failed(self, calls: list[Call], bad: list[int], asked: int | None = None) -> Failed:

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
     from autograder.mechanisms import Mechanism
 
+# A kind of friction, by the coefficient of its terms.
+WORDS = {"viscous": "the viscous friction", "coulomb": "the Coulomb friction"}
+
 
 @lru_cache(maxsize=64)
 def torques(mechanism: Outline) -> Callable[..., np.ndarray]:

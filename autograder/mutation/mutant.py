@@ -85,6 +85,7 @@ SELDOM_OF_AN_ENTRY = (
     "cosine for sine",
     "wave lost",
     "double angle",
+    "triple angle",
     "wrong parameter",
 )
 STEP_NAMES = {name for steps in STEPS.values() for name in steps}

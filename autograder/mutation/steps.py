@@ -48,6 +48,11 @@ class Right:
         """Half the sum of M times the squares of the velocities."""
         return np.einsum("...ij,...j->...", self.M, self.qd**2) / 2
 
+    @property
+    def momentum(self) -> np.ndarray:
+        """The sum of the entries of M q̇."""
+        return np.einsum("...ij,...j->...", self.M, self.qd)
+
     def christoffel(self, first=0.5, second=0.5, third=0.5) -> np.ndarray:
         """h_ijk with these weights on ∂M_ij/∂q_k, ∂M_ik/∂q_j and −∂M_jk/∂q_i."""
         D = self.slopes
@@ -306,6 +311,8 @@ STEPS: dict[str, dict[str, Step]] = {
         ),
         "velocities of K not squared": lambda right: right.K_of_single_velocities - right.P,
         "M times squares": lambda right: right.K_of_squares - right.P,
+        "M left out of K": lambda right: np.sum(right.qd**2, axis=-1) / 2 - right.P,
+        "momentum for K": lambda right: right.momentum / 2 - right.P,
     },
     "energy_drift": {
         "sign of the whole": lambda run: -drift(run.E),
@@ -333,6 +340,14 @@ STEPS: dict[str, dict[str, Step]] = {
         "from the mean": lambda run: run.E - np.mean(run.E, axis=-1, keepdims=True),
         "from the end": lambda run: run.E - run.E[..., -1:],
         "share for the drift": lambda run: drift(run.E) / run.E[..., :1],
+        "share in percent": lambda run: 100 * drift(run.E) / run.E[..., :1],
+        "size of the share": lambda run: np.abs(drift(run.E) / run.E[..., :1]),
+        "ratio for the drift": lambda run: run.E / run.E[..., :1],
+        "range for the drift": lambda run: np.ptp(run.E, axis=-1, keepdims=True) + 0 * run.E,
+        "difference of sizes": lambda run: drift(np.abs(run.E)),
+        "slope for the drift": lambda run: np.gradient(run.E, axis=-1),
+        "M left out of K": lambda run: drift(np.sum(run.qd**2, axis=-1) / 2 + run.P),
+        "momentum for K": lambda run: drift(run.momentum / 2 + run.P),
     },
     "f": {
         "sign of the whole": _accelerating(lambda driven: -driven.acceleration),

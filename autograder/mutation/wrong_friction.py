@@ -5,12 +5,12 @@ from collections.abc import Iterator
 import sympy as sp
 
 from autograder.mechanisms import FrictionTerm, Mechanism
+from autograder.mutation.friction import WORDS
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.operators import Rewriting
 
 # Widths of what is put for a sign that jumps.
 WIDTHS = (1, sp.Rational(1, 10), sp.Rational(1, 20), sp.Rational(1, 100), sp.Rational(1, 1000))
-WORDS = {"viscous": "the viscous friction", "coulomb": "the Coulomb friction"}
 
 
 def rewritings(term: FrictionTerm, mechanism: Mechanism) -> Iterator[Rewriting]:
@@ -25,6 +25,7 @@ def rewritings(term: FrictionTerm, mechanism: Mechanism) -> Iterator[Rewriting]:
         for name, put in (
             ("quadratic friction", v * sp.Abs(v)),
             ("friction in one direction", sp.Abs(v)),
+            ("sign for velocity", sp.sign(v)),
         ):
             yield Rewriting(name, sp.Tuple(term.torque.xreplace({v: put})))
     yield Rewriting("coefficient left out", sp.Tuple(term.torque.xreplace({term.symbol: sp.S.One})))
@@ -61,6 +62,37 @@ def _by_kind(mechanism: Mechanism) -> dict[str, list[int]]:
     return found
 
 
+def _multiplied(mechanism: Mechanism) -> list[tuple[Mutant, dict[int, sp.Expr]]]:
+    """Viscous and Coulomb friction of each joint as one product: of both, of the coefficients with the
+    velocity, of the coefficients with its sign.
+    """
+    found: dict[str, dict[int, sp.Expr]] = {}
+    for i, (first, *others) in _by_coordinate(mechanism).items():
+        if not others:
+            continue
+        terms = [mechanism.friction[k] for k in (first, *others)]
+        both = sp.Mul(*(term.symbol for term in terms))
+        v = mechanism.qd[i]
+        for detail, product in (
+            ("", sp.Mul(*(term.torque for term in terms))),
+            ("with the velocity", both * v),
+            ("with its sign", both * sp.sign(v)),
+        ):
+            found.setdefault(detail, {}).update({first: product} | dict.fromkeys(others, sp.S.Zero))
+    return [
+        (Mutant("friction multiplied", "the friction", detail=detail), changes)
+        for detail, changes in found.items()
+    ]
+
+
+def _by_coordinate(mechanism: Mechanism) -> dict[int, list[int]]:
+    """The places of the terms that resist each coordinate."""
+    found: dict[int, list[int]] = {}
+    for k, term in enumerate(mechanism.friction):
+        found.setdefault(mechanism.place(term), []).append(k)
+    return found
+
+
 def mistakes(mechanism: Mechanism) -> list[tuple[Mutant, dict[int, sp.Expr]]]:
     """Each with the torques of all terms, by place: made in one, in all of one kind, or in all."""
     right = {k: sp.sympify(term.torque) for k, term in enumerate(mechanism.friction)}
@@ -92,6 +124,7 @@ def mistakes(mechanism: Mechanism) -> list[tuple[Mutant, dict[int, sp.Expr]]]:
         if term.coordinate == other.coordinate and term != other
     }
     if len(kinds) == 2:
+        all_alike += _multiplied(mechanism)
         changes = {k: torque.xreplace(swapped) for k, torque in right.items()}
         all_alike.append((Mutant("coefficients exchanged", "the friction"), changes))
     return [(mutant, right | changes) for mutant, changes in (*all_alike, *found)]

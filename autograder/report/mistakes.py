@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations
 
-from autograder.judging.claims import OF_A_PART
+from autograder.judging.claims import as_written
 from autograder.problems import check_here
 from autograder.report.answers import anonymous
 from autograder.report.students import Student
@@ -54,7 +54,7 @@ def mistakes_made(students: Iterable[Student]) -> list[Made]:
     to_whom = defaultdict(list)
     for student in students:
         for check, verdict in student.verdicts.items():
-            said = (sentence.removeprefix(OF_A_PART) for sentence in verdict["diagnosis"])
+            said = map(as_written, verdict["diagnosis"])
             for sentence in dict.fromkeys(said):
                 to_whom[check, sentence].append(student.name)
     made = [

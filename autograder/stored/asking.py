@@ -5,7 +5,7 @@ import json
 import numpy as np
 
 from autograder.digest import digest
-from autograder.judging import dependence
+from autograder.judging import dependence, scaling
 from autograder.judging.call_text import FEW, rounded
 from autograder.judging.check import VISIBLE_CASES, VISIBLE_SEED, Check
 from autograder.judging.quantities import each
@@ -29,13 +29,14 @@ def shown_calls(check: Check) -> list[Call]:
 
 def all_calls(check: Check) -> list[Call]:
     """These, and those by which more is found out of a wrong answer: one number of a call changed at a
-    time.
+    time, or all of one unit.
     """
     calls = shown_calls(check)
     if not isinstance(check.quantities, each):
         return calls
     probes = [probe.call for call in calls for probe in dependence.probes(check.signature, call)]
-    return [*calls, *probes]
+    scaled = [one.call for call in calls for one in scaling.scalings(check.signature, call)]
+    return [*calls, *probes, *scaled]
 
 
 def key(call: Call) -> str:

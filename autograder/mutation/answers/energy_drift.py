@@ -67,10 +67,13 @@ def _composition(mechanism: Outline) -> Composition:
 
     def groups(catalogue) -> Iterator[Group]:
         names, wrong = list(STEPS["energy_drift"]), catalogue("energy")
-        steps = [STEPS["energy_drift"][name] for name in names]
+
+        def of_steps(at: Run) -> np.ndarray:
+            return np.array([STEPS["energy_drift"][name](at) for name in names])
+
         yield Group(
             [Mutant(name) for name in names],
-            lambda x, arms: np.array([step(run(x, arms)) for step in steps]),
+            lambda x, arms: of_steps(run(x, arms)),
         )
         yield Group(wrong.mutants, lambda x, arms: along(wrong.numbers, x, arms))
 

@@ -18,7 +18,7 @@ from autograder.mutation.answers.answer import (
 )
 from autograder.mutation.answers.composition import Composition, Group, throughout
 from autograder.mutation.answers.coriolis import propagated
-from autograder.mutation.friction import torques, wrong_torques
+from autograder.mutation.friction import WORDS, torques, wrong_torques
 from autograder.mutation.mutant import Mutant
 from autograder.mutation.shared import shared
 from autograder.mutation.steps import STEPS, Driven, rate, solved, times
@@ -84,6 +84,8 @@ def _composition(mechanism: Outline) -> Composition:
         yield _of_torques(at)
         yield _readings(mechanism, right)
         yield _of_friction(mechanism, at)
+        if mechanism.friction:
+            yield _by_input(mechanism, at)
         yield from _of_parts(mechanism, at, catalogue)
 
     def part(name: str) -> Callable[..., np.ndarray]:
@@ -162,6 +164,21 @@ def _of_friction(mechanism: Outline, at: Callable[..., Driven]) -> Group:
         return rate(qd, solved(driven.M, rests))
 
     return Group(mutants, numbers)
+
+
+def _by_input(mechanism: Outline, at: Callable[..., Driven]) -> Group:
+    """Friction that goes with u where the velocity belongs: each kind of it, and all."""
+    words = [WORDS.get(term.coefficient, "the friction") for term in mechanism.friction]
+    chosen = [(kind, np.array([own == kind for own in words])) for kind in dict.fromkeys(words)]
+    chosen.append(("the friction", np.full(len(words), True)))
+
+    def numbers(q, qd, u, arms):
+        driven = at(q, qd, u, arms)
+        change = torques(mechanism)(q, qd, arms) - torques(mechanism)(q, u, arms)
+        rests = [driven.rest + np.sum(change[which], axis=0) for _, which in chosen]
+        return rate(qd, solved(driven.M, np.array(rests)))
+
+    return Group([Mutant("input for velocity", kind) for kind, _ in chosen], numbers)
 
 
 def _of_parts(mechanism: Outline, at: Callable[..., Driven], catalogue) -> Iterator[Group]:

@@ -37,6 +37,7 @@ from autograder.mutation.operators.of_waves import (
     half_angle,
     sine_for_cosine,
     small_angle,
+    triple_angle,
     wave_lost,
     wave_power,
     wave_without_sign,
@@ -78,6 +79,7 @@ OPERATORS: tuple[Operator, ...] = (
     wave_power,
     wave_without_sign,
     wrong_wave,
+    triple_angle,
 )
 # What gives a K that is not quadratic in the velocities.
 OF_ENERGIES = ("velocity not squared", "velocity missing")

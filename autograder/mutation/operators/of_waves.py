@@ -84,6 +84,13 @@ def half_angle(term, mechanism):
         yield Rewriting("half angle", term.xreplace(changes), "", str(argument))
 
 
+def triple_angle(term, mechanism):
+    """Three times an angle."""
+    for argument in angles(term):
+        changes = {w: w.func(3 * argument) for w in waves(term) if w.args[0] == argument}
+        yield Rewriting("triple angle", term.xreplace(changes), "", str(argument))
+
+
 def wave_power(term, mechanism):
     """A sine or cosine squared that belongs once, or once that belongs squared."""
     squares = {e for e in term.atoms(sp.Pow) if e.exp == 2 and isinstance(e.base, sp.sin | sp.cos)}

@@ -153,6 +153,22 @@ OF_STEPS = {
     "drift?",
     "share for the drift": "You divide by the energy at the start. What happens to this ratio "
     "if you measure heights from elsewhere?",
+    "share in percent": "You return the drift in percent of the energy at the start. What happens to "
+    "this number if you measure heights from elsewhere?",
+    "size of the share": "You divide by the energy at the start, and return the size without its sign. "
+    "Does the motion gain energy or lose it, and in which unit?",
+    "ratio for the drift": "You divide each energy by the first one. By how much has the energy "
+    "changed, in joules?",
+    "range for the drift": "You return the largest energy less the smallest, in each row. By how much "
+    "has the energy of each row changed since the first?",
+    "difference of sizes": "You compare the sizes of the energies. An energy may be negative, where a "
+    "body hangs lower than your zero: what is its change then?",
+    "slope for the drift": "You return the slope of the energy from row to row. From which state do you "
+    "count the drift?",
+    "M left out of K": "Your kinetic energy is half the sum of the squares of the velocities. What "
+    "tells it how heavy the bodies are?",
+    "momentum for K": "Your kinetic energy adds up the entries of M q̇, which are momenta. How often "
+    "does the velocity enter a kinetic energy?",
     "column of another": "In your {where}, {term} holds what belongs in that of {put}. Which entry "
     "of π multiplies it?",
     "columns in another order": "Your columns are right, but they stand in another order than "

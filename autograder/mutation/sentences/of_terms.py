@@ -79,6 +79,8 @@ AT_A_PLACE = {
     "wrong wave with a minus": OTHER_WAVE,
     "double angle": "In your {where}, {term} takes twice {instead_of} for its angle. How often does "
     "it come back to the same value in one turn?",
+    "triple angle": "In your {where}, {term} takes three times {instead_of} for its angle. How often "
+    "does it come back to the same value in one turn?",
     "wave power": "In your {where}, {term} has a sine or cosine to the wrong power. What becomes of "
     "it if its angle grows by half a turn?",
     "wave without its sign": "In your {where}, {term} has the size of a sine or cosine, without its "
@@ -109,6 +111,12 @@ OF_FRICTION = {
     "model it jumps: how large is dry friction at 0.001 rad/s?",
     "friction at rest": "In your {where}, {term} is not zero in a joint at rest. In which "
     "direction would it push there? What does NumPy's own sign give for 0?",
+    "sign for velocity": "In your {where}, {term} has the same size at every speed. Which power of the "
+    "velocity does the unit of its coefficient ask for?",
+    "input for velocity": "In your {where}, {term} goes with the input u. Does friction depend on what "
+    "the motor does, or on how the joint moves?",
+    "friction multiplied": "In your {where}, the viscous and the Coulomb friction of a joint are "
+    "multiplied with each other. Do the units of the two allow that, or do they act side by side?",
     "coefficients exchanged": "You swapped the two coefficients of {term}. Which of them is a "
     "torque or force by itself, and which must be multiplied by a velocity?",
 }
@@ -195,6 +203,8 @@ THROUGHOUT = {
     "wrong wave with a minus": OTHER_WAVES,
     "double angle": "Your {where} takes twice {instead_of} for an angle. How often does it come back to "
     "the same value in one turn?",
+    "triple angle": "Your {where} takes three times {instead_of} for an angle. How often does it come "
+    "back to the same value in one turn?",
     "wave power": "Your {where} has sines or cosines to the wrong power. What becomes of it if an angle "
     "grows by half a turn?",
     "wave without its sign": "Your {where} has the sizes of sines and cosines, without their signs. At "

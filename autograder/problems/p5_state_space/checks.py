@@ -42,13 +42,18 @@ EXACTLY = 3e-7
 def _rate_calls(rng, count):
     """Both joints moving, then one at rest, then one slow: what tells a sign from what looks like it.
 
-    Each joint in turn, so that friction which is wrong in one of them alone shows.
+    Each joint in turn, so that friction which is wrong in one of them alone shows. Where both move, this
+    one is slower and turns against the other, so that the sum of the velocities has another sign.
     """
     calls = []
     first = rng.integers(2)
     for k in range(count):
         q, qd = sampling.angles(rng), sampling.velocities(rng)
         joint = (first + k // 3) % 2
+        if k % 3 == 0:
+            slow, fast = np.sort(np.abs(qd))
+            way = (-1.0) ** (k // 6)  # so that each joint turns both ways within six calls
+            qd[joint], qd[1 - joint] = -way * slow, way * fast
         qd[joint] = qd[joint] * (1.0, 0.0, 0.001)[k % 3] + 0.0  # and no -0.0
         u = rng.choice([-1.0, 1.0], 2) * rng.uniform(1.0, 8.0, 2)
         calls.append(

@@ -2,8 +2,22 @@
 
 from tests.autograder.problems.c6_regressor.table import ALL_V, LIST, Y, count, fit
 
+CONSTANT = "is the same whatever the arguments are. Which of your terms is a mere number?"
 TRACED = {
     "c6-regressor": [
+        (
+            Y("return Y", "return Y + np.cos(np.arange(12)).reshape(2, 6)"),
+            *(
+                f"What is off in your {columns} {CONSTANT}"
+                for columns in (
+                    "columns of the masses m1 and m2",
+                    "column of m1 ℓc1",
+                    "columns of the inertias J1 and J2",
+                    "column of m2 ℓc2, joint 1",
+                    "column of m2 ℓc2, joint 2",
+                )
+            ),
+        ),
         (
             Y("mc1[0] = g * c1", "mc1[0] = 0.7 * g * c1", "l1 * mc1[0]", "l1 * g * c1"),
             "In your column of m1 ℓc1, every value is 30 % too small. Which factor belongs to all "
@@ -17,7 +31,6 @@ TRACED = {
     ],
 }
 UNEXPLAINED = {
-    "c6-regressor": [Y("return Y", "return Y + np.cos(np.arange(12)).reshape(2, 6)")],
     "c6-identify": [fit("return b", "return b + 0.1")],
     "c6-rank_of_excitation": ["1.5 * len(q)"],
 }

@@ -5,6 +5,20 @@ from tests.autograder.problems.c7_recursive.table import count, rnea, sign, term
 TRACED = {
     "c7-rnea": [
         (
+            rnea("return u", "return u + np.cos(np.arange(n))"),
+            *(
+                "With every mass and inertia doubled, and all else that holds kilograms, the right "
+                f"values double, and those of your torques {torques} do not. Do all its terms have the "
+                "same unit?"
+                for torques in (
+                    "at rest, in gravity",
+                    "of a start from rest, without gravity",
+                    "at constant joint rates, without gravity",
+                    "with all of these at once",
+                )
+            ),
+        ),
+        (
             rnea("-chain.gravity", "-1.1 * chain.gravity"),
             "In your torques at rest, in gravity, every value is 10 % too large. Which factor belongs "
             "to all terms?",
@@ -32,7 +46,6 @@ TRACED = {
     ],
 }
 UNEXPLAINED = {
-    "c7-rnea": [rnea("return u", "return u + np.cos(np.arange(n))")],
     "c7-gravity_sign": [sign("np.sign(w * i)", "w * i")],
     "c7-count": [count("return a, b", "return a + 5 * n % 7, b")],
 }

@@ -9,6 +9,22 @@ TRACED = {
             "In your torque in motion, the damping comes out 50 % too large.",
         ),
     ],
+    "c8-regressor_r": [
+        (
+            Y().replace("return np", "return np.cos(np.arange(12)).reshape(2, 6) + np"),
+            *(
+                f"What is off in your {columns} is the same whatever the arguments are. Which of your "
+                "terms is a mere number?"
+                for columns in (
+                    "columns of the masses m1 and m2",
+                    "column of m1 ℓc1",
+                    "columns of the inertias J1 and J2",
+                    "column of m2 ℓc2, joint 1",
+                    "column of m2 ℓc2, joint 2",
+                )
+            ),
+        ),
+    ],
     "c8-V_dot": [
         (
             rate("-1.3 * D + R - F"),
@@ -19,7 +35,6 @@ TRACED = {
     ],
 }
 UNEXPLAINED = {
-    "c8-regressor_r": [Y().replace("return np", "return np.cos(np.arange(12)).reshape(2, 6) + np")],
     "c8-slotine_li": [law(both="np.cos(np.arange(8)) + np.concatenate([u, rate])")],
 }
 NEARLY = {"c8-slotine_li": [law(both="np.concatenate([u * 1.0001, rate])")]}

@@ -3,8 +3,17 @@
 from tests.autograder.problems.p1_inertia.table import BASE, LINKS, arm, singular
 
 FIXED = "[[1.7 + 0.4 * np.cos(q[1]), 0.6 + 0.2 * np.cos(q[1])], [0.6 + 0.2 * np.cos(q[1]), 0.6]]"
+IN_KILOGRAMS = (
+    "With every mass and inertia doubled, and all else that holds kilograms, the right values"
+)
+SAME_UNIT = "Do all its terms have the same unit?"
 TRACED = {
     "p1-M": [
+        (
+            arm("M11 += np.cos(q2)"),
+            f"{IN_KILOGRAMS} double, and those of your M11 do not. {SAME_UNIT} What is off in your M11 "
+            "changes with q[1] alone. Which of its terms is made of nothing else?",
+        ),
         (
             arm("M11 -= 0.1 * m1 * lc1**2"),
             "In your M11, the centre of mass of link 1 about the shoulder comes out 10 % too small.",
@@ -32,7 +41,7 @@ TRACED = {
         ),
     ],
 }
-UNEXPLAINED = {"p1-M": [arm("M11 += np.cos(q2)")], "p1-inertia_from_links": [f"{LINKS} + 1"]}
+UNEXPLAINED = {"p1-inertia_from_links": [f"{LINKS} + 1"]}
 NEARLY = {
     "p1-singular_arm": [
         singular({"I2": 1e-4}, "[0, np.pi]"),

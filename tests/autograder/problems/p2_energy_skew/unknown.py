@@ -13,6 +13,14 @@ TRACED = {
     ],
     "p2-M_dot": [
         (
+            ARM + "return M_dot * np.cos(q[1])",
+            *(
+                f"The values of your {entries} are off by a factor that changes with q[1] alone. How "
+                "should they change with it?"
+                for entries in ("entry Ṁ11", "entries Ṁ12 and Ṁ21")
+            ),
+        ),
+        (
             ARM + "return 1.1 * M_dot",
             "In your entry Ṁ11, every value is 10 % too large. Which factor belongs to all terms?",
             "In your entries Ṁ12 and Ṁ21, every value is 10 % too large. Which factor belongs to all "

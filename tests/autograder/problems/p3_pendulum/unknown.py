@@ -16,6 +16,19 @@ TRACED = {
         ("q[0]", f"In your inertia about the pivot, {ONE_EXAMPLE}"),
     ],
     "p3-g_vec": [
+        *(
+            (
+                f"{MGL} * {wrong}",
+                "The values of your gravity torque are off by a factor that changes with q[0] alone. "
+                "How should they change with it?",
+            )
+            for wrong in (
+                "np.sin(q) * np.cos(q)",
+                "np.sin(5 * q)",
+                "np.sin(q + 1)",
+                "(1 + np.sin(q))",
+            )
+        ),
         (
             f"{MGL} * np.sin(q) * 1.0001",
             "In your gravity torque, every value is 0.01 % too large. Is a constant rounded?",
@@ -31,8 +44,20 @@ TRACED = {
             "I_com + 0.9 * m * lc**2",
             "In your inertia moved to the pivot, the inertia of a point mass comes out 10 % too small.",
         ),
+        (
+            "I_com + m + lc**2",
+            "With every mass and inertia doubled, and all else that holds kilograms, the right values "
+            "double, and those of your inertia moved to the pivot do not. Do all its terms have the "
+            "same unit? What is off in your inertia moved to the pivot changes with m and lc alone. "
+            "Which of its terms is made of nothing else?",
+        ),
     ],
     "p3-lagrangian": [
+        (
+            f"{KINETIC} - m * (g + lc) * (1 - sp.cos(q))",
+            "With every length doubled and every inertia four times as large, the right values double, "
+            "and those of your potential part of L do not. Do all its terms have the same unit?",
+        ),
         (
             f"{KINETIC} - 0.7 * {POTENTIAL}",
             f"In your potential part of L, every value is 30 % too small. {FACTOR}",

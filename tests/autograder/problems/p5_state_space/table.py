@@ -119,6 +119,15 @@ return states
 
 TABLE = {
     "p5-f": [
+        *(
+            (f"{name} friction", rate(f"u - C @ qd - g - {friction}"), 0.25)
+            for name, friction in (
+                ("input for velocity / the Coulomb", "d * qd - k * np.sign(u)"),
+                ("input for velocity / the", "d * u - k * np.sign(u)"),
+                ("sign for velocity / the viscous", "(d + k) * np.sign(qd)"),
+                ("friction multiplied / the", "d * qd * k * np.sign(qd)"),
+            )
+        ),
         ("signs of the left side", rate("u + C @ qd + g + d * qd + k * np.sign(qd)"), 0.25),
         ("sign of the whole", rate("C @ qd + g + d * qd + k * np.sign(qd) - u"), 0.25),
         ("left side missing", rate("u"), 0.25),
@@ -345,6 +354,9 @@ TABLE = {
         ("gravity of Earth / 9.81 / g", "arm.g = 9.81\n" + drift(), 0.35),
         ("sign of the whole", drift(returned="E[0] - E"), 0),
         ("from the end", drift(returned="E - E[-1]"), 0),
+        ("share in percent", drift(returned="100 * (E - E[0]) / E[0]"), 0),
+        ("range for the drift", drift(returned="E.max() - E.min() + 0 * E"), 0),
+        ("M left out of K", drift(K="0.5 * qd @ qd"), 0.35),
         (("½ of K missing", "L for the energy"), drift(K="qd @ M(q) @ qd", E="K - P"), 0),
     ],
 }
