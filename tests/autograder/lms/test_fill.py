@@ -55,7 +55,7 @@ def test_moodles_sheet_takes_marks_and_keeps_the_rest(tmp_path, language):
     held = moodle.read(path)
     filled, found = fill_worksheet(held, COLUMN, ROSTER)
     after = table(held.sheet.text())
-    assert [row[4] for row in after[1:]] == ["12,35", "0", "", "", "3,00"]  # a missing one is no 0
+    assert [row[4] for row in after[1:]] == ["12,345", "0", "", "", "3,00"]  # a missing one is no 0
     assert [row[:4] + row[5:] for row in after] == [row[:4] + row[5:] for row in before]
     assert after[0] == before[0]
     assert filled.marks == 2
@@ -74,11 +74,11 @@ def test_moodles_sheet_takes_marks_and_keeps_the_rest(tmp_path, language):
 def test_what_is_suggested_counts_if_one_asks(tmp_path):
     held = moodle.read(moodle_sheet(tmp_path / "s.csv", ROWS))
     fill_worksheet(held, COLUMN, ROSTER, unread=True)
-    assert [row[held.grade] for row in held.sheet.rows] == ["12.35", "0", "9.5", "", "3,00"]
+    assert [row[held.grade] for row in held.sheet.rows] == ["12.345", "0", "9.5", "", "3,00"]
 
 
 @pytest.mark.parametrize(
-    ("scale", "most", "marks"), [(True, "100.00", ["82.3", "0"]), (False, "15", ["12.35", "0"])]
+    ("scale", "most", "marks"), [(True, "100.00", ["82.3", "0"]), (False, "15", ["12.345", "0"])]
 )
 def test_other_points_on_the_platform(tmp_path, scale, most, marks):
     held = moodle.read(moodle_sheet(tmp_path / "s.csv", ROWS, most=most))
@@ -162,7 +162,7 @@ def test_canvas_takes_marks_and_keeps_the_rest(tmp_path, sign, bom):
     after = table(text, sign)
     assert text.startswith("\ufeff") == bom
     assert [row[at] for row in after] == [
-        "P3 Pendulum (501)", "Manual Posting", "15.00", "12.35", "0", "EX", "", ""
+        "P3 Pendulum (501)", "Manual Posting", "15.00", "12.345", "0", "EX", "", ""
     ]  # fmt: skip
     before[6][0] = f"'{before[6][0]}"  # Canvas's own way to keep a name from being a formula is one
     assert [row[:at] + row[at + 1 :] for row in after] == [
@@ -207,7 +207,7 @@ def test_canvas_sheet_with_names_in_two_columns(tmp_path):
     held = canvas.read(path)
     filled = fill_gradebook(held, Marks(PEOPLE[:1], [COLUMN]), {P3: 5}, Roster({"ada": PEOPLE[0]}))
     assert filled.faults == []
-    assert [row[5] for row in held.rows] == ["12.35", ""]
+    assert [row[5] for row in held.rows] == ["12.345", ""]
 
 
 def test_a_column_that_no_title_tells_is_asked_for(tmp_path):

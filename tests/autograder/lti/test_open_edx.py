@@ -103,7 +103,7 @@ def test_marks_arrive(root, edx):
     assert kept(edx, "lineitem", "label", "resource_id", "score_maximum") == [(P3, P3, 15)]
     columns = ("user_id", "score_given", "score_maximum", "grading_progress", "comment")
     assert kept(edx, "score", *columns) == [
-        ("u-ada", 12.5, 15.0, "FullyGraded", None),
+        ("u-ada", 12.504, 15.0, "FullyGraded", None),
         ("u-bob", 0.0, 15.0, "FullyGraded", "graded, late, −1.5"),
         ("u-cem", None, None, "PendingManual", "proof not yet marked"),
     ]
@@ -141,7 +141,7 @@ def test_what_it_does_not_take_stops_no_other_assignment(root, edx):
     of_p3 = marks({"ada": OF_P3["ada"]}).columns
     (fault,) = sending.send(root, Marks(PEOPLE, [half, *of_p3]), How()).faults
     assert "A valid integer is required" in fault
-    assert kept(edx, "score", "score_given") == [(12.5,)]
+    assert kept(edx, "score", "score_given") == [(12.504,)]
 
 
 def test_a_token_is_good_for_what_it_was_asked_for_alone(root, edx):

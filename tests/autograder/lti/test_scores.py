@@ -25,7 +25,7 @@ def test_each_student_gets_the_score_that_the_mark_says(root, platform):
     assert (item["label"], item["resourceId"], item["scoreMaximum"]) == (P3, P3, 15.0)
     full = {"activityProgress": "Completed", "gradingProgress": "FullyGraded", "scoreMaximum": 15.0}
     assert scores(platform) == {
-        "u-ada": {"userId": "u-ada", "scoreGiven": 12.5, **full,
+        "u-ada": {"userId": "u-ada", "scoreGiven": 12.504, **full,
                   "submission": {"submittedAt": "2026-11-28T17:59:00.000+00:00"}},
         "u-bob": {"userId": "u-bob", "scoreGiven": 0.0, "comment": "graded, late, −1.5", **full,
                   OF_CANVAS: {"new_submission": False}},
