@@ -6,9 +6,10 @@ import pytest
 
 from autograder.cli import main
 from tests.autograder.courses import ROOT
-from tests.autograder.lms.platforms import canvas_sheet, moodle_folder, zipped
+from tests.autograder.lms.platforms import canvas_name, canvas_sheet, moodle_folder, zipped
 
 P1, P3 = "p1-inertia", "p3-pendulum"
+NOTEBOOK = json.dumps({"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 4})
 WHO = {"ada": ("Ada Lovelace", 101), "bob": ("Bob Doe", 102)}
 
 
@@ -26,11 +27,9 @@ def course(tmp_path, monkeypatch):
     return tmp_path
 
 
-def archive(course, text: str, **names: str):
-    cell = {"cell_type": "markdown", "metadata": {}, "source": text}
-    notebook = json.dumps({"cells": [cell], "metadata": {}, "nbformat": 4, "nbformat_minor": 4})
-    files = {f"{moodle_folder(*WHO[one])}/{name}": notebook for one, name in names.items()}
-    return zipped(course / f"{text}.zip", files)
+def archive(course, called: str, **names: str):
+    files = {f"{moodle_folder(*WHO[one])}/{name}": NOTEBOOK for one, name in names.items()}
+    return zipped(course / f"{called}.zip", files)
 
 
 def collect(capsys, *arguments) -> tuple[int, str]:
@@ -63,9 +62,11 @@ def test_a_hand_in_without_a_notebook_gives_way_to_any_with_one(course, capsys):
     held = course / "course" / "submitted" / "ada" / P1
     held.mkdir(parents=True)
     (held / "photo.png").write_text("png")
-    (held / "timestamp.txt").write_text("2999-01-01 00:00:00 UTC\n")
+    (held / "timestamp.txt").write_text("2026-11-01 00:00:00 UTC\n")
     (course / "course" / "calendar.toml").write_text(f"[{P1}]\ndue = 2026-11-28T17:00:00Z\n")
-    status, said = collect(capsys, archive(course, "right", ada=f"{P1}.ipynb"))
+    late = canvas_name("Lovelace, Ada", 11, 5, f"{P1}.ipynb", late=True)
+    path = zipped(course / "canvas.zip", {late: NOTEBOOK})
+    status, said = collect(capsys, path)
     assert status == 0
     assert "ada: taken" in said
     assert submitted(course) == [f"ada/{P1}/{P1}.ipynb"]
