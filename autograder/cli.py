@@ -7,6 +7,7 @@ from pathlib import Path
 from autograder import commands
 from autograder.commands import try_mechanism
 from autograder.commands.saying import complain, of_gradebook
+from autograder.entering import why_closed
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -33,6 +34,8 @@ def main(arguments: list[str] | None = None) -> int:
             f"{root} is not the course's folder: it has no nbgrader_config.py; "
             "change to the folder that holds solutions/ and try again"
         )
+    if (root / "course").exists() and (why := why_closed(root / "course")):
+        return complain(why)
     try:
         return given.run(root, given)
     except Exception as error:

@@ -78,6 +78,8 @@ def read(path: Path) -> Roster:
     """The class list in a file. FileNotFoundError if there is none, RosterError if it is wrong."""
     if path.stat().st_size > MOST_BYTES:
         raise RosterError(f"{path}: it has more than {MOST_BYTES >> 20} MB; is it the class list?")
+    if path.read_bytes()[:4] == b"PK\x03\x04":
+        raise RosterError(f"{path}: it is a spreadsheet's own file: save it as CSV, in UTF-8")
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -125,6 +127,12 @@ def _columns(path: Path, head: list[str]) -> dict[str, int]:
     if "id" not in named:
         raise RosterError(
             f"{path}, line 1: no column is called id; the first line is {','.join(COLUMNS)}"
+        )
+    others = [name.strip() for name in head if name.strip() and name.strip().casefold() != "id"]
+    if others and not set(named) & set(COLUMNS[1:]):  # such as names in another language
+        raise RosterError(
+            f"{path}, line 1: of the columns {', '.join(others)}, none is known: call them "
+            f"{', '.join(COLUMNS[1:])}, or leave them out"
         )
     if twice := [name for name in COLUMNS if named.count(name) > 1]:
         raise RosterError(f"{path}, line 1: two columns are called {twice[0]}")

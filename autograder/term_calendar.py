@@ -14,6 +14,7 @@ ada = "2026-12-02 18:00"
 counts = true
 """
 
+import difflib
 import math
 import re
 import tomllib
@@ -145,9 +146,11 @@ class _Reader:
         assignments = {}
         for name, said in held.items():
             if not isinstance(said, dict):
-                raise self._error(
-                    name, f"{name} is no setting; an assignment is written as [{name}]"
+                near = difflib.get_close_matches(name, ("time-zone", "penalty"))
+                meant = (
+                    f"did you mean {near[0]}?" if near else f"an assignment is written as [{name}]"
                 )
+                raise self._error(name, f"{name} is no setting; {meant}")
             assignments[name] = self._assignment(name, said, default)
         return Calendar(assignments, self._zone, default)
 

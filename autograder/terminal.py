@@ -1,12 +1,14 @@
 """Prints text in a terminal without any control sequence that the terminal would obey."""
 
 import sys
+from collections.abc import Iterable
 from typing import TextIO
 
 from autograder.protocol import one_line
 
 MOST_OF_A_NAME = 64  # characters, so that a table keeps its width
 MOST_OF_A_NOTE = 1000
+MOST_NAMES = 10
 
 
 def say(text: str, to: TextIO | None = None) -> None:
@@ -33,6 +35,13 @@ def shown_points(points: float) -> str:
 def shown_name(student: str) -> str:
     """A student's id, whatever it holds, as part of one line."""
     return one_line(student, MOST_OF_A_NAME)
+
+
+def shown_names(students: Iterable[str]) -> str:
+    """Some students for one line: the first ten of them, and how many more there are."""
+    names = [shown_name(student) for student in sorted(students)]
+    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    return f"{', '.join(names[:MOST_NAMES])}{more}"
 
 
 def shown_note(note: str) -> str:

@@ -119,6 +119,7 @@ MAY_IMPORT = {
     "year": ("protocol", "roster", "term_calendar", "lms"),
     "lti": ("files", "protocol", "roster", "lms"),
     "sandbox/inside": (),
+    "entering": (),
     "terminal": ("protocol",),
     "sandbox": ("protocol",),
     "judging": ("protocol",),
@@ -177,7 +178,7 @@ MAY_IMPORT = {
         "notebook",
         "report",
         "marking",
-        *("roster", "term_calendar", "lms", "lti.sent"),
+        *("entering", "roster", "term_calendar", "lms", "lti.sent"),
     ),
     "commands": (
         *("arguments", "authoring", "bundle", "files", "lab", "lab_server", "lean", "lms", "lti"),
@@ -191,7 +192,7 @@ MAY_IMPORT = {
     "busy": (),
     "processors": (),
     "__init__": ("protocol", "student"),
-    "cli": ("commands", "lab"),
+    "cli": ("commands", "entering", "lab"),
 }
 
 

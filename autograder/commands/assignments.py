@@ -13,16 +13,21 @@ def name_of(assignment: str) -> str:
 
 def unknown(root: Path, assignment: str) -> str:
     """Why there is no such assignment, with the names that may be meant; empty if there is one."""
-    known = sorted(path.stem for path in (root / "solutions").glob("*/*.ipynb")
-                   if path.stem == path.parent.name)  # fmt: skip
-    if assignment in known:
+    names = known(root)
+    if assignment in names:
         return ""
-    near = [name for name in known if assignment and assignment.casefold() in name.casefold()]
-    meant = near or difflib.get_close_matches(assignment, known)
-    named = f"Did you mean {' or '.join(meant)}?" if meant else f"There are {', '.join(known)}."
+    near = [name for name in names if assignment and assignment.casefold() in name.casefold()]
+    meant = near or difflib.get_close_matches(assignment, names)
+    named = f"Did you mean {' or '.join(meant)}?" if meant else f"There are {', '.join(names)}."
     return (
-        f"there is no solutions/{assignment}/{assignment}.ipynb. {named if known else ''}".rstrip()
+        f"there is no solutions/{assignment}/{assignment}.ipynb. {named if names else ''}".rstrip()
     )
+
+
+def known(root: Path) -> list[str]:
+    """The names of the course's assignments."""
+    return sorted(path.stem for path in (root / "solutions").glob("*/*.ipynb")
+                  if path.stem == path.parent.name)  # fmt: skip
 
 
 def add_roster(parser) -> None:

@@ -5,7 +5,7 @@ from datetime import UTC
 from pathlib import Path
 
 from autograder import arguments as argument
-from autograder.commands.assignments import add_roster, name_of, unknown
+from autograder.commands.assignments import add_roster, known, name_of, unknown
 from autograder.commands.saying import complain, to_be_looked_at
 from autograder.terminal import say, shown_name, shown_note
 
@@ -58,7 +58,16 @@ def run(root: Path, given: argparse.Namespace) -> int:
         shelf = Submissions(root, given.assignment)
         with locked(root / pipeline.LOCK, f"`autograder grade` is running in {root}"):
             done = collect(
-                given.archives, given.assignment, people, calendar, shelf, given.sheet, given.latest
+                *(
+                    given.archives,
+                    given.assignment,
+                    people,
+                    calendar,
+                    shelf,
+                    given.sheet,
+                    given.latest,
+                ),
+                others=known(root),
             )
     except (OSError, ValueError) as error:
         return complain(str(error))

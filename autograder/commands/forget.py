@@ -19,7 +19,7 @@ def add_to(commands) -> None:
 def run(root: Path, given: argparse.Namespace) -> int:
     """Remove a student from the course, after asking; the exit status is 1 if nothing was removed."""
     from autograder import lean, roster  # noqa: F401  before nbformat is imported
-    from autograder.nbgrader_glue.forget import person, traces
+    from autograder.nbgrader_glue.forget import known, person, traces
     from autograder.nbgrader_glue.mentions import Called, mentions
     from autograder.pipeline import run as pipeline
     from autograder.pipeline.lock import locked
@@ -30,6 +30,12 @@ def run(root: Path, given: argparse.Namespace) -> int:
     shown = shown_name(student)
     try:
         with locked(root / pipeline.LOCK, f"`autograder grade` is running in {root}"):
+            ids = known(root)
+            near = sorted(one for one in ids - {student} if one.casefold() == student.casefold())
+            if near and student not in ids:
+                # Pages may hold the word all the same, as a name.
+                meant = " or ".join(map(shown_name, near))
+                return complain(f"there is no student {shown}. Did you mean {meant}?", 1)
             found = traces(root, student, pipeline.kept_about(root, student))
             if not found:
                 return complain(f"the course keeps nothing about {shown}", 1)

@@ -9,7 +9,7 @@ from autograder.commands.assignments import add_roster, name_of, unknown
 from autograder.commands.saying import complain, to_be_looked_at
 from autograder.terminal import say, shown_note
 
-MISSING = "this needs the extra lti: python -m pip install -c constraints.txt '.[lti]'"
+MISSING = "this needs the extra lti: python -m pip install -c constraints.txt -e '.[lti]'"
 
 
 def add_to(commands) -> None:

@@ -2,6 +2,7 @@
 
 import argparse
 import contextlib
+import errno
 import webbrowser
 from pathlib import Path
 from urllib.parse import quote
@@ -75,7 +76,13 @@ def run(root: Path, given: argparse.Namespace) -> int:
         for line in [] if given.second else settle_course(root):
             say(shown_note(line))
         left = desk.left()
-    except (OSError, ValueError) as error:
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            return complain(
+                f"another program uses port {given.port}: choose another --port, or none"
+            )
+        return complain(str(error))
+    except ValueError as error:
         return complain(str(error))
     say(
         "\n".join(

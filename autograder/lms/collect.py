@@ -56,12 +56,14 @@ def collect(
     shelf: Shelf,
     sheet: Path | None = None,
     latest: bool = False,
+    others: Iterable[str] = (),
 ) -> Collected:
     """Put each student's hand-in that counts on the shelf.
 
     archives: in the order in which they were downloaded. sheet: the platform's own, which says who has
-    which number, and when they handed in. latest: the last hand-in counts though it is late. Nothing
-    that is wrong with one hand-in stops another. SheetError, OSError if the sheet cannot be read.
+    which number, and when they handed in. latest: the last hand-in counts though it is late. others: the
+    course's other assignments, whose notebooks are not taken. Nothing that is wrong with one hand-in
+    stops another. SheetError, OSError if the sheet cannot be read.
     """
     done = Collected()
     known: dict[tuple[str, str], Registered] = {}
@@ -70,14 +72,36 @@ def collect(
         done.faults += faults
     of = calendar.of(assignment)
     best: dict[str, HandIn] = {}
+    others = [other for other in others if other != assignment]
     for path in archives:
-        for new in _handed_in(path, assignment, roster, known, of, done):
+        found = _handed_in(path, assignment, roster, known, of, done)
+        for new in _of_this(found, path, assignment, others, done):
             old, due = best.get(new.person.id), of.due_for(new.person.id)
             best[new.person.id] = _chosen(new, old, due, latest) if old else new
     for student in roster.people:
         if student in best:
             _put(shelf, best[student], assignment, of.due_for(student), latest, done)
     return done
+
+
+def _of_this(
+    found: list[HandIn], path: Path, assignment: str, others: list[str], done: Collected
+) -> list[HandIn]:
+    """Those whose notebook is not another assignment's, as in an archive that was chosen by mistake."""
+    of = {new.person.id: hand_in.of_another(new.files, assignment, others) for new in found}
+    if len(found) > 1 and all(of.values()):
+        whose = " and ".join(sorted(set(of.values())))
+        done.faults.append(
+            f"{path.name}: its notebooks are those of {whose}, and not of {assignment}: none was taken"
+        )
+        return []
+    for student, other in of.items():
+        if other:
+            done.faults.append(
+                f"{student}: not taken: the notebook is called as that of {other}, and not of "
+                f"{assignment}: ask the student"
+            )
+    return [new for new in found if not of[new.person.id]]
 
 
 def _chosen(new: HandIn, old: HandIn, due: datetime | None, latest: bool) -> HandIn:
@@ -110,7 +134,12 @@ def _put(
         elif held and not same and why and not hand_in.fault(held.files, assignment):
             why = f"{why}; the hand-in that is there stays"
             done.lines.append(Line(student, held.when, new.notes, False))
-        elif held and not same and not hand_in.counts_rather(new, held, due, latest):
+        elif (
+            held
+            and not same
+            and not hand_in.fault(held.files, assignment)
+            and not hand_in.counts_rather(new, held, due, latest)
+        ):
             note = f"the hand-in that is there counts: {said(held)}, and not {said(new)}"
             done.lines.append(Line(student, held.when, (*new.notes, note), False))
         else:
@@ -147,6 +176,11 @@ def _handed_in(
         return []
     if not sent and not left_out:
         done.faults.append(f"{path.name}: it holds no hand-in of Moodle's or Canvas's")
+    if known and sent and not known.keys() & sent.keys():
+        done.faults.append(
+            f"{path.name}: the sheet names nobody who handed this in: is it of the same assignment and "
+            "the same platform?"
+        )
     found: dict[str, list[tuple[Origin, HandIn]]] = {}
     for (platform, number), files in sent.items():
         first = files[0][0]

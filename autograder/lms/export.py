@@ -99,6 +99,9 @@ def written(marks: Marks, given: Namespace, pages: Callable[[], dict[str, list[P
             done.files[given.feedback] = data
             count = f"{len(found) - len(without)} students' pages, {len(without)} have none"
             done.lines.append(f"feedback: {count}: {given.feedback}")
+            if found and len(without) == len(found):
+                name = marks.columns[0].assignment
+                done.lines.append(f"to make the pages, run `nbgrader generate_feedback {name}`")
         return done
     book = canvas.read(given.sheet)
     named = {assignment: book.sheet.column(heading) for assignment, heading in given.column}

@@ -3,6 +3,7 @@
 import json
 import re
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 
@@ -78,6 +79,15 @@ def arranged(files: dict[str, bytes], assignment: str) -> tuple[dict[str, bytes]
     elif others := sorted(name for name in files if name.endswith(".ipynb")):
         notes.append(f"there is no {wanted}; the grader looks into {_shown(others[0])}")
     return files, notes
+
+
+def of_another(files: Iterable[str], assignment: str, others: Iterable[str]) -> str:
+    """Of which other assignment the notebooks are by their names, if none is this one's; else ""."""
+    names = [name.rsplit("/", 1)[-1] for name in files if name.endswith(".ipynb")]
+    if any(copy_of(name, assignment) is not None for name in names):
+        return ""
+    theirs = (other for other in others for name in names if copy_of(name, other) is not None)
+    return next(theirs, "")
 
 
 def fault(files: dict[str, bytes], assignment: str) -> str:

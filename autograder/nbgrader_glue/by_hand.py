@@ -44,15 +44,19 @@ class ByHand:
 
     def papers(self, proof: Proof) -> list[Paper]:
         with self._gradebook() as gradebook:
-            return _patiently(lambda: sorted(_papers(gradebook.db, proof), key=lambda one: one.id))
+            papers = _patiently(lambda: list(_papers(gradebook.db, proof)))
+        # Who could not be graded has rows, and no answer that a person could read.
+        readable = [one for one in papers if self._graded(proof, one.student).is_file()]
+        return sorted(readable, key=lambda one: one.id)
 
     def written(self, proof: Proof, student: str, hidden: bool) -> Written:
-        course, name = self._course, proof.assignment
-        folder = Path(course.format_path(course.autograded_directory, student, name))
         person = self._people.get(student)
         names = [student, person.name, person.first_name, person.last_name] if person else [student]
         return self._answers.written(
-            folder / f"{name}.ipynb", self._source_of(name), proof.cell, names if hidden else []
+            self._graded(proof, student),
+            self._source_of(proof.assignment),
+            proof.cell,
+            names if hidden else [],
         )
 
     def shown(self, proof: Proof, markdown: str) -> str:
@@ -73,6 +77,11 @@ class ByHand:
                 gradebook.db.commit()
 
         _patiently(write)
+
+    def _graded(self, proof: Proof, student: str) -> Path:
+        course, name = self._course, proof.assignment
+        folder = Path(course.format_path(course.autograded_directory, student, name))
+        return folder / f"{name}.ipynb"
 
     def _gradebook(self) -> api.Gradebook:
         course = self._course

@@ -61,6 +61,17 @@ def person(root: Path, student: str) -> Person:
         return Person(student, row.last_name or "", row.first_name or "", row.email or "")
 
 
+def known(root: Path) -> set[str]:
+    """The ids of all whom the class list, the gradebook or a submission's folder names."""
+    course = CourseDirectory(config=configuration(root), log=QUIET)
+    listed = roster.read_if_there(root)
+    submitted = Path(course.format_path(course.submitted_directory, "*", ".")).parent
+    with api.Gradebook(course.db_url, course.course_id) as gradebook:
+        ids = {student.id for student in gradebook.students}
+    ids |= set(listed.people if listed else ())
+    return ids | {path.name for path in submitted.glob("*/")} if submitted.is_dir() else ids
+
+
 def _folders(root: Path, course: CourseDirectory, student: str) -> Iterator[Trace]:
     steps = (course.submitted_directory, course.autograded_directory, course.feedback_directory)
     folders = [Path(course.format_path(step, student, ".")) for step in steps]

@@ -93,8 +93,8 @@ class Rows:
             grades = [api.Grade(cell_id=cell, **mine) for cell in self._with_grade]
             comments = [api.Comment(cell_id=cell, **mine) for cell in self._with_comment]
             db.add_all([submission, notebook, *grades, *comments])
-        if timestamp:
-            submission.timestamp = timestamp
+        # Also None: the time of an earlier hand-in is not that of one without a time.
+        submission.timestamp = timestamp
         if self._lateness and self._lateness.due is not None:
             submission.extension = self._lateness.extension(student)
         return submission, notebook, grades, comments

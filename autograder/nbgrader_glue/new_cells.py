@@ -16,9 +16,8 @@ from sqlalchemy import delete, select
 from autograder.files import put_in_place
 from autograder.lms.sheet import as_csv, harmless
 from autograder.nbgrader_glue.shelf import REPLACED
-from autograder.terminal import plain, shown_name, shown_points
+from autograder.terminal import plain, shown_names, shown_points
 
-MOST_NAMES = 10
 HEAD = ("assignment", "cell", "points_by_a_person", "extra_credit", "comment")
 
 
@@ -91,7 +90,7 @@ def _remove(db, notebook: api.Notebook, cell, root: Path) -> Iterator[str]:
         ]  # fmt: skip
         if kept:
             yield (
-                f"{cell.name}: what a person gave to {_names(kept)} is in "
+                f"{cell.name}: what a person gave to {shown_names(kept)} is in "
                 f"{REPLACED}/<student>/{notebook.assignment.name}/"
             )
         for row in (api.Grade, api.Comment):
@@ -137,14 +136,11 @@ def _with_new_points(db, cell, points: float) -> Iterator[str]:
     new, old = shown_points(points), shown_points(cell.max_score)
     if too_many:
         yield (
-            f"{cell.name}: a person gave more than the new {new} points to {_names(too_many)}: mark "
-            "these again in the formgrader"
+            f"{cell.name}: a person gave more than the new {new} points to {shown_names(too_many)}: "
+            "mark these again with `autograder mark`"
         )
     if stays:
-        yield f"{cell.name}: points that a person gave out of {old} stay, out of {new}: {_names(stays)}"
-
-
-def _names(students: list[str]) -> str:
-    shown = ", ".join(map(shown_name, sorted(students)[:MOST_NAMES]))
-    more = len(students) - MOST_NAMES
-    return f"{shown} and {more} more" if more > 0 else shown
+        yield (
+            f"{cell.name} has {new} points now, and had {old}; what a person gave stays as it is for "
+            f"{shown_names(stays)}"
+        )

@@ -40,6 +40,11 @@ def test_only_the_id_is_needed(tmp_path):
     [
         ("name\nada\n", "line 1: no column is called id"),
         ("", "line 1: no column is called id"),
+        (
+            "ID;Nachname;Vorname\nada;Lovelace;Ada\n",
+            "line 1: of the columns Nachname, Vorname, none is known: call them last_name, first_name",
+        ),
+        (b"PK\x03\x04\x14", ": it is a spreadsheet's own file: save it as CSV, in UTF-8"),
         ("id,email,email\nada,a,b\n", "line 1: two columns are called email"),
         (f"{NAMES}ada,,,,\n\nada,,,,\n", "line 4: id 'ada' is that of a student above"),
         (f"{NAMES}ada,,,,7\nbob,,,,7\n", "line 3: lms_id '7' is that of a student above"),

@@ -77,6 +77,7 @@ def test_without_a_file_nothing_is_due_and_challenges_do_not_count(course):
     [
         ('time-zone = "Mars/North"', "line 1: 'Mars/North' is no zone, such as Europe/Berlin"),
         ("time-zone = 1", "line 1: 1 is no zone"),
+        ('timezone = "UTC"', "line 1: timezone is no setting; did you mean time-zone?"),
         ("\nlate = 3", "line 2: late is no setting; an assignment is written as [late]"),
         ("[p3-pendulum]\ndue = 2026-11-29T18:00", "line 2: Expected"),
         ("[p3-pendulum", ", at its end: Expected"),

@@ -8,6 +8,8 @@ const said = document.getElementById("said");
 let leave = null; // asks the view to save, before another one is shown
 let keys = null; // what a key does in this view
 let shown = "";
+let busy = false;
+let arrived = () => {};
 
 const [, token] = location.hash.match(/token=([\w-]+)/) ?? [];
 if (token) {
@@ -49,6 +51,20 @@ const safely = (does) => async (...given) => {
     return undefined;
   }
 };
+
+// One at a time: a second press, while the first one still saves, would save over what it has not seen.
+const alone = (does) => async () => {
+  if (busy) return;
+  busy = true;
+  await safely(does)();
+  busy = false;
+};
+
+// Resolves when the view is there.
+const goTo = (where) => new Promise((done) => {
+  arrived = done;
+  location.hash = where;
+});
 
 async function list() {
   const proofs = await get("proofs");
@@ -100,9 +116,9 @@ async function marking(assignment, cell, wanted) {
       element("div", { html: answer.beside })) : "",
     fold("The rest of this notebook", answer.rest));
 
-  const panel = rubric(proof, answer, { save: safely(save), takeBack: safely(takeBack), next: safely(next),
-    previous: safely(previous) });
-  const go = (one) => { location.hash = `#mark/${path(assignment, cell, one.id)}`; };
+  const panel = rubric(proof, answer, { save: alone(save), takeBack: alone(takeBack), next: alone(next),
+    previous: alone(previous) });
+  const go = (one) => goTo(`#mark/${path(assignment, cell, one.id)}`);
 
   function told() {
     const left = proof.papers.filter(isLeft).length;
@@ -140,13 +156,13 @@ async function marking(assignment, cell, wanted) {
     await saved();
     const later = [...proof.papers.slice(at + 1), ...proof.papers.slice(0, at)];
     const one = later.find(isLeft) ?? proof.papers[at + 1];
-    if (one) go(one);
+    if (one) await go(one);
     else say("This was the last one; all are marked.");
   }
 
   async function previous() {
     await saved();
-    if (at) go(proof.papers[at - 1]);
+    if (at) await go(proof.papers[at - 1]);
   }
 
   function toggleModel() {
@@ -201,7 +217,7 @@ async function apart(assignment, cell) {
     found.papers.length
       ? element("p", {}, `Two people have marked ${found.papers.length} answers, and differ on ${differ.length}; `,
         element("strong", {}, `${open} to decide`), ". Until you choose, the first one's points count.")
-      : element("p", {}, "No answer has two marks. A second marker runs `autograder mark --second`."),
+      : element("p", {}, "Nobody has marked an answer a second time. To do so, a second marker runs “autograder mark --second”."),
     element("div", { className: "wide" }, element("table", {}, element("thead", {}, head), element("tbody", {}, ...rows))));
 }
 
@@ -220,7 +236,11 @@ async function show() {
   else await list();
 }
 
-window.addEventListener("hashchange", safely(async () => { say(""); await show(); }));
+window.addEventListener("hashchange", async () => {
+  say("");
+  await safely(show)();
+  arrived();
+});
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   const types = event.target.matches("textarea, input:not([type=checkbox])");
@@ -228,6 +248,6 @@ document.addEventListener("keydown", (event) => {
   const does = !types && keys?.[event.key];
   if (!does) return;
   event.preventDefault();
-  safely(does)();
+  alone(does)();
 });
 safely(show)();

@@ -1,5 +1,6 @@
 """The graders' side of the exchange: what is collected is read as what a stranger wrote."""
 
+import glob
 import os
 import shutil
 import stat
@@ -9,22 +10,41 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
+import nbformat
 from nbgrader.exchange import ExchangeError, default
 from nbgrader.utils import ignore_patterns
 from traitlets import Bool
 
+from autograder.nbgrader_glue import agreement
 from autograder.nbgrader_glue.exchange.entered import Entered
 from autograder.nbgrader_glue.foreign_folder import ForeignFolderError, copy_foreign
+from autograder.terminal import shown_names
 
 # What a student's clock and a slow disk may differ by.
 TOLERANCE = timedelta(minutes=5)
 
 
 class ReleaseFeedback(Entered, default.ExchangeReleaseFeedback):
-    """Also lets students read the pages where the graders' own files are closed."""
+    """Also lets students read the pages where the graders' own files are closed. Leaves out who did not
+    hand in through the exchange: such a student has no secret to fetch a page by.
+    """
+
+    src_path: str
 
     def copy_files(self) -> None:
-        super().copy_files()
+        folders = sorted({os.path.dirname(page) for page in glob.glob(f"{self.src_path}/*.html")})
+        elsewhere = [folder for folder in folders if not _from_the_exchange(Path(folder))]
+        for folder in folders:
+            if folder not in elsewhere:
+                self.src_path = glob.escape(folder)
+                super().copy_files()
+        if elsewhere:
+            self.log.warning(
+                "No page was released to %s, who handed in otherwise than through the exchange. "
+                "To give it to them by Moodle: `autograder export --for moodle %s --feedback …`",
+                shown_names(Path(folder).parent.name for folder in elsewhere),
+                self.coursedir.assignment_id,
+            )
         for page in os.scandir(self.dest_path):
             if page.stat().st_uid == os.geteuid():
                 os.chmod(page.path, 0o644)
@@ -47,8 +67,25 @@ class ReleaseAssignment(Entered, default.ExchangeReleaseAssignment):
             super().init_dest()
         except PermissionError as error:
             self.fail(f"The course cannot be set up in the exchange: {error}.")
+        self._tell_what_is_older()
         mode = stat.S_IMODE(os.stat(self.inbound_path).st_mode)
         os.chmod(self.inbound_path, mode | stat.S_ISVTX | stat.S_ISGID)
+
+    def _tell_what_is_older(self) -> None:
+        course, name = self.coursedir, self.coursedir.assignment_id
+        source = Path(course.format_path(course.source_directory, ".", name), f"{name}.ipynb")
+        released = Path(self.src_path, f"{name}.ipynb")
+        try:
+            made = nbformat.read(source, as_version=4)
+            found = agreement.from_release(made, released.read_text(encoding="utf-8"))
+        except (OSError, ValueError):  # no source on this machine, or one that is being written
+            return
+        if found:
+            self.log.warning(
+                "Students get the release as it was made last, and solutions/%s has changed since: %s. "
+                "To release what is there now, %s, and then this command again with --force",
+                *(name, agreement.few(found), agreement.again(name)),
+            )
 
 
 class Collect(Entered, default.ExchangeCollect):
@@ -138,6 +175,11 @@ class Collect(Entered, default.ExchangeCollect):
                 *(src, f"{stated:%Y-%m-%d %H:%M} UTC"),
                 f"{datetime.fromtimestamp(changed, UTC):%Y-%m-%d %H:%M} UTC",
             )
+
+
+def _from_the_exchange(folder: Path) -> bool:
+    """Whether a page is of a hand-in with what nbgrader's exchange writes beside one."""
+    return all((folder / name).is_file() for name in ("timestamp.txt", "submission_secret.txt"))
 
 
 def _owner(path: str) -> str:

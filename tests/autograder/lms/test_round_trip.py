@@ -312,6 +312,8 @@ def test_a_student_is_forgotten_everywhere(course, capsys, monkeypatch):
     given = Given((), 1.0, "", "", "")
     for student in ("bob", "bobby"):
         Kept(course).change(P3, "p3-derivation", student, lambda entry: {FIRST: given})
+    assert main(["forget", "BOB", "--yes"]) == 1
+    assert "there is no student BOB. Did you mean bob?" in capsys.readouterr().err
     monkeypatch.setattr("builtins.input", lambda question: "n")
     assert main(["forget", "bob"]) == 1
     assert submitted.exists()

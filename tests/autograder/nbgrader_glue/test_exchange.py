@@ -1,5 +1,6 @@
 """The exchange between accounts of one machine: who can open, change or hand in what."""
 
+import copy
 import logging
 import os
 import shutil
@@ -8,6 +9,7 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
+import nbformat
 import pytest
 from nbgrader.api import Gradebook
 from nbgrader.auth import Authenticator
@@ -19,7 +21,9 @@ from traitlets.config import Config
 from autograder.nbgrader_glue.exchange import graders, students
 from autograder.nbgrader_glue.exchange.entered import Entered
 from autograder.nbgrader_glue.steps import EXCHANGE
+from tests.autograder.course_problems import problem
 from tests.autograder.nbgrader_glue.accounts import acting_as, needs_root
+from tests.submissions.answers import cell_of
 
 pytestmark = needs_root
 # Accounts that every Debian has.
@@ -178,21 +182,46 @@ def test_graders_collect_it_and_can_remove_it(course):
 # nbgrader leaves a file open.
 @pytest.mark.filterwarnings("ignore:.*unclosed file:ResourceWarning")
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-def test_feedback_reaches_the_student_where_the_graders_files_are_closed(course):
+def test_feedback_reaches_the_student_where_the_graders_files_are_closed(course, caplog):
+    """Also where others of the class handed in by Moodle or by mail: without a secret, or a time."""
     secret = (course.hand_in(ADA) / "submission_secret.txt").read_text()
-    with acting_as(GRADER):
-        page = course.home(GRADER) / "course" / "feedback" / ADA / P3 / f"{P3}.html"
-        page.parent.mkdir(parents=True)
-        page.write_text("well done")
-        page.chmod(0o600)
-        (page.parent / "timestamp.txt").write_text("2026-01-01 00:00:00 UTC")
-        (page.parent / "submission_secret.txt").write_text(secret)
+    time = {"timestamp.txt": "2026-01-01 00:00:00 UTC"}
+    for student, beside in {
+        ADA: {**time, "submission_secret.txt": secret},
+        "by,moodle": time,
+        "mail": {},
+        "zoe": {},
+    }.items():
+        with acting_as(GRADER):
+            page = course.home(GRADER) / "course" / "feedback" / student / P3 / f"{P3}.html"
+            page.parent.mkdir(parents=True)
+            page.write_text("well done")
+            page.chmod(0o600)
+            for name, text in beside.items():
+                (page.parent / name).write_text(text)
     course.do(GRADER, graders.ReleaseFeedback)
+    assert "No page was released to by,moodle, mail, zoe, who" in caplog.text
+    assert len(list((course.exchange / "armdyn" / "feedback").iterdir())) == 1
     course.do(ADA, students.FetchFeedback)
     (got,) = (course.home(ADA) / P3 / "feedback").rglob("*.html")
     assert got.read_text() == "well done"
     with acting_as(BOB), pytest.raises(PermissionError):
         os.listdir(course.exchange / "armdyn" / "feedback")
+
+
+def test_a_release_that_is_older_than_the_source_is_said(course, caplog):
+    source, home = copy.deepcopy(problem(P3).source), course.home(GRADER)
+    (home / "source" / P3).mkdir(parents=True)
+    (home / "course" / "release" / P3 / f"{P3}.ipynb").write_text(
+        nbformat.writes(problem(P3).release)
+    )
+    (home / "source" / P3 / f"{P3}.ipynb").write_text(nbformat.writes(source))
+    course.do(GRADER, graders.ReleaseAssignment, force=True)
+    assert "since" not in caplog.text
+    cell_of(source, "p3-M").metadata.nbgrader["points"] = 3
+    (home / "source" / P3 / f"{P3}.ipynb").write_text(nbformat.writes(source))
+    course.do(GRADER, graders.ReleaseAssignment, force=True)
+    assert f"solutions/{P3} has changed since: p3-M has 3 points, but 1 point there" in caplog.text
 
 
 def test_a_student_cannot_hand_in_for_another(course, caplog):

@@ -1,15 +1,20 @@
 """course/ is closed to the machine's other accounts, or the instructor is told."""
 
 import os
+import shutil
 import stat
+import subprocess
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
+from autograder.cli import main
 from autograder.nbgrader_glue import make_private
 from tests.autograder import courses
 from tests.autograder.courses import P3
+from tests.autograder.nbgrader_glue.accounts import acting_as, needs_root
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="Windows has no such permissions")
 
@@ -46,6 +51,34 @@ def test_the_instructor_is_told_where_others_can_enter(mode, above, told, open_f
     make_private(folder)
     assert stat.S_IMODE(folder.stat().st_mode) == mode
     assert (f"chmod o-rwx {folder}" in capsys.readouterr().err) == told
+
+
+def test_the_command_to_close_it_can_be_pasted(open_folder, capsys):
+    folder = open_folder / "Übung Robotik #1" / "course"
+    folder.mkdir(parents=True)
+    folder.chmod(0o755)
+    make_private(folder)
+    command = capsys.readouterr().err.partition("To close it: ")[2]
+    subprocess.run(["sh", "-c", command], check=True)
+    assert stat.S_IMODE(folder.stat().st_mode) == 0o750
+
+
+@needs_root
+@pytest.mark.parametrize("command", ["grade p3-pendulum", "problems", "export", "mark"])
+def test_another_account_is_told_whose_the_course_is(command, open_folder, capsys, monkeypatch):
+    (open_folder / "nbgrader_config.py").write_text(
+        (courses.ROOT / "nbgrader_config.py").read_text()
+    )
+    (open_folder / "course").mkdir(mode=0o700)
+    shutil.chown(open_folder / "course", "games")
+    monkeypatch.chdir(open_folder)
+    with acting_as("mail"):
+        assert main(command.split()) == 2
+        with suppress(PermissionError):
+            make_private(open_folder / "course")
+    said = capsys.readouterr().err.splitlines()
+    whose = f"{open_folder / 'course'}, which belongs to the account games"
+    assert [whose in line for line in said] == [True, True], said
 
 
 def test_nbgrader_makes_the_course_closed_and_warns_where_it_is_open(open_folder):

@@ -12,6 +12,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from nbgrader.api import Gradebook
 
 from autograder.cli import main
+from autograder.nbgrader_glue.by_hand import ByHand
 from autograder.notebook import beside
 from tests.autograder import courses
 from tests.autograder.course_problems import problem
@@ -306,3 +307,23 @@ def test_with_another_file_beside_it_a_notebook_is_judged_again(pair, monkeypatc
     said = " ".join(capsys.readouterr().out.split())
     assert "1 graded, 13 unchanged" in said
     assert "files_beside 6.5 of 15" in said  # the kinetic part of L is wrong now
+
+
+def test_no_answer_waits_to_be_marked_of_whom_nobody_could_grade(pair):
+    book = ByHand(pair.ours)
+    (proof,) = [proof for proof in book.proofs() if proof.assignment == P3]
+    waiting = {paper.student for paper in book.papers(proof)}
+    assert {"right", "late"} <= waiting
+    assert not {"invalid", "no_cells"} & waiting
+
+
+def test_a_hand_in_without_a_time_keeps_none_of_an_earlier_one(pair, monkeypatch, capsys):
+    root = pair.ours
+    monkeypatch.chdir(root)
+    assert main(["grade", P3, "--jobs", "1"]) == 1
+    assert "late, −" in capsys.readouterr().out
+    (root / "course" / "submitted" / "late" / P3 / "timestamp.txt").unlink()
+    assert main(["grade", P3, "--jobs", "1"]) == 1
+    said = capsys.readouterr().out
+    assert "1 graded, 13 unchanged" in said
+    assert "late, −" not in said
