@@ -108,4 +108,9 @@ def _link_jupyter_server_extension(server: ServerApp) -> None:
 
 
 def _load_jupyter_server_extension(server: ServerApp) -> None:
-    """Jupyter calls this; the extension serves nothing of its own."""
+    """Jupyter calls this, and before nbgrader's: the first that serves an address is asked."""
+    if course_of(Path(server.root_dir).resolve()) is not None:
+        # This takes a second, which is not always needed.
+        from autograder.nbgrader_glue.validating import serve
+
+        serve(server.web_app, server.base_url)

@@ -187,7 +187,7 @@ MAY_IMPORT = {
     ),
     "arguments": ("worked_answers",),
     "lab": ("files",),
-    "lab_server": (),
+    "lab_server": ("nbgrader_glue",),
     "lean": (),
     "busy": (),
     "processors": (),

@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from autograder.bundle.describing import Describing, DescribingError
-from autograder.bundle.left_to_grader import why_left_out
+from autograder.bundle.left_to_grader import form_of, plain, why_left_out
 from autograder.judging.check import Check
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.models import evaluated
@@ -56,7 +56,8 @@ def _in_numbers(check: Check, name: str, describing: Describing) -> InNumbers:
     said = {"asked": asked, "numbers": name, "left_out": why, "mistakes": [], "generated": False}
     calls = visible_calls(check)
     if why:
-        return InNumbers(said, {"calls": []})
+        said["fits"] = describing.of(form_of(check))
+        return InNumbers(said, {"calls": [describing.of(plain(call)) for call in calls]})
     every = all_calls(check)
     made = check.catalogue(calls) if check.catalogue else []
     said |= {

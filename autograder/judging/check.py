@@ -162,7 +162,7 @@ class Check:
     ) -> Verdict:
         fault = next((reply.fault for reply in replies if reply.fault), None)
         if fault and fault.kind is FaultKind.NOT_IMPLEMENTED:
-            return verdict.not_attempted(self.id, self.signature)
+            return verdict.not_attempted(self.id, self.signature, fault.line)
         changed = changes.changed(self.signature, calls, replies)
         try:
             given = self._given(calls, replies)

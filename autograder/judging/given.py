@@ -100,7 +100,7 @@ class Reading:
                 values[unfit[0]],
                 evaluated(self.right, [first])[0],
             )
-            raise NoNumbersError(said, self._failed(calls, unfit)) from None
+            raise NoNumbersError(said, self.failed(calls, unfit)) from None
         first, value = calls[bad[0]], values[bad[0]]
         at_points = bool(first.at)
         problem = (
@@ -114,7 +114,7 @@ class Reading:
         if at_points:  # the call that is shown has numbers for its symbols: those that give this
             point = first.at[first_bad_point(np.asarray(value))]
             calls = [*calls[: bad[0]], replace(first, at=(point,)), *calls[bad[0] + 1 :]]
-        failed = replace(self._failed(calls, bad), works="")
+        failed = replace(self.failed(calls, bad), works="")
         if found is None:
             raise NoNumbersError(problem, failed)
         return Given(found.numbers, values, found.spoilt, problem, failed)
@@ -131,10 +131,13 @@ class Reading:
         if fault.message.startswith("ZeroDivisionError"):
             where = zeros.sentence(self.signature, calls[: len(replies)], faults)
             said = f"{said} {where}".strip()
-        return NoNumbersError(said, self._failed(calls[: len(replies)], faults, len(calls)))
+        return NoNumbersError(said, self.failed(calls[: len(replies)], faults, len(calls)))
 
-    def _failed(self, calls: list[Call], bad: list[int], asked: int | None = None) -> Failed:
-        """calls: those that were made. asked: how many should have been, where not all were."""
+    def failed(self, calls: list[Call], bad: list[int], asked: int | None = None) -> Failed:
+        """What a card shows of the calls that failed.
+
+        calls: those that were made. asked: how many should have been, where not all were.
+        """
         first = calls[bad[0]]
         shown = shown_call(first, self.signature)
         works = next((k for k in range(len(calls)) if k not in bad), None)

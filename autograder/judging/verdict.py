@@ -210,8 +210,14 @@ class Verdict:
         return plain(self)
 
 
-def not_attempted(check: str, signature: str) -> Verdict:
-    """Of a function that still says NotImplementedError."""
+def not_attempted(check: str, signature: str, line: str = "") -> Verdict:
+    """Of a function that still says NotImplementedError. line: that line, where more stands below it."""
+    if line:
+        step = (
+            f"{signature} stops at its {line}, raise NotImplementedError, and nothing below that line "
+            "runs. Delete the line, run the cell, then run this cell again."
+        )
+        return Verdict(check, State.NOT_ATTEMPTED, next_step=step)
     step = (
         f"Write {signature} where it says NotImplementedError, "
         "run its cell, then run this cell again."

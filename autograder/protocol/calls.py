@@ -14,7 +14,7 @@ import numpy as np
 from . import causes, riddles
 from .arguments import changed, real
 from .limits import PATIENCE, Limit, TimeLimitError, time_limit
-from .own_code import line_of
+from .own_code import is_left_open, line_of
 from .readings import (
     MOST_NUMBERS,
     FaultKind,
@@ -163,19 +163,20 @@ def _within(limit: Limit, call: Call, function: Callable, given: list) -> Reply:
             given += [] if given else map(real, call.args)
             result = function(*given)
             if result is ...:  # `return ...`, as a lesson's stub does
-                raise NotImplementedError
+                return Reply(fault=Fault(FaultKind.NOT_IMPLEMENTED))
             return Reply(value=read(call, result))
     except NotNumbersError as error:
         nothing = error.kind is FaultKind.NOTHING
         riddle = riddles.of_nothing(function) if nothing else None
         return Reply(fault=Fault(error.kind, shortened(str(error)), riddle=riddle))
-    except NotImplementedError:
-        return Reply(fault=Fault(FaultKind.NOT_IMPLEMENTED))
     except TimeLimitError as error:
         return _stopped(error)
     except (Exception, SystemExit) as error:
+        if isinstance(error, NotImplementedError) and is_left_open(error):
+            line = riddles.line_above_answer(function)
+            return Reply(fault=Fault(FaultKind.NOT_IMPLEMENTED, line=line))
         text = message_of(error)
-        message = shortened(f"{type(error).__name__}: {text}")
+        message = shortened(f"{type(error).__name__}: {text}".removesuffix(": "))
         riddle = riddles.of_error(error, shortened(text))
         return Reply(fault=Fault(FaultKind.RAISED, message, _failing_line(error), riddle))
 

@@ -9,6 +9,7 @@ from types import TracebackType
 
 from .calls import message_of
 from .limits import TimeLimitError, time_limit
+from .own_code import is_left_open
 from .riddles import of_error, sentence
 from .words import one_line
 
@@ -66,7 +67,7 @@ class Look:
 
     def _line_about(self, error: BaseException) -> str:
         raising = self._raising(error)
-        if isinstance(error, NotImplementedError):
+        if isinstance(error, NotImplementedError) and is_left_open(error):
             names = [_name(raising)] if raising else map(_name, self._ids)
             return f"Write {_joined(names)} first, then run this cell again."
         missing = [id for id in self._ids if _name(id) not in self._namespace]

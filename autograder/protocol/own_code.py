@@ -1,13 +1,17 @@
 """Where in a student's own code something happened."""
 
 import os
+import traceback
 from collections.abc import Iterable
+from pathlib import Path
 from traceback import FrameSummary
 
 from .words import other_cell, shortened
 
 # A cell as IPython names it, in a kernel and in the sandbox.
 CELLS = ("ipykernel_", "<ipython-input")
+INSTALLED = ("site-packages", "dist-packages")
+OF_PYTHON = Path(os.__file__).parent
 
 
 def line_of(frames: Iterable[FrameSummary]) -> str:
@@ -23,6 +27,15 @@ def line_of(frames: Iterable[FrameSummary]) -> str:
     else:
         where = "" if own[-1].filename == own[0].filename else other_cell(own[-1].name)
     return shortened(f"{where}, {line}" if where else line)
+
+
+def is_left_open(error: NotImplementedError) -> bool:
+    """Whether the error says that a function is not written yet. Libraries raise it too, for what they
+    cannot do: SymPy where it finds no solution, a kernel without a keyboard where input is called.
+    """
+    (*_, last) = traceback.extract_tb(error.__traceback__)
+    path = Path(last.filename)
+    return not (set(INSTALLED) & set(path.parts) or path.is_relative_to(OF_PYTHON))
 
 
 def _is_own(filename: str) -> bool:

@@ -37,7 +37,11 @@ def _made(said: dict):
     asked = {name: restored(part, beside) for name, part in said["asked"].items()}
     if said["left_out"]:
         return LeftOut(
-            reference=cast(Model, Stored({})), calls=numbers.calls, why=said["left_out"], **asked
+            reference=cast(Model, Stored({})),
+            calls=numbers.calls,
+            why=said["left_out"],
+            fits=restored(said["fits"]),
+            **asked,
         )
     return Check(
         reference=cast(Model, Later(numbers, "reference")),

@@ -14,6 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 
+import nbformat
 import pytest
 from ipykernel.ipkernel import IPythonKernel
 from jupyter_client.kernelspec import KernelSpecManager
@@ -65,7 +66,7 @@ def plain_jupyter_lab(root):
             # The address may be in the log before anything listens there.
             assert eventually(lambda: _listens(int(address.rpartition(":")[2])))
 
-            def ask(path: str, **data: str):
+            def ask(path: str, /, **data: str):
                 request = urllib.request.Request(
                     address + path,
                     headers={"Authorization": "token t", "Content-Type": "application/json"},
@@ -104,8 +105,29 @@ def test_plain_jupyter_lab_knows_the_course(course):
             assert answer["success"]
         listed = answer["value"]
         assert [a["path"] for a in listed] == [f"problems/{P3}", "problems/p9-new"]
+        damaged_is_told(ask, work)
     assert work.read_text() == mine
     assert (course / "problems" / "p9-new" / f"{P3}.ipynb").exists()
+
+
+def damaged_is_told(ask, work):
+    """Validate answers with a sentence, where nbgrader would say "Success" or show its own code."""
+    notebook = nbformat.read(work, as_version=4)
+    for cell in notebook.cells:
+        cell.metadata.pop("nbgrader", None)
+    ends = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("import os; os._exit(1)")])
+    for made, said in (
+        (notebook, "have lost nbgrader's settings"),
+        (ends, "Python itself stopped"),
+    ):
+        nbformat.write(made, work.with_name("damaged.ipynb"))
+        answer = ask("/assignments/validate", path=f"problems/{P3}/damaged.ipynb")
+        assert not answer["success"]
+        assert said in answer["value"]
+        assert "Traceback" not in answer["value"]
+    sound = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("1 + 1")])
+    nbformat.write(sound, work.with_name("sound.ipynb"))
+    assert ask("/assignments/validate", path=f"problems/{P3}/sound.ipynb")["success"]
 
 
 @pytest.fixture

@@ -5,12 +5,13 @@ is which row of the table it is, and a few short words; the sentence is made of 
 """
 
 from .reading import Riddle, decode_riddle, encode_riddle, of_error, of_nothing, sentence
-from .silent import uses_caret
+from .silent import line_above_answer, uses_caret
 
 __all__ = [
     "Riddle",
     "decode_riddle",
     "encode_riddle",
+    "line_above_answer",
     "of_error",
     "of_nothing",
     "sentence",

@@ -27,12 +27,6 @@ SAME_IN_SYMPY = {
     "cos", "sin", "tan", "exp", "log", "sqrt", "sign", "cosh", "sinh", "tanh", "acos", "asin", "atan",
     "atan2",
 }  # fmt: skip
-# Of NumPy, what students take to be there without a prefix.
-OF_NUMPY = {
-    "cos", "sin", "tan", "sqrt", "exp", "log", "pi", "array", "zeros", "eye", "arctan2", "sign", "dot",
-    "concatenate", "linalg", "arange", "linspace", "diag", "outer", "cross", "transpose", "inv",
-    "rad2deg", "deg2rad", "radians", "degrees",
-}  # fmt: skip
 MOST_NAMES = 12
 NOT_SYMBOLS = "list|tuple|dict|str|NoneType|function|method|set|SimpleNamespace"
 
@@ -160,14 +154,6 @@ def _divisor(scene: Scene, found, error) -> Words | None:
     if node is None or not isinstance(node.op, ast.Div) or isinstance(node.right, ast.Constant):
         return None
     return (text(node.right),)
-
-
-def _of_numpy(scene: Scene, found, error) -> Words | None:
-    name = str(error.name)
-    if name not in OF_NUMPY or not hasattr(np, name):
-        return None
-    both = name in SAME_IN_SYMPY or name == "pi"
-    return name, f" for numbers, sp.{name} for symbols" if both else ""
 
 
 def _out_of_domain(scene: Scene, found, error) -> Words | None:
@@ -301,13 +287,6 @@ ROWS = (
         _out_of_domain,
     ),
     Row("zero", ("ZeroDivisionError",), r"", "{0} is 0 in this call.", _divisor),
-    Row(
-        "numpy name",
-        ("NameError",),
-        r"is not defined",
-        "{0} needs a prefix: np.{0}{1}.",
-        _of_numpy,
-    ),
     Row(
         "relation",
         ("TypeError",),

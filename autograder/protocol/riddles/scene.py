@@ -33,10 +33,13 @@ OWN = ("ipykernel_", "<ipython-input")
 
 
 class Scene:
-    """Where the student's own code raised an error. node: its expression, None where it is not known."""
+    """Where the student's own code raised an error. node: its expression, tree: its cell; None where
+    they are not known.
+    """
 
     def __init__(self, error: BaseException):
         self.node: ast.AST | None = None
+        self.tree: ast.Module | None = None
         self._names: list[dict] = []
         own = [
             (frame, at)
@@ -49,10 +52,15 @@ class Scene:
             frame, at = own[-1]
             self._names = [frame.f_locals, frame.f_globals]
             self.node = _node(frame.f_code, at)
+            self.tree = tree_of(frame.f_code)
 
     def find(self, *kinds: type[ast.AST]):
         """The expression, if it is of one of these kinds."""
         return self.node if isinstance(self.node, kinds) else None
+
+    def local_names(self) -> list[tuple[str, object]]:
+        """The function's own names and their values, its arguments first."""
+        return list(self._names[0].items()) if self._names else []
 
     def value(self, node: ast.AST | None):
         """What an expression stands for, or UNKNOWN."""

@@ -1,4 +1,6 @@
-"""Finds in a function's code what raises no error and is hardly meant: ^ between whole numbers."""
+"""Finds in a function's code what is hardly meant, and what no error tells: ^ between whole numbers, an
+answer below the line that stops the function.
+"""
 
 import ast
 import dis
@@ -18,15 +20,32 @@ def uses_caret(function) -> bool:
 @lru_cache(maxsize=64)
 def _has_caret(code: CodeType) -> bool:
     # Python itself computes 10 ^ -3 before it makes code of it.
-    if (tree := tree_of(code)) is not None:
-        for node in ast.walk(tree):
-            if isinstance(node, ast.FunctionDef) and _begins(node, code):
-                return any(isinstance(part, ast.BitXor) for part in ast.walk(node))
+    if (node := _definition(code)) is not None:
+        return any(isinstance(part, ast.BitXor) for part in ast.walk(node))
     return any(
         step.opname == "BINARY_OP" and step.argrepr in ("^", "^=")
         for part in _parts(code)
         for step in dis.get_instructions(part)
     )
+
+
+def line_above_answer(function) -> str:
+    """The line of a Python function that raises an error always, where more stands below it, as
+    "line 2"; "" where there is none.
+    """
+    code = getattr(function, "__code__", None)
+    node = _definition(code) if isinstance(code, CodeType) else None
+    for line in node.body[:-1] if node else []:
+        if isinstance(line, ast.Raise):
+            return f"line {line.lineno}"
+    return ""
+
+
+def _definition(code: CodeType) -> ast.FunctionDef | None:
+    for node in ast.walk(tree_of(code) or ast.Module([], [])):
+        if isinstance(node, ast.FunctionDef) and _begins(node, code):
+            return node
+    return None
 
 
 def _begins(node: ast.FunctionDef, code: CodeType) -> bool:

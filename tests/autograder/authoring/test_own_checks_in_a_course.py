@@ -93,6 +93,14 @@ def test_both_ways_to_grade_judge_by_it_and_name_its_mistakes(course):
     assert "trolley held" in report.read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize(("student", "wrong"), [("ada", False), ("bob", True)])
+def test_validate_judges_by_the_courses_own_check(course, student, wrong):
+    notebook = course / "course" / "submitted" / student / "my-cart" / "my-cart.ipynb"
+    said = run(course, "nbgrader", "validate", str(notebook))
+    assert ("my-cart" in said and "incorrect" in said) == wrong
+    assert "UnknownCheckError" not in said
+
+
 def test_a_changed_file_is_judged_anew_and_a_broken_one_grades_nobody(course):
     path = course / "checks" / "my-cart.py"
     run(course, "autograder", "grade", "my-cart", "--jobs", "1")  # others than nbgrader's stay

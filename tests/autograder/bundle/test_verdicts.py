@@ -101,9 +101,16 @@ def test_verdicts_and_cards_are_the_same(installed, kind, part):
     assert not apart(installed, tasks)
 
 
+def left_to_grader(installed, answers):
+    """What the cards say of these answers to checks that are left to the grader."""
+    done = installed.run(CHILD, input=json.dumps([task(id, code) for id, code in answers]))
+    return [shown.replace("\n  ", " ") for _, shown, _ in json.loads(done.stdout)]
+
+
 def test_what_is_left_to_the_grader_says_so(installed):
     """Each of them, and no other check."""
-    tasks = [task(id, function_of(id, "None")) for id in CHECKS]
+    bodies = dict.fromkeys(CHECKS, "None") | FORMED
+    tasks = [task(id, function_of(id, body)) for id, body in bodies.items()]
     done = installed.run(CHILD, input=json.dumps(tasks))
     said = {
         one["id"]: shown for one, (_, shown, _) in zip(tasks, json.loads(done.stdout), strict=True)
@@ -112,3 +119,44 @@ def test_what_is_left_to_the_grader_says_so(installed):
     assert left == LEFT_OUT == {*WHY, "c8-gravity_compensation", "c8-slotine_li"}
     for id in left:
         assert "not in this package" in said[id].replace("\n  ", " ")
+
+
+# An answer of the right form to each check that is left to the grader, right or wrong.
+ARM = "dict.fromkeys(('l1', 'l2', 'lc1', 'lc2', 'm1', 'm2', 'I1', 'I2', 'g'), 1.0)"
+FORMED = {
+    "p1-singular_arm": f"({ARM}, [0.0, 1.0])",
+    "p4-equilibria": "[[0.0, 0.0], [1.0, 0.0]]",
+    "c8-gravity_compensation": "[0.0, 1.0]",
+    "c8-slotine_li": "np.zeros(8)",
+}
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("None", "returned None. Is the return statement missing?"),
+        ("gone", "raised NameError: name 'gone' is not defined"),
+        ("np.zeros((7, 3))", "it must return"),
+    ],
+)
+def test_what_is_left_to_the_grader_has_to_be_something_that_it_can_judge(installed, body, said):
+    shown = left_to_grader(installed, [(id, function_of(id, body)) for id in sorted(LEFT_OUT)])
+    assert len(shown) == 4
+    for card in shown:
+        assert "error in your code" in card
+        assert said in card
+
+
+def test_what_is_left_to_the_grader_may_not_be_left_as_it_was(installed):
+    codes = [(id, f"def {CHECKS[id].signature}:\n    raise NotImplementedError")
+             for id in sorted(LEFT_OUT)]  # fmt: skip
+    missing = [(id, "pass") for id in sorted(LEFT_OUT)]
+    assert all("not attempted" in card for card in left_to_grader(installed, codes))
+    assert all("does not define" in card for card in left_to_grader(installed, missing))
+
+
+def test_an_arm_without_a_number_is_seen_before_it_is_handed_in(installed):
+    (card,) = left_to_grader(
+        installed, [("p1-singular_arm", "def singular_arm():\n    return {'l1': 1.0}, [0, 0]")]
+    )
+    assert "returned an arm without l2, lc1" in card

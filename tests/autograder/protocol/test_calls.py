@@ -467,3 +467,38 @@ def test_the_time_limit_leaves_a_quick_block_alone():
 @pytest.mark.parametrize(("most", "text"), [(5, "abcde"), (4, "abc…"), (1, "…")])
 def test_shortened(most, text):
     assert words.shortened("abcde", most) == text
+
+
+def test_a_library_that_cannot_do_it_is_no_answer_left_open():
+    """SymPy raises NotImplementedError where it finds no solution, and so does input in Validate."""
+    namespace: dict = {"__name__": "__main__", "sp": sp, "x": sp.Symbol("x")}
+    exec("def f():\n    return sp.solve(x - sp.cos(x) + sp.log(x))", namespace)
+    fault = protocol.answer(Call("f", ()), namespace).fault
+    assert fault.kind is FaultKind.RAISED
+    assert "NotImplementedError: multiple generators" in fault.message
+
+
+@pytest.mark.parametrize(
+    ("lines", "line"),
+    [
+        (["'''What it returns.'''", "raise NotImplementedError"], ""),
+        (["x = 1", "raise NotImplementedError"], ""),
+        (["if True:", "    raise NotImplementedError", "return 1"], ""),
+        (["'''What.'''", "raise NotImplementedError  # here", "return 1"], "line 3"),
+    ],
+)
+def test_an_answer_below_the_line_that_stops_it_is_seen(lines, line):
+    source = "def f():\n" + "".join(f"    {own}\n" for own in lines)
+    name = f"/tmp/ipykernel_1/below{len(source)}.py"
+    linecache.cache[name] = (len(source), None, source.splitlines(True), name)
+    namespace: dict = {"__name__": "__main__"}
+    exec(compile(source, name, "exec"), namespace)
+    assert protocol.answer(Call("f", ()), namespace).fault == Fault(
+        FaultKind.NOT_IMPLEMENTED, line=line
+    )
+
+
+def test_an_error_without_a_message_ends_in_its_name():
+    namespace: dict = {"__name__": "__main__"}
+    exec("def f():\n    assert False", namespace)
+    assert protocol.answer(Call("f", ()), namespace).fault.message == "AssertionError"

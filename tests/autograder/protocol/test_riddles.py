@@ -293,6 +293,9 @@ CASES = [
         "cos needs a prefix: np.cos for numbers, sp.cos for symbols.",
     ),
     ("numpy name", "array([1.0])", "array needs a prefix: np.array."),
+    ("number of an argument", "m1 * np.cos(q[0])", "m1 alone is no name here: write arm.m1."),
+    ("not imported", "random.random() * q", "It has to be imported first: import random."),
+    ("not imported", "plt.plot(q)", "It has to be imported first: import matplotlib.pyplot as plt."),
     (
         "relation",
         "x = sp.Symbol('x')\nreturn 1 if x > 0 else 0",

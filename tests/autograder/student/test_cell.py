@@ -1,6 +1,7 @@
 """check() where students call it: in a notebook's kernel, under nbgrader validate, and elsewhere."""
 
 import itertools
+import linecache
 import re
 import time
 
@@ -213,3 +214,15 @@ def test_a_busy_machine_changes_nothing_on_a_card(monkeypatch):
         time, "monotonic", lambda: next(ticks)
     )  # hardly any of it is this program's
     assert verdict_on("p3-g_vec", wrong).witness.call == expected.witness.call
+
+
+def test_an_answer_below_the_line_that_stops_it_is_told_apart_from_none():
+    source = "def M(q, pend):\n    raise NotImplementedError\n    return np.array([[pend.I]])\n"
+    name = "/tmp/ipykernel_1/stops_above.py"
+    linecache.cache[name] = (len(source), None, source.splitlines(True), name)
+    namespace = {"__name__": "__main__", "np": np}
+    exec(compile(source, name, "exec"), namespace)
+    verdict = verdict_on("p3-M", namespace)
+    assert verdict.state is State.NOT_ATTEMPTED
+    said = "stops at its line 2, raise NotImplementedError, and nothing below that line runs"
+    assert said in str(verdict).replace("\n  ", " ")

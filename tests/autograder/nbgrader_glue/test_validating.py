@@ -1,0 +1,71 @@
+"""What Validate says of a notebook that nbgrader could not judge."""
+
+import nbformat
+import pytest
+
+from autograder.nbgrader_glue.validating import fault_of
+from tests.autograder.courses import P3, ROOT
+
+
+@pytest.fixture
+def handed_out(tmp_path):
+    """Writes p3's notebook, changed, and says what Validate does."""
+
+    def said(change):
+        path = ROOT / "solutions" / P3 / f"{P3}.ipynb"
+        notebook = nbformat.read(path, as_version=4)
+        change(notebook)
+        nbformat.write(notebook, tmp_path / "one.ipynb")
+        return fault_of(tmp_path / "one.ipynb")
+
+    return said
+
+
+def at(notebook, name):
+    return next(
+        place for place, cell in enumerate(notebook.cells)
+        if cell.metadata.get("nbgrader", {}).get("grade_id") == name
+    )  # fmt: skip
+
+
+def split(notebook):
+    """As JupyterLab splits a cell: both halves keep its settings."""
+    place = at(notebook, "answer-M")
+    half = nbformat.v4.new_code_cell("x = 1", metadata=notebook.cells[place].metadata)
+    notebook.cells.insert(place + 1, half)
+
+
+def without_settings(notebook):
+    for cell in notebook.cells:
+        cell.metadata.pop("nbgrader", None)
+
+
+def one_check_without_settings(notebook):
+    notebook.cells[at(notebook, "p3-M")].metadata.pop("nbgrader")
+
+
+def to_try_things_in(notebook):
+    without_settings(notebook)
+    notebook.cells = [notebook.cells[-1], nbformat.v4.new_code_cell('check("p3-M")')]
+
+
+def test_a_cell_that_is_there_twice_is_named(handed_out):
+    assert handed_out(split).startswith("This notebook has the cell answer-M more than once")
+
+
+def test_a_notebook_without_settings_is_no_success(handed_out):
+    assert "have lost nbgrader's settings" in handed_out(without_settings)
+
+
+@pytest.mark.parametrize(
+    "change", [lambda notebook: None, one_check_without_settings, to_try_things_in]
+)
+def test_what_nbgrader_judges_is_left_to_it(handed_out, change):
+    assert handed_out(change) == ""
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[]", '{"cells": [1]}', '{"cells": [{}]}'])
+def test_what_is_no_notebook_is_left_to_nbgrader(tmp_path, text):
+    (tmp_path / "one.ipynb").write_text(text)
+    assert fault_of(tmp_path / "one.ipynb") == ""
+    assert fault_of(tmp_path / "none.ipynb") == ""
