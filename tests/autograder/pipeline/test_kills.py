@@ -25,13 +25,17 @@ pytestmark = pytest.mark.skipif(os.name == "nt", reason="there is no SIGKILL on 
 
 @dataclass(frozen=True)
 class Course:
+    """temporary: where a run that is killed leaves what it has no time to remove."""
+
     root: Path
     students: int
+    temporary: Path
 
     def start(self) -> subprocess.Popen:
         return subprocess.Popen(
             COMMAND,
             cwd=self.root,
+            env=os.environ | {"TMPDIR": str(self.temporary)},
             start_new_session=True,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -132,11 +136,12 @@ def assert_part_of(course: Course, expected: dict[str, list[tuple]], texts: dict
 @pytest.mark.parametrize(
     ("students", "kills"), [(40, 4), pytest.param(200, 20, marks=pytest.mark.long)]
 )
-def test_killed_runs_go_on_to_the_same_gradebook(tmp_path, students, kills):
+def test_killed_runs_go_on_to_the_same_gradebook(tmp_path, tmp_path_factory, students, kills):
     rng = random.Random(4)
     root = classes.new_course(tmp_path / "killed", ASSIGNMENT, start_here.source())
     classes.hand_in(root, ASSIGNMENT, start_here, students)
-    course, whole = Course(root, students), Course(tmp_path / "whole", students)
+    temporary = tmp_path_factory.mktemp("t")  # short: there are sockets in it
+    course, whole = (Course(top, students, temporary) for top in (root, tmp_path / "whole"))
     shutil.copytree(course.root, whole.root)
     judged, written, killed, rewritten = {}, {}, 0, 0
     with adopting() as processes:

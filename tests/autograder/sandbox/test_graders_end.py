@@ -86,7 +86,7 @@ def test_a_killed_grader_takes_its_room_along(way, busy, tmp_path):
 
 
 @pytest.mark.parametrize("victim", ["grader", "worker"])
-def test_a_killed_pool_takes_its_rooms_along(victim, needs, tmp_path):
+def test_a_killed_pool_takes_its_rooms_along(victim, needs, tmp_path, tmp_path_factory):
     needs("bubblewrap")
     mark = f"mark-{os.urandom(8).hex()}"
     program = tmp_path / "workers.py"
@@ -96,7 +96,8 @@ def test_a_killed_pool_takes_its_rooms_along(victim, needs, tmp_path):
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         cwd=ROOT,
-        env=os.environ | {"CELL": student(mark, "spins")},
+        env=os.environ
+        | {"CELL": student(mark, "spins"), "TMPDIR": str(tmp_path_factory.mktemp("t"))},
     ) as grader:
         worker = int(grader.stdout.readline())
         try:
