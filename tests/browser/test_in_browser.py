@@ -16,6 +16,7 @@ import nbformat
 import pytest
 from playwright.sync_api import expect
 
+from autograder.lms.file_names import copy_of
 from tests.autograder.bundle import sitting
 from tests.autograder.course_problems import NAMES, problem, without_plots
 from tests.browser.conftest import PATIENCE, ROOT
@@ -259,6 +260,7 @@ def test_a_wrong_answer_gets_its_card_and_stays(visitor, site, served, tmp_path)
     with page.expect_download() as download:
         page.locator(".lm-MenuBar-item", has_text="File").click()
         page.locator(".lm-Menu-item", has_text="Download").first.click()
+    assert copy_of(download.value.suggested_filename, "p3-pendulum") == 0
     handed_in = nbformat.read(download.value.path(), as_version=4)
     assert any("np.cos(q)" in cell.source for cell in handed_in.cells)
     page.reload()
