@@ -14,6 +14,8 @@ MOODLE, CANVAS = "Moodle", "Canvas"
 IN_MOODLE = re.compile(r"([^_]*)_(\d+)_assignsubmission_([a-z]+)(?:_(.*))?", re.DOTALL)
 IN_CANVAS = re.compile(r"(.*?)_(LATE_)?(\d+)_(?:(\d+)_(.+)|(text|link)\.html)", re.DOTALL)
 ANONYMOUS = re.compile(r"(LATE_)?anon_[^_]+_(\d+_|text\.html$|link\.html$)")
+# The browser's site saves a notebook under its whole path, in which browsers replace the slashes.
+SLASH = r"[ _:-]"
 # What browsers, JupyterLab, desktops and Canvas add to the name of a file that is there already.
 COPY = r"(?:[ _-]*(?:\((\d+)\)|(?:copy|kopie|copie|copia)[ _-]*\(?(\d*)\)?|[_-](\d{1,3})))"
 ENDING = re.compile(r"\.ipynb(\.txt|\.json)?$", re.IGNORECASE)
@@ -56,6 +58,7 @@ def copy_of(name: str, assignment: str) -> int | None:
     """Which copy of the assignment's notebook a file is by its name: 0 for the very name; None: no copy.
 
     "p3-pendulum (2).ipynb" is copy 2, "p3-pendulum-Copy1.ipynb" and "Copy of p3-pendulum.ipynb" copy 1.
+    What the browser's site downloads, "problems_p3-pendulum_p3-pendulum.ipynb", is copy 0, too.
     """
     if name == f"{assignment}.ipynb":
         return 0
@@ -65,8 +68,11 @@ def copy_of(name: str, assignment: str) -> int | None:
     stem = ENDING.sub("", name)
     of = re.match(r"(?:copy|kopie|copie|copia) (?:of|von|de|di) ", stem, re.IGNORECASE)
     words = r"[ _-]".join(map(re.escape, assignment.split("-")))
-    found = re.fullmatch(rf"{words}({COPY}*)", stem[of.end() if of else 0 :], re.IGNORECASE)
+    folders = rf"(problems{SLASH}{words}{SLASH})?"
+    stem = stem[of.end() if of else 0 :]
+    found = re.fullmatch(rf"{folders}{words}({COPY}*)", stem, re.IGNORECASE)
     if not found:
         return None
-    numbers = [int(number or 1) for *_, number in re.findall(r"(\(|[a-z_-])?(\d+)", found[1])]
-    return max([1, *numbers])
+    numbers = [int(number or 1) for *_, number in re.findall(r"(\(|[a-z_-])?(\d+)", found[2])]
+    least = 0 if found[1] and not found[2] else 1
+    return max([least, *numbers])

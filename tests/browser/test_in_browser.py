@@ -16,6 +16,7 @@ import nbformat
 import pytest
 from playwright.sync_api import expect
 
+from autograder.lms.file_names import copy_of
 from tests.autograder.bundle import sitting
 from tests.autograder.course_problems import NAMES, problem, without_plots
 from tests.browser.conftest import PATIENCE, ROOT
@@ -29,6 +30,9 @@ SHORT = ("01", "03")  # a slider; LinAlgError
 LEFT = {"p1-inertia": 1, "p4-gravity": 1, "c8-control": 2}
 # What a card says before it leads elsewhere.
 VERDICT = re.compile(r"\A.*?(?=^  (Stuck\?|See |Lesson )|\Z)", re.DOTALL | re.MULTILINE)
+# Below the diagnosis: what may be carried on, which only the grader says, and a call in as few digits as
+# the machine has time to find.
+BELOW = re.compile(r"^  (Your [^.]+ not\s+right\s+yet\s+either\.|Worst case: )", re.MULTILINE)
 STATE = re.compile(
     r"\A[pc][1-8]-\w+: (correct|partly correct|incorrect|judged when you hand it in)$"
 )
@@ -127,7 +131,9 @@ def test_a_card_says_what_it_says_without_a_browser(answered, tmp_path):
     ).stdout  # fmt: skip
     found = cards(given["problems/p3-pendulum/wrong"])
     assert len(found) == 6
-    assert [card for card in found if VERDICT.match(card)[0] not in here] == []
+    said = [BELOW.split(VERDICT.match(card)[0])[0] for card in found]
+    assert [text for text in said if text not in here] == []
+    assert all(re.search(r"\[ \] .*\n      \S", text) for text in said)
 
 
 @pytest.mark.parametrize(
@@ -259,6 +265,7 @@ def test_a_wrong_answer_gets_its_card_and_stays(visitor, site, served, tmp_path)
     with page.expect_download() as download:
         page.locator(".lm-MenuBar-item", has_text="File").click()
         page.locator(".lm-Menu-item", has_text="Download").first.click()
+    assert copy_of(download.value.suggested_filename, "p3-pendulum") == 0
     handed_in = nbformat.read(download.value.path(), as_version=4)
     assert any("np.cos(q)" in cell.source for cell in handed_in.cells)
     page.reload()

@@ -32,7 +32,7 @@ TOO_PLAIN = (
     "Yet it gives no points: what you start from is too plain for this step to show anything."
 )
 NOT_HERE = (
-    "Your {} is not right yet either. If this answer follows from it, the mistake is there alone: the "
+    "Your {} {} not right yet either. If this answer follows from it, the mistake is there alone: the "
     "grader looks at that when you hand in."
 )
 
@@ -116,7 +116,7 @@ class Carrying:
     ) -> Verdict | None:
         if follows.way is None:
             wrong = own.wrong_among(earlier)
-            said = NOT_HERE.format(" and ".join(wrong))
+            said = NOT_HERE.format(" and ".join(wrong), "are" if wrong[1:] else "is")
             remark = " ".join(filter(None, [found.remark, said]))
             return replace(found, remark=remark) if wrong else None
         borne_out, wrong = own.borne_out(follows.way, earlier)

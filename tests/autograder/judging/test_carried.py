@@ -199,10 +199,19 @@ def test_a_package_without_formulas_leaves_it_to_the_grader():
     check = CHECKS["p4-g_vec"]
     stored = replace(check, follows=tuple(replace(own, way=None) for own in check.follows))
     found = verdict("p4-g_vec", GRADIENT, {"p4-potential_energy": P}, None, check=stored)
-    assert found.remark == NOT_HERE.format("potential_energy")
+    assert found.remark == NOT_HERE.format("potential_energy", "is")
     assert found.credit == 0
     alone = verdict("p4-g_vec", GRADIENT, {}, None, check=stored)
     assert alone.remark == ""
+
+
+def test_two_earlier_answers_are_wrong():
+    check = CHECKS["p3-small_angle_frequency"]
+    stored = replace(check, follows=tuple(replace(own, way=None) for own in check.follows))
+    earlier = {"p3-M": "[[2 * pend.I]]", "p3-g_vec": "pend.m * pend.g * pend.lc * np.cos(q)"}
+    point = "np.sqrt(pend.g / pend.lc)"
+    found = verdict("p3-small_angle_frequency", point, earlier, None, check=stored)
+    assert found.remark == NOT_HERE.format("M and g_vec", "are")
 
 
 @pytest.mark.parametrize("answer", ["M_dot", "C", "g_vec", "f", "energy_drift", "lagrangian"])
