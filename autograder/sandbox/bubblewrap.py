@@ -204,7 +204,7 @@ def java_settings() -> list[str]:
 
 
 def loaders_list() -> list[str]:
-    """Where the loader looks up libraries; some Pythons of /usr/local have their own in /usr/local/lib."""
+    """Where the loader looks up libraries, such as that of a Python in /usr/local."""
     return [path for path in ["/etc/ld.so.cache"] if os.path.exists(path)]
 
 

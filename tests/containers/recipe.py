@@ -97,5 +97,7 @@ def followed(path: Path, context: Path, folder: Path) -> list[Stage]:
         elif instruction == "CMD":
             stage.command = json.loads(given)
         else:
-            assert instruction in ("ARG", "ENV", "EXPOSE"), f"{instruction} is not followed here"
+            assert instruction in ("ARG", "ENV", "EXPOSE", "STOPSIGNAL"), (
+                f"{instruction} is not followed here"
+            )
     return list(stages.values())

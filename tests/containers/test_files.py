@@ -23,7 +23,7 @@ def archive(tmp_path_factory):
     folder = tmp_path_factory.mktemp("archive")
     version = "1.0.0+15cf8a70"
     wheel = write_wheel(folder, "armdyn", version, _metadata(version), COMMANDS, {"armdyn.py": b""})
-    held = {name: b"" for name in ("constraints.txt", "lessons/a", "problems/a", "start.py")}
+    held = dict.fromkeys(("constraints.txt", "lessons/a", "problems/a", "start.py"), b"")
     held[wheel.name] = wheel.read_bytes()
     wheel.unlink()
     made = zipped({f"{TOP}/{name}": data for name, data in held.items()})
