@@ -145,8 +145,13 @@ def _settings(root: Path, state: Path, opens: str) -> list[str]:
 
 
 def _address(server: "ServerApp") -> str:
-    """What to open in a browser, with the token unless the user has set their own."""
-    address = urljoin(server.connection_url, server.default_url.lstrip("/"))
+    """What to open in a browser, with the token unless the user has set their own.
+
+    A server that listens at every address names its machine. In a container nobody knows that name, so
+    there `custom_display_url` says how the server is reached from outside.
+    """
+    at = server.custom_display_url or server.connection_url
+    address = urljoin(f"{at.rstrip('/')}/", server.default_url.lstrip("/"))
     identity = server.identity_provider
     if identity.token and identity.token_generated:
         address += f"{'&' if '?' in address else '?'}token={identity.token}"

@@ -28,6 +28,7 @@ PROGRAMS = {
     "make": ("make",),
     "nodejs": ("node",),
     "npm": ("npm",),
+    "podman": ("podman",),
     "postgresql": ("initdb", *sorted(map(str, SERVERS))),
     "python3-dev": (str(Path(sysconfig.get_path("include"), "Python.h")),),
 }

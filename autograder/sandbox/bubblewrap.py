@@ -10,6 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from autograder import protocol
+from autograder.sandbox import refusal
 from autograder.sandbox.inside.namespaces import NOBODY, TMPFS_BYTES
 
 log = logging.getLogger(__name__)
@@ -19,6 +20,7 @@ _armdyn = find_spec("armdyn")
 assert _armdyn is not None
 assert _armdyn.origin is not None
 TOOLCHAIN = Path(_armdyn.origin).parent / "ports" / "toolchain"
+UID_MAP = Path("/proc/self/uid_map")
 HERE = Path(__file__).parent / "inside"
 PROTOCOL = Path(protocol.__file__).parent
 INSIDE = {
@@ -58,7 +60,7 @@ def bubblewrapped(script: str) -> tuple[list[str], dict[str, str]]:
         command += [*_parents(folder), "--ro-bind", folder, folder]
     for link, target in (python_links(sys.executable, python_folders()) | alternatives()).items():
         command += [*_parents(link), "--symlink", target, link]
-    for path in java_settings():
+    for path in [*java_settings(), *loaders_list()]:
         command += [*_parents(path), "--ro-bind", path, path]
     for folder in _installed_packages():
         command += ["--tmpfs", folder]
@@ -105,32 +107,54 @@ def _root_can_step_down() -> bool:
                 folder,
             )
             return False
-    return _runs("--unshare-pid", "--cap-add", "CAP_SYS_ADMIN")
+    if _refused("--unshare-pid", "--cap-add", "CAP_SYS_ADMIN") is None:
+        return True
+    if _is_root_of_the_machine():
+        log.warning(
+            "root lacks CAP_SYS_ADMIN here, so student code runs as root, and the kernel does NOT "
+            "limit the number of root's processes; a sandbox with too many is ended a moment later. "
+            "Start the container as another user: leave out --user 0"
+        )
+    return False
+
+
+def _is_root_of_the_machine() -> bool:
+    """Whether this root is the kernel's too, and not somebody else's number in a user namespace."""
+    try:
+        inside, outside, _ = UID_MAP.read_text().splitlines()[0].split()
+    except (OSError, IndexError, ValueError):
+        return False
+    return inside == outside == "0"
 
 
 @cache
 def has_bubblewrap() -> bool:
-    """Whether bubblewrap is here and works; if not, one warning says so."""
+    """Whether bubblewrap is here and works; if not, one warning says why, and what to do."""
     # A container may allow the namespaces, and yet no /proc of one's own, which root can do without.
-    if _runs("--unshare-all", "--proc", "/proc"):
-        return True
-    if _runs("--unshare-all") and _root_can_step_down():
+    said = _refused("--unshare-all", "--proc", "/proc")
+    if said is None or (_refused("--unshare-all") is None and _root_can_step_down()):
         return True
     log.warning(
-        "bubblewrap does not work here: student code runs with limits on time, memory, files and "
-        "the number of processes, but is NOT shut off from your files, the network and your other "
-        "processes. On Debian: apt-get install bubblewrap. In a container, it needs the flags of "
-        "docs/class-server.md"
+        "bubblewrap does not work here (%s): student code runs with limits on time, memory, files "
+        "and the number of processes, but is NOT shut off from your files, the network and your "
+        "other processes. %s",
+        said,
+        refusal.remedy(said),
     )
     return False
 
 
-def _runs(*options: str) -> bool:
+def _refused(*options: str) -> str | None:
+    """None if bubblewrap starts with these options; otherwise what it said, on one line."""
     command = ["bwrap", *options, "--ro-bind", "/", "/", "true"]
     try:
-        return subprocess.run(command, capture_output=True, timeout=10).returncode == 0
-    except (OSError, subprocess.SubprocessError):
-        return False
+        ran = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=10)
+    except FileNotFoundError:
+        return refusal.NOT_INSTALLED
+    except (OSError, subprocess.SubprocessError) as error:
+        return str(error)
+    said = " ".join(ran.stderr.split()) or f"it ended with status {ran.returncode}"
+    return None if ran.returncode == 0 else said
 
 
 def python_folders() -> list[str]:
@@ -177,6 +201,11 @@ def java_settings() -> list[str]:
     home = Path("/usr/bin/javac").resolve().parents[1]
     files = {(home / name).resolve() for name in JAVA_READS}
     return sorted(str(file) for file in files if file.is_file() and file.is_relative_to("/etc"))
+
+
+def loaders_list() -> list[str]:
+    """Where the loader looks up libraries, such as that of a Python in /usr/local."""
+    return [path for path in ["/etc/ld.so.cache"] if os.path.exists(path)]
 
 
 def _installed_packages() -> list[str]:

@@ -55,12 +55,32 @@ def test_wrong_folder(tmp_path, monkeypatch, capsys):
 
 
 @pytest.fixture
-def quiet(course, monkeypatch, caplog):
-    """`autograder lab` without its server, which is not to run here; its logs as it sets them up."""
-    server = mock.MagicMock(log=logging.getLogger("of the server"))
-    server.connection_url, server.default_url = "http://localhost/", "/lab"
+def server(monkeypatch):
+    """Stands in for the server, which is not to run here."""
+    server = mock.MagicMock(log=logging.getLogger("of the server"), custom_display_url="")
+    server.connection_url, server.default_url = "http://3f2a:8888/", "/lab"
     server.identity_provider.token = "t"
     monkeypatch.setattr(LabApp, "initialize_server", lambda arguments: server)
+    return server
+
+
+@pytest.mark.parametrize(
+    ("said", "shown"),
+    [
+        ("", "http://3f2a:8888/lab"),
+        ("http://127.0.0.1:8888", "http://127.0.0.1:8888/lab"),
+        ("https://class.example/ada/", "https://class.example/ada/lab"),
+    ],
+)
+def test_the_address_is_the_one_that_the_reader_can_open(course, server, capsys, said, shown):
+    server.custom_display_url = said  # as an image for students sets it
+    assert lab([]) == 0
+    assert f"Open {shown}?token=t\n" in capsys.readouterr().out
+
+
+@pytest.fixture
+def quiet(course, server, monkeypatch, caplog):
+    """The logs of `autograder lab` as it sets them up."""
     logs = [server.log, asyncio.log.logger, app_log, access_log, gen_log]
     for log in logs:
         monkeypatch.setattr(log, "filters", [])

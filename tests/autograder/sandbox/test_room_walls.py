@@ -13,6 +13,7 @@ from autograder.sandbox.bubblewrap import (
     INSIDE,
     alternatives,
     java_settings,
+    loaders_list,
     python_folders,
     python_links,
 )
@@ -111,7 +112,7 @@ class TestWalls:
         )
         links = python_links(sys.executable, python_folders()) | alternatives()
         runner = [f"/room/{name}" for name in INSIDE.values()]
-        assert found.split() == sorted([*runner, *links, *java_settings()])
+        assert found.split() == sorted([*runner, *links, *java_settings(), *loaders_list()])
 
     def test_the_projects_packages_are_not_importable(self, room):
         found = printed(
