@@ -73,6 +73,9 @@ class Book(Protocol):
     def written(self, proof: Proof, student: str, hidden: bool) -> Written:
         """hidden: without the student's id and name, wherever they stand in text."""
 
+    def content(self, proof: Proof, student: str) -> str:
+        """Of what is written, `content` alone, which takes no page to make."""
+
     def shown(self, proof: Proof, markdown: str) -> str:
         """A text of the assignment as HTML."""
 

@@ -96,9 +96,9 @@ class Desk:
         rows = asked_rows(said.get("given"), proof.rubric.rows)
         points = asked_points(said.get("total"), proof.rubric.points, rows)
         comment = asked_comment(said.get("comment"))
-        written = self._book.written(proof, paper.student, True)
+        content = self._book.content(proof, paper.student)
         when = datetime.now(UTC).isoformat(timespec="seconds")
-        given = Given(tuple(rows), points, comment, written.content, when)
+        given = Given(tuple(rows), points, comment, content, when)
         if not self._second:
             self._book.record(proof, paper.student, points, comment)
         self._kept.change(

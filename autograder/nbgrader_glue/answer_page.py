@@ -7,7 +7,6 @@ from html import escape
 from pathlib import Path
 
 import nbformat
-from nbconvert.exporters import HTMLExporter
 from nbformat import NotebookNode
 from traitlets.config import Config
 
@@ -16,6 +15,7 @@ from autograder.marking.book import Written
 from autograder.nbgrader_glue.feedback import code_style
 from autograder.nbgrader_glue.items import arranged
 from autograder.nbgrader_glue.markdown import TAG, markdown2html
+from autograder.nbgrader_glue.pages import PageExporter
 from autograder.notebook.recognise import grade_id
 from autograder.notebook.suggestion import suggestion_of
 from autograder.protocol import one_line
@@ -32,8 +32,8 @@ class Answers:
         self._config = config
 
     @cached_property
-    def _exporter(self) -> HTMLExporter:
-        return HTMLExporter(config=self._config, template_name="answer")
+    def _exporter(self) -> PageExporter:
+        return PageExporter(config=self._config, template_name="answer")
 
     def written(
         self, notebook: Path, source: NotebookNode | None, cell: str, hidden: list[str]
@@ -65,6 +65,14 @@ class Answers:
         return Written(
             answer, rest, beside, content_of(found), suggestion.rows if suggestion else ()
         )
+
+
+def content(notebook: Path, cell: str) -> str:
+    """A name for what a student wrote in a cell of a graded notebook; "" where that cannot be read."""
+    try:
+        return content_of(_own_cell(nbformat.read(notebook, as_version=4), cell))
+    except Exception:  # as above
+        return ""
 
 
 def content_of(cell: NotebookNode) -> str:

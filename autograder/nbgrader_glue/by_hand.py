@@ -59,6 +59,9 @@ class ByHand:
             names if hidden else [],
         )
 
+    def content(self, proof: Proof, student: str) -> str:
+        return answer_page.content(self._graded(proof, student), proof.cell)
+
     def shown(self, proof: Proof, markdown: str) -> str:
         return answer_page.shown(markdown, self._source_path(proof.assignment).parent)
 

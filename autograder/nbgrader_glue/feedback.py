@@ -6,17 +6,14 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import nbformat
-from nbconvert.exporters import HTMLExporter, TemplateExporter
-from nbconvert.filters import Highlight2HTML
-from nbconvert.filters.widgetsdatatypefilter import WidgetsDataTypeFilter
 from nbformat import NotebookNode
 from pygments.formatters import HtmlFormatter
 
 from autograder.nbgrader_glue.items import arranged, number, title_of
 from autograder.nbgrader_glue.kept_editions import kept
 from autograder.nbgrader_glue.late import settle_before
-from autograder.nbgrader_glue.markdown import IMG
 from autograder.nbgrader_glue.names import leave_out_unfit
+from autograder.nbgrader_glue.pages import PageExporter
 from autograder.nbgrader_glue.renewal import Renewal
 from autograder.nbgrader_glue.start import can_start
 from autograder.nbgrader_glue.worked import with_answers
@@ -25,11 +22,10 @@ from autograder.notebook.editions import Edition, of_release
 MARKER = re.compile(r"^\s*### (BEGIN|END) HIDDEN TESTS[^\S\n]*\n?", re.MULTILINE)
 HEADING = re.compile(r"<(/?)h([1-6])\b([^>]*)>")
 OURS = ' class="page"'
-ALT = re.compile(r"\balt\s*=", re.IGNORECASE)
 
 
-class FeedbackExporter(HTMLExporter):
-    """nbconvert's exporter, for the students whose names nbgrader can handle.
+class FeedbackExporter(PageExporter):
+    """Our exporter, for the students whose names nbgrader can handle.
 
     nbgrader makes it when it has found the graded notebooks, and before it changes anything.
     """
@@ -53,20 +49,8 @@ class FeedbackExporter(HTMLExporter):
         if self.parent is not None and "student" in names:
             root = Path(self.parent.coursedir.root)
             nb = with_answers(nb, root, names["assignment"], names["student"])
-        page, resources = self._rendered(_without_markers(nb), resources)
-        return _with_headings_in_order(IMG.sub(_with_alternative_text, page)), resources
-
-    def _rendered(self, nb, resources):
-        """As HTMLExporter does it, but for its last step: that parses and writes each page again, which
-        takes as long as all the rest, for settings of JupyterLab's cells, which these pages do not have.
-        """
-        resources = self._init_resources(resources)
-        language = nb.metadata.get("language_info", {})
-        lexer = language.get("pygments_lexer", language.get("name"))
-        self.register_filter("highlight_code", Highlight2HTML(pygments_lexer=lexer, parent=self))
-        chosen = WidgetsDataTypeFilter(self._nb_metadata, parent=self, resources=resources)
-        self.register_filter("filter_data_type", chosen)
-        return TemplateExporter.from_notebook_node(self, nb, resources)
+        page, resources = super().from_notebook_node(_without_markers(nb), resources, **kw)
+        return _with_headings_in_order(page), resources
 
     def _preprocess(self, nb, resources):
         """The cells in the order of the page, once they hold their grades."""
@@ -144,9 +128,3 @@ def _without_markers(nb):
         if cell.cell_type == "code":
             cell.source = MARKER.sub("", cell.source).rstrip("\n")
     return nb
-
-
-def _with_alternative_text(found: re.Match) -> str:
-    """A picture's tag; where it does not say what the picture shows, it says so."""
-    tag = found[0]
-    return tag if ALT.search(tag) else f'<img alt="a figure without a description"{tag[4:]}'

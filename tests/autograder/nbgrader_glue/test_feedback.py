@@ -9,7 +9,7 @@ from bs4 import BeautifulSoup
 from nbconvert.exporters import HTMLExporter
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from autograder.nbgrader_glue import feedback
+from autograder.nbgrader_glue import feedback, pages
 from autograder.nbgrader_glue.release import configuration
 
 ROOT = Path(__file__).parents[3]
@@ -51,6 +51,6 @@ def test_a_page_is_what_nbconvert_makes_of_our_templates(exporter, monkeypatch):
     )
     ours, _ = exporter().from_notebook_node(notebook, ALONE)
     theirs = HTMLExporter.from_notebook_node
-    monkeypatch.setattr(feedback.FeedbackExporter, "_rendered", theirs)
+    monkeypatch.setattr(pages.PageExporter, "from_notebook_node", theirs)
     theirs, _ = exporter().from_notebook_node(notebook, ALONE)
     assert BeautifulSoup(ours, "html.parser") == BeautifulSoup(theirs, "html.parser")
