@@ -198,12 +198,17 @@ class _Reader:
         if not isinstance(said, datetime):
             wrong = f'{said!r} is no time, such as "2026-11-29 18:00" or "2026-11-29" (its end)'
             raise self._error(key, wrong, table)
+        if said.tzinfo:
+            return said
         try:
-            return said if said.tzinfo else (
-                said.replace(tzinfo=self._zone) if self._zone else said.astimezone()
-            )  # fmt: skip
+            when = said.replace(tzinfo=self._zone) if self._zone else said.astimezone()
+            shown = when.astimezone(UTC).astimezone(when.tzinfo).replace(tzinfo=None)
         except (OverflowError, ValueError, OSError):
             raise self._error(key, f"{said} is no time of our days", table) from None
+        if shown != said:
+            gone = f"there is no {said} in {self._zone}, where clocks go forward then"
+            raise self._error(key, f"{gone}: give another time", table)
+        return when
 
     def _penalty(self, said, key: str, table: str = "") -> Penalty:
         if said == "none":

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from http import HTTPStatus
+from urllib.parse import urlsplit
 
 import requests
 from pylti1p3.assignments_grades import AssignmentsGradesService, TAssignmentsGradersData
@@ -15,7 +16,7 @@ from pylti1p3.names_roles import NamesRolesProvisioningService, TMember
 from autograder.lti import LtiError
 from autograder.lti.connection import Connector
 from autograder.lti.key import Key
-from autograder.lti.registration import Registered
+from autograder.lti.registration import FILE, Registered
 from autograder.lti.scores import number
 from autograder.protocol import one_line
 
@@ -120,8 +121,18 @@ class Platform:
             ) from None
         except requests.JSONDecodeError:
             raise LtiError(f"the platform's answer to a request for {what} is not JSON") from None
+        except requests.exceptions.SSLError as error:
+            raise LtiError(
+                f"{_host(error)} shows no certificate that this machine trusts: "
+                f"{one_line(str(error), 200)}"
+            ) from None
+        except (requests.ConnectionError, requests.Timeout) as error:
+            raise LtiError(
+                f"{_host(error)} cannot be reached: look at the addresses in {FILE}, and whether this "
+                "machine may reach that one"
+            ) from None
         except requests.RequestException as error:
-            raise LtiError(f"the platform cannot be reached: {one_line(str(error), 300)}") from None
+            raise LtiError(f"{_host(error)} cannot be asked: {one_line(str(error), 200)}") from None
         except (LtiException, KeyError, TypeError, AttributeError, ValueError) as error:
             if isinstance(error, LtiError):
                 raise
@@ -129,6 +140,11 @@ class Platform:
                 f"the platform's answer to a request for {what} is not as LTI lays down: "
                 f"{one_line(f'{type(error).__name__}: {error}', 200)}"
             ) from None
+
+
+def _host(error: requests.RequestException) -> str:
+    url = error.request.url if error.request is not None else None
+    return str(urlsplit(url).netloc) if url else "the platform"
 
 
 def _said(answer: requests.Response) -> str:

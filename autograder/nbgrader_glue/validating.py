@@ -25,6 +25,12 @@ ENDED = (
     "Python itself stopped while this notebook ran, so that Validate has seen none of its checks. Does "
     "a cell call exit, or use up all memory?"
 )
+NO_KERNEL = (
+    "This notebook asks for a kernel that is not installed here. Choose Python 3 under Kernel → Change "
+    "Kernel…, save the notebook, and validate it again."
+)
+# Of the errors in which nbgrader's validation ends.
+SAID = {"DeadKernelError": ENDED, "NoSuchKernel": NO_KERNEL}
 
 
 class Handler(ValidateAssignmentHandler):
@@ -37,8 +43,10 @@ class Handler(ValidateAssignmentHandler):
         if target.is_relative_to(root) and (said := fault_of(target)):
             return {"success": False, "value": said}
         result: dict[str, object] = super().validate_notebook(path)
-        if not result["success"] and "DeadKernelError" in str(result["value"]):
-            return {"success": False, "value": ENDED}
+        if not result["success"]:
+            for error, said in SAID.items():
+                if error in str(result["value"]):
+                    return {"success": False, "value": said}
         return result
 
 

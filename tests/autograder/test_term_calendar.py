@@ -83,6 +83,10 @@ def test_without_a_file_nothing_is_due_and_challenges_do_not_count(course):
         ("[p3-pendulum", ", at its end: Expected"),
         ('[p3-pendulum]\n\ndue = "soon"', "line 3: 'soon' is no time"),
         ("[p3-pendulum]\ndue = 18:00:00", "is no time"),
+        (
+            'time-zone = "Europe/Berlin"\n[p3-pendulum]\ndue = "2026-03-29 02:30"',
+            "line 3: there is no 2026-03-29 02:30:00 in Europe/Berlin, where clocks go forward then",
+        ),
         ('[p3-pendulum]\ndeu = "2026-01-01"', "line 2: deu is no setting; there are due,"),
         ("[p3-pendulum]\ncounts = 1", "line 2: 1 is neither true nor false"),
         ('[p3-pendulum]\npenalty = "half"', 'line 2: \'half\' is neither "none" nor "zero"'),

@@ -2,8 +2,9 @@
 
 import nbformat
 import pytest
+from traitlets.config import Config
 
-from autograder.nbgrader_glue.validating import fault_of
+from autograder.nbgrader_glue.validating import Handler, fault_of
 from tests.autograder.courses import P3, ROOT
 
 
@@ -47,6 +48,33 @@ def one_check_without_settings(notebook):
 def to_try_things_in(notebook):
     without_settings(notebook)
     notebook.cells = [notebook.cells[-1], nbformat.v4.new_code_cell('check("p3-M")')]
+
+
+class Server(Handler):
+    """The part of a server that Validate asks for."""
+
+    def __init__(self, folder):
+        self._folder = folder
+
+    @property
+    def settings(self):
+        return {"config": Config()}
+
+    @property
+    def root_dir(self):
+        return str(self._folder)
+
+    def load_config(self):
+        return Config()
+
+
+def test_a_kernel_that_is_not_there_is_told_in_a_sentence(tmp_path):
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("x = 1")])
+    notebook.metadata.kernelspec = {"name": "none", "display_name": "None", "language": "python"}
+    nbformat.write(notebook, tmp_path / "one.ipynb")
+    said = Server(tmp_path).validate_notebook("one.ipynb")
+    assert not said["success"]
+    assert said["value"].startswith("This notebook asks for a kernel that is not installed here.")
 
 
 def test_a_cell_that_is_there_twice_is_named(handed_out):
