@@ -91,6 +91,8 @@ def sentence(text: str, k: int, tried: InOtherUnits) -> str:
         if power is None:
             continue
         before, after = np.asarray(tried.theirs[0][k]), np.asarray(given[k])
+        if before.shape != after.shape:
+            continue
         size = max(2.0**power * np.max(np.abs(before)), np.max(np.abs(after)))
         if np.any(np.abs(after - 2.0**power * before) > TOLERANCE * size):
             return (
@@ -101,8 +103,10 @@ def sentence(text: str, k: int, tried: InOtherUnits) -> str:
 
 
 def _power(before: np.ndarray, after: np.ndarray) -> int | None:
-    """The power of 2 that all values are multiplied by; None where there is none, or all are 0."""
-    if not np.any(before):
+    """The power of 2 that all values are multiplied by; None where there is none, or all are 0, or how
+    many there are depends on the units.
+    """
+    if not np.any(before) or before.shape != after.shape:
         return None
     for power in BEHAVE:
         if np.all(np.abs(after - 2.0**power * before) <= EXACT * np.max(np.abs(after))):

@@ -51,10 +51,10 @@ def test_nothing_of_the_graders_is_there(files):
         *("notebook", "report", "authoring", "bundle", "pipeline", "lti", "lms", "mistakes.pyc"),
         *("graders.py", "foreign_folder.py"),
     }
-    # Of what knows nbgrader, that alone which fetches and hands in.
+    # Of what knows nbgrader, that alone which fetches, validates and hands in.
     glue = {name.partition("/nbgrader_glue/")[2] for name in files if "/nbgrader_glue/" in name}
     inside = ("__init__", "entered", "students")
-    assert glue == {"__init__.py", *(f"exchange/{name}.py" for name in inside)}
+    assert glue == {"__init__.py", "validating.py", *(f"exchange/{name}.py" for name in inside)}
     assert len(files) > 300
 
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from autograder.judging.check import Check, Criterion
-from autograder.judging.scaling import scalings
+from autograder.judging.scaling import InOtherUnits, scalings, sentence
 from autograder.protocol import Call, Reply, Symbol, real
 
 ALL = {"arm.m1", "arm.m2", "arm.l1", "arm.I1", "q[0]", "q[1]"}
@@ -105,6 +105,16 @@ def test_nothing_is_asked_where_the_right_answer_has_no_one_power():
     )  # fmt: skip
     text = said(lambda q, arm: arm.m1 * q[0] ** 2 + arm.I1 + arm.l1, check)
     assert "every length" not in text
+
+
+@pytest.mark.parametrize("right", [(3.0, ()), (3.0, 6.0)])
+def test_nothing_is_asked_where_units_decide_how_many_values_there_are(right):
+    """As of those at which the bounded control does not saturate."""
+    call = Call("f", (np.ones(2),))
+    tried = InOtherUnits(
+        scalings("f(qd)", call), [(np.atleast_1d(one),) for one in right], [([1.0],), ([],)]
+    )
+    assert sentence("V̇", 0, tried) == ""
 
 
 def test_a_state_is_half_velocities():
