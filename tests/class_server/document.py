@@ -1,6 +1,6 @@
 """The commands of docs/class-server.md, block by block; `python3 -m` prints those that install.
 
-`.ci/run` reads this with the system's Python, so it needs nothing else.
+`.ci/machine` reads this with the system's Python, so it needs nothing else.
 """
 
 import re
