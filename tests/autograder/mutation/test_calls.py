@@ -65,8 +65,8 @@ def test_terms_take_numbers_one_by_one_too():
 
 @pytest.mark.parametrize("answer", ["M", "f", "energy_drift"])
 def test_a_check_evaluates_all_calls_at_once(answer, monkeypatch):
-    """Of an answer that no mistake explains: the right one, its terms, whether the answer stays the same
-    and what it depends on.
+    """Of an answer that no mistake explains: the right one, its terms, whether the answer stays the
+    same, what it depends on, and what it gives in other units.
     """
     check = check_of(MECHANISMS["planar-2r"], answer)
     right = check.reference
@@ -83,7 +83,8 @@ def test_a_check_evaluates_all_calls_at_once(answer, monkeypatch):
     monkeypatch.setattr(Model, "__call__", one_by_one)
     verdict = check.run(ask, np.random.default_rng(1))
     assert verdict.state.name in ("INCORRECT", "PARTLY_CORRECT"), verdict.problem
-    assert len(asked) == (2 if answer == "energy_drift" else 3)
+    # Once more; then other arguments and other units, at the few calls that tell most.
+    assert len(asked) == (5 if answer == "energy_drift" else 7)
 
 
 def test_many_torques_are_solved_as_each_is():

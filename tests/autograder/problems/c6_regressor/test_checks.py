@@ -136,6 +136,7 @@ def test_a_doubled_error_is_not_two_mistakes():
         lambda: [],
         lambda k: "",
         lambda k: "",
+        lambda: [],
     )
     assert said == [()]
 
