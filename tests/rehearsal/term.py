@@ -91,8 +91,8 @@ class Term:
         self.run("autograder", "grade", name, "--jobs", "2", status=int(broken))
 
     def read_proofs(self, name: str) -> None:
-        """A person reads most of the proofs, and gives half points, too: p2's on the page of `autograder
-        mark`, the others in the formgrader.
+        """A person reads most of the proofs, and gives half points, too: some of p2's on the page of
+        `autograder mark`, the others in the formgrader.
         """
         most = self.problems[name].points[self.problems[name].proof]
         marks = {}
@@ -100,7 +100,9 @@ class Term:
             if of == name and one.unread and not one.damaged and self.dice.random() < 0.95:
                 one.read = marks[student] = self.dice.randint(0, int(2 * most)) / 2
                 one.to_read_again = False
-        (self._mark_at_the_desk if name == P2 else self._mark)(name, marks)
+        on_the_page = sorted(marks)[:40] if name == P2 else []
+        self._mark_at_the_desk(name, {student: marks.pop(student) for student in on_the_page})
+        self._mark(name, marks)
 
     def settle(self) -> None:
         """What being late costs, of proofs that were read in the formgrader, which does not say so."""
@@ -165,6 +167,8 @@ class Term:
             gradebook.db.commit()
 
     def _mark_at_the_desk(self, name: str, marks: dict[str, float]) -> None:
+        if not marks:
+            return
         book = ByHand(self.root)
         desk = Desk(book, Kept(self.root))
         (proof,) = (one for one in book.proofs() if one.assignment == name)
