@@ -58,17 +58,9 @@ def run(root: Path, given: argparse.Namespace) -> int:
         shelf = Submissions(root, given.assignment)
         with locked(root / pipeline.LOCK, f"`autograder grade` is running in {root}"):
             done = collect(
-                *(
-                    given.archives,
-                    given.assignment,
-                    people,
-                    calendar,
-                    shelf,
-                    given.sheet,
-                    given.latest,
-                ),
+                given.archives, given.assignment, people, calendar, shelf, given.sheet, given.latest,
                 others=known(root),
-            )
+            )  # fmt: skip
     except (OSError, ValueError) as error:
         return complain(str(error))
     zone = calendar.zone or UTC

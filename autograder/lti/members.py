@@ -13,6 +13,12 @@ IDS = ("lis_person_sourcedid", "ext_user_username", "email")
 SHOWN = 5
 
 
+def first_few(names: list[str]) -> str:
+    """The first names, and how many more there are."""
+    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+    return ", ".join(one_line(name, 64) for name in names[:SHOWN]) + more
+
+
 @dataclass
 class Found:
     """users: the platform's id of each student, by the class list's. lines: what may be told of the
@@ -39,7 +45,7 @@ def users(roster: Roster, learners: Iterable[Mapping]) -> Found:
         try:
             meant.setdefault(who(roster, name, [name, *cells], user).id, []).append(user)
         except NobodyError:
-            strangers.append(one_line(name, 60))
+            strangers.append(name)
         except UnknownError as error:
             done.faults.append(f"in the platform's course: {error}")
     for id, numbers in meant.items():
@@ -57,10 +63,7 @@ def users(roster: Roster, learners: Iterable[Mapping]) -> Found:
             f"course, or put their numbers into the column lms_id of {FILE}"
         )
     elif strangers:
-        more = f" and {len(strangers) - SHOWN} more" if len(strangers) > SHOWN else ""
-        done.lines.append(
-            f"in the platform's course and not in {FILE}: {', '.join(strangers[:SHOWN])}{more}"
-        )
+        done.lines.append(f"in the platform's course and not in {FILE}: {first_few(strangers)}")
     return done
 
 

@@ -10,10 +10,7 @@ from autograder.lti import LtiError, key, members, registration
 from autograder.lti.platform import Platform, RefusedError
 from autograder.lti.scores import outgoing, score_of
 from autograder.lti.sent import Sent
-from autograder.protocol import one_line
 from autograder.roster import FILE, Roster
-
-SHOWN = 5
 
 
 @dataclass
@@ -102,10 +99,5 @@ def _send_column(
             done.lines.append(f"  as they were sent before: {same}")
         done.lines += [f"  not sent: {n}, {why}" for why, n in sorted(left.items())]
         done.faults += [
-            f"{column.assignment}, {_named(ids)}: {why}" for why, ids in refused.items()
+            f"{column.assignment}, {members.first_few(ids)}: {why}" for why, ids in refused.items()
         ]
-
-
-def _named(ids: list[str]) -> str:
-    more = f" and {len(ids) - SHOWN} more" if len(ids) > SHOWN else ""
-    return ", ".join(one_line(id, 64) for id in ids[:SHOWN]) + more

@@ -7,9 +7,9 @@ NOT_INSTALLED = "no program bwrap"
 # bubblewrap's words, in its versions 0.4 to 0.12, and what helps. The kernel's reasons are few.
 REMEDIES = {
     NOT_INSTALLED: "Install it; on Debian and Ubuntu: apt-get install bubblewrap.",
-    "No permissions to creat": "No "
-    "namespaces may be made here. Start a container of Docker's with --security-opt "
-    "seccomp=unconfined. Without a container: sysctl kernel.unprivileged_userns_clone=1.",
+    "No permissions to creat": "No namespaces may be made here. Start a container of Docker's with "
+    "--security-opt seccomp=unconfined. Without a container: sysctl "
+    "kernel.unprivileged_userns_clone=1.",
     "Can't mount proc": "This container covers parts of /proc. Start it with --security-opt "
     "unmask=ALL (Podman) or --security-opt systempaths=unconfined (Docker).",
     "uid map|gid map|RTM_NEWADDR": "This machine forbids namespaces to ordinary programs, as Ubuntu "
