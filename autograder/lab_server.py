@@ -111,6 +111,7 @@ def _load_jupyter_server_extension(server: ServerApp) -> None:
     """Jupyter calls this, and before nbgrader's: the first that serves an address is asked."""
     if course_of(Path(server.root_dir).resolve()) is not None:
         # This takes a second, which is not always needed.
-        from autograder.nbgrader_glue.validating import serve
+        from autograder.nbgrader_glue import environment, validating
 
-        serve(server.web_app, server.base_url)
+        environment.mend()
+        validating.serve(server.web_app, server.base_url)

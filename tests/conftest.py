@@ -77,6 +77,19 @@ def shared(tmp_path_factory):
         yield
 
 
+@pytest.fixture(autouse=True)
+def environment():
+    """Each test leaves the environment as it found it, also where what it runs does not.
+
+    nbgrader leaves variables behind after an error, and a later test in this process would read them.
+    """
+    before = dict(os.environ)
+    yield
+    for name in os.environ.keys() - before.keys():
+        del os.environ[name]
+    os.environ.update(before)
+
+
 @pytest.fixture(scope="session")
 def needs():
     """`needs("chromium")`: the path of that Debian package's program; skips where it is missing."""

@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import nbformat
+import psutil
 import pytest
 from ipykernel.ipkernel import IPythonKernel
 from jupyter_client.kernelspec import KernelSpecManager
@@ -28,6 +29,7 @@ from tests.autograder.eventually import eventually
 
 DIRECTLY = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 LESSON = "lessons/00-start-here.ipynb"
+IPYKERNEL = "ipykernel_launcher"
 
 
 @pytest.fixture
@@ -125,6 +127,14 @@ def damaged_is_told(ask, work):
         assert not answer["success"]
         assert said in answer["value"]
         assert "Traceback" not in answer["value"]
+    # Nothing of the failed ones is left in the server, from which a student's kernel would have it.
+    ask("/api/kernels", name="python3")
+    started = psutil.Process().children(recursive=True)
+    kernels = [one.environ() for one in started if IPYKERNEL in one.cmdline()]
+    assert kernels
+    assert not [
+        one for one in kernels if {"NBGRADER_EXECUTION", "NBGRADER_VALIDATING"} & one.keys()
+    ]
     sound = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("1 + 1")])
     nbformat.write(sound, work.with_name("sound.ipynb"))
     assert ask("/assignments/validate", path=f"problems/{P3}/sound.ipynb")["success"]
