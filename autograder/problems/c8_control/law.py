@@ -82,12 +82,12 @@ LAW: tuple[Mistake, ...] = (
     Mistake(
         "wanted velocity left out",
         law(qd_r=lambda w: -w.gains.Lam @ w.e),
-        "Your q̇r does not hold the wanted velocity. What is q̇r where the arm is just where it should be?",
+        "Your q̇r does not hold the wanted velocity. What is q̇r where the arm is where it should be?",
     ),
     Mistake(
         "wanted acceleration left out",
         law(qdd_r=lambda w: -w.gains.Lam @ w.ed),
-        "Your q̈r does not hold the wanted acceleration. What is q̈r where the arm moves just as it should?",
+        "Your q̈r does not hold the wanted acceleration. What is q̈r where the arm moves as it should?",
     ),
     Mistake(
         "q̇r and q̈r exchanged",
@@ -137,7 +137,7 @@ LAW: tuple[Mistake, ...] = (
     Mistake(
         "K_D on the velocity error",
         law(damping=lambda w: -w.gains.KD @ w.ed),
-        "Your K_D term acts on the error of the velocities. On which vector must it act, so that V falls?",
+        "Your K_D term acts on the error of the velocities. Which vector must it act on for V to fall?",
     ),
     Mistake(
         "damping without K_D",
