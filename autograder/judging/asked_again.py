@@ -53,10 +53,15 @@ class AskedAgain:
         parts = []
         if found := self._tried(last):
             best = min(others, key=errors.__getitem__, default=last)
-            if said := dependence.sentence(criterion.text, k, found, lambda: self._tried(best)):
+            within = found.within(k)
+            if said := dependence.sentence(
+                criterion.text, k, within, lambda: self._within(k, best)
+            ):
                 return said
             tried = [one for one in (self._tried(worst), found) if one]
-            parts.append(error_of.sentence(criterion.text, k, tried))
+            # What is not tried may change the error too.
+            if all(len(one.within(k).probes) == len(one.probes) for one in tried):
+                parts.append(error_of.sentence(criterion.text, k, tried))
         elif self._probes(last):  # which gave no numbers
             return ""
         if of_units := self._once(("units", worst), lambda: self._in_other_units(worst)):
@@ -83,6 +88,10 @@ class AskedAgain:
             return dependence.Tried(self._probes(case), *both) if both else None
 
         return self._once(("tried", case), tried)
+
+    def _within(self, k: int, case: int) -> dependence.Tried | None:
+        tried = self._tried(case)
+        return tried and tried.within(k)
 
     def _probes(self, case: int) -> list[dependence.Probe]:
         """None of arguments that are not plain numbers."""

@@ -63,6 +63,13 @@ class Tried:
     right: Numbers
     theirs: Numbers
 
+    def within(self, k: int) -> "Tried":
+        """Without the probes that quantity k does not judge, or not as it judges the call."""
+        before = np.shape(self.right[0][k])
+        kept = [i for i, case in enumerate(self.right) if np.shape(case[k]) == before]
+        probes = [self.probes[i - 1] for i in kept[1:]]
+        return Tried(probes, [self.right[i] for i in kept], [self.theirs[i] for i in kept])
+
 
 def sentence(text: str, k: int, at: Tried, elsewhere: Callable[[], Tried | None]) -> str:
     """What an answer's quantity k, called `text`, depends on unlike the right one; "" for nothing.

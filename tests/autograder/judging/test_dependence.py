@@ -187,6 +187,31 @@ def test_a_criterion_of_some_calls_is_asked_of_these():
     assert found == "In your forth, the values do not depend on b; the right ones do."
 
 
+def test_a_number_that_leads_to_another_criterion_is_no_part_of_an_error():
+    """The velocity is 0 in all that the first criterion judges: it does not change what is off there."""
+
+    @each
+    def by_rest(call, value):
+        nothing = np.empty(0)
+        return (value, nothing) if call.args[1] == 0 else (nothing, value)
+
+    judging = check(
+        (),
+        signature="x(a, v)",
+        reference=lambda a, v: np.array(a + v),
+        calls=lambda rng, count: [
+            Call("x", (rng.uniform(1, 2), v)) for v in (0.0, 0.0, 0.0, *rng.uniform(1, 2, 3))
+        ],
+        criteria=(Criterion("rest", "N", 0.5), Criterion("motion", "N", 0.5)),
+        quantities=by_rest,
+    )
+    assert said(judging, lambda a, v: a + v + 7.0) == (
+        "What is off in your motion is the same whatever the arguments are. Which of your terms is a "
+        "mere number?",
+    )
+    assert not [text for text in said(judging, lambda a, v: a + v + a**3) if "rest changes" in text]
+
+
 def test_a_symmetric_positive_matrix_stays_one():
     (A,) = (probe.call.args[0] for probe in probes("x(A)", Call("x", (np.eye(3),)), True))
     np.testing.assert_array_equal(A, A.T)
