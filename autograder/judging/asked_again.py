@@ -43,18 +43,25 @@ class AskedAgain:
         """On what criterion k depends unlike the right one; or else whether its units come out, and on
         what alone its error depends. "" for nothing.
         """
-        criterion, last = self.criteria[k], len(self.calls) - 1
+        criterion = self.criteria[k]
         if not criterion.unit or criterion.is_property:
             return ""
         errors = errors_of(self.criteria, self.expected, self.given)[k]
         worst = int(np.argmax(errors))
+        # The calls of which this criterion judges anything.
+        *others, last = (i for i, case in enumerate(self.expected) if np.size(case[k]))
         parts = []
         if found := self._tried(last):
-            best = int(np.argmin(errors[:last])) if last else last
-            if said := dependence.sentence(criterion.text, k, found, lambda: self._tried(best)):
+            best = min(others, key=errors.__getitem__, default=last)
+            within = found.within(k)
+            if said := dependence.sentence(
+                criterion.text, k, within, lambda: self._within(k, best)
+            ):
                 return said
             tried = [one for one in (self._tried(worst), found) if one]
-            parts.append(error_of.sentence(criterion.text, k, tried))
+            # What is not tried may change the error too.
+            if all(len(one.within(k).probes) == len(one.probes) for one in tried):
+                parts.append(error_of.sentence(criterion.text, k, tried))
         elif self._probes(last):  # which gave no numbers
             return ""
         if of_units := self._once(("units", worst), lambda: self._in_other_units(worst)):
@@ -82,10 +89,14 @@ class AskedAgain:
 
         return self._once(("tried", case), tried)
 
+    def _within(self, k: int, case: int) -> dependence.Tried | None:
+        tried = self._tried(case)
+        return tried and tried.within(k)
+
     def _probes(self, case: int) -> list[dependence.Probe]:
         """None of arguments that are not plain numbers."""
         call = self.calls[case]
-        return [] if isinstance(call, Loop) else dependence.probes(self.signature, call)
+        return [] if isinstance(call, Loop) else dependence.probes(self.signature, call, True)
 
     def _in_other_units(self, case: int) -> scaling.InOtherUnits | None:
         call = self.calls[case]

@@ -29,20 +29,25 @@ POSITIVE: tuple[Callable, ...] = (lambda x: 1.25 * x + 0.1,)
 
 @dataclass(frozen=True)
 class Probe:
-    """A call with one number changed. of: that number as a student writes it, "arm.I2" or "q[1]"."""
+    """A call with one number changed, or one matrix. of: that as a student writes it, "arm.I2", "q[1]",
+    "gains.KD".
+    """
 
     of: str
     call: Call
 
 
-def probes(signature: str, call: Call) -> list[Probe]:
-    """One or two for each number in the arguments; none where they are too many, or not all numbers."""
+def probes(signature: str, call: Call, matrices: bool = False) -> list[Probe]:
+    """One or two for each number in the arguments; none where they are too many, or not all numbers.
+
+    matrices: whether an array of two axes or more is changed too, as a whole; else one leaves none.
+    """
     names = signature.partition("(")[2].removesuffix(")").split(", ")
     found: list[Probe] = []
     if call.at or call.parts:
         return []
     for place, (name, value) in enumerate(zip(names, call.args, strict=False)):
-        if not _is_plain(value):
+        if not _is_plain(value, matrices):
             return []
         for of, other in _changed(name, value, EITHER_SIGN):
             args = (*call.args[:place], other, *call.args[place + 1 :])
@@ -57,6 +62,13 @@ class Tried:
     probes: list[Probe]
     right: Numbers
     theirs: Numbers
+
+    def within(self, k: int) -> "Tried":
+        """Without the probes that quantity k does not judge, or not as it judges the call."""
+        before = np.shape(self.right[0][k])
+        kept = [i for i, case in enumerate(self.right) if np.shape(case[k]) == before]
+        probes = [self.probes[i - 1] for i in kept[1:]]
+        return Tried(probes, [self.right[i] for i in kept], [self.theirs[i] for i in kept])
 
 
 def sentence(text: str, k: int, at: Tried, elsewhere: Callable[[], Tried | None]) -> str:
@@ -103,10 +115,12 @@ def moving(k: int, tried: list[Probe], numbers: Numbers, least: float) -> list[s
     return list(found)
 
 
-def _is_plain(value) -> bool:
+def _is_plain(value, matrices: bool) -> bool:
     if isinstance(value, SimpleNamespace):
-        return all(_is_plain(entry) for entry in vars(value).values())
-    return isinstance(value, float) or (isinstance(value, np.ndarray) and value.ndim == 1)
+        return all(_is_plain(entry, matrices) for entry in vars(value).values())
+    if isinstance(value, np.ndarray):
+        return value.ndim == 1 or (matrices and value.ndim > 1)
+    return isinstance(value, float)
 
 
 def _changed(name: str, value, changes: tuple[Callable, ...]) -> Iterator[tuple[str, object]]:
@@ -115,6 +129,9 @@ def _changed(name: str, value, changes: tuple[Callable, ...]) -> Iterator[tuple[
         for field, entry in vars(value).items():
             for of, other in _changed(f"{name}.{field}", entry, POSITIVE):
                 yield of, SimpleNamespace(**vars(value) | {field: other})
+    elif isinstance(value, np.ndarray) and value.ndim > 1:
+        for change in POSITIVE:  # a symmetric matrix stays one, and positive definite
+            yield name, change(value)
     elif isinstance(value, np.ndarray):
         for i in range(len(value)):
             for change in changes:

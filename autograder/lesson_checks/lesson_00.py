@@ -3,6 +3,7 @@
 from autograder.judging.check import Check, Criterion
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.quantities import each, vector
+from autograder.judging.terms import Term
 from autograder.lesson_checks.choice import Choice, Option
 from autograder.lesson_checks.number import Number, WrongNumber
 from autograder.protocol import Call
@@ -33,6 +34,10 @@ EXCHANGED = (
     "A matrix of yours multiplies the wrong vector. Which of the two belongs to the velocities, "
     "and which to the accelerations?"
 )
+TRANSPOSED = (
+    "You multiply by the transpose of {0}. In NumPy `v @ A` is that, too: which stands first in the "
+    "equation, {0} or its vector?"
+)
 TORQUE = Check(
     id="00-torque",
     signature="my_torque(M, C, g_vec, f_vec, qd, qdd)",
@@ -40,6 +45,12 @@ TORQUE = Check(
     calls=_states,
     quantities=_one_each_joint,
     criteria=(Criterion("torques of the motors", "N·m"),),
+    terms=(
+        Term("M q̈", lambda M, C, g_vec, f_vec, qd, qdd: M @ qdd),
+        Term("C q̇", lambda M, C, g_vec, f_vec, qd, qdd: C @ qd),
+        Term("gravity", lambda M, C, g_vec, f_vec, qd, qdd: g_vec),
+        Term("friction", lambda M, C, g_vec, f_vec, qd, qdd: f_vec),
+    ),
     mistakes=(
         Mistake(
             "M and C exchanged",
@@ -80,10 +91,30 @@ TORQUE = Check(
             "and with which sign?",
         ),
         Mistake(
+            "M with both",
+            lambda M, C, g_vec, f_vec, qd, qdd: M @ (qdd + qd) + g_vec + f_vec,
+            EXCHANGED,
+        ),
+        Mistake(
+            "C with both",
+            lambda M, C, g_vec, f_vec, qd, qdd: C @ (qdd + qd) + g_vec + f_vec,
+            EXCHANGED,
+        ),
+        Mistake(
             "transposed",
             lambda M, C, g_vec, f_vec, qd, qdd: qdd @ M + qd @ C + g_vec + f_vec,
             "Your vectors stand to the left of the matrices. Of a matrix that is not symmetric, that "
             "gives another vector: which stands first in the equation?",
+        ),
+        Mistake(
+            "M transposed",
+            lambda M, C, g_vec, f_vec, qd, qdd: qdd @ M + C @ qd + g_vec + f_vec,
+            TRANSPOSED.format("M"),
+        ),
+        Mistake(
+            "C transposed",
+            lambda M, C, g_vec, f_vec, qd, qdd: M @ qdd + qd @ C + g_vec + f_vec,
+            TRANSPOSED.format("C"),
         ),
     ),
     hints=(

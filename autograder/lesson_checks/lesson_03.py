@@ -113,6 +113,7 @@ ONE_SIDE = (
     "You turned one side. In the energy an angular velocity stands on either side of the inertia: "
     "does your matrix stay symmetric?"
 )
+ENTRY_BY_ENTRY = "In NumPy `*` multiplies entry by entry. Which sign multiplies matrices?"
 TURNED = Check(
     id="03-turned",
     signature="my_turned(R, I_link)",
@@ -143,11 +144,9 @@ TURNED = Check(
             "You turned both sides in the same way. On the left of the inertia stands a row, ωᵀ, "
             "and on the right a column: what turns a row?",
         ),
-        Mistake(
-            "entry by entry",
-            lambda R, I_link: R * I_link * R.T,
-            "In NumPy `*` multiplies entry by entry. Which sign multiplies matrices?",
-        ),
+        Mistake("entry by entry", lambda R, I_link: R * I_link * R.T, ENTRY_BY_ENTRY),
+        Mistake("entry by entry, left", lambda R, I_link: (R * I_link) @ R.T, ENTRY_BY_ENTRY),
+        Mistake("entry by entry, right", lambda R, I_link: (R @ I_link) * R.T, ENTRY_BY_ENTRY),
     ),
     hints=(
         "The energy ½ ωᵀ I ω is one number, whatever axes ω and I are written in. How does one ω "

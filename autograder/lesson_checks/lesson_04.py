@@ -4,6 +4,7 @@ import numpy as np
 
 from autograder.judging.check import Check, Criterion
 from autograder.judging.diagnosis import Mistake
+from autograder.judging.terms import Term
 from autograder.lesson_checks.arm import ARM
 from autograder.lesson_checks.choice import Choice, Option
 from autograder.lesson_checks.number import Number, WrongNumber
@@ -77,6 +78,10 @@ POWER = Check(
     reference=lambda qd, u, f: qd @ (u - f),
     calls=_powers,
     criteria=(Criterion("rate of the energy", "W"),),
+    terms=(
+        Term("the power of the motors", lambda qd, u, f: qd @ u),
+        Term("the power of friction", lambda qd, u, f: -qd @ f),
+    ),
     mistakes=(
         Mistake(
             "friction added",

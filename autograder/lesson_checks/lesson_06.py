@@ -8,6 +8,7 @@ from autograder.judging.quantities import each, vector
 from autograder.lesson_checks.arm import ARM
 from autograder.lesson_checks.choice import Choice, Option
 from autograder.lesson_checks.number import Number, WrongNumber
+from autograder.problems.material import sentences
 from autograder.protocol import Call
 
 # By the numbers of the lesson's list: where a student shows each goal.
@@ -248,6 +249,39 @@ ROW = Check(
             _changed(0, lambda q, qd, qdd, g: np.sin(q)),
             "Your first column has no unit. A torque in N·m over m ℓc in kg·m leaves m/s²: what "
             "is missing?",
+        ),
+        Mistake(
+            "weight at every angle",
+            _changed(0, lambda q, qd, qdd, g: g),
+            "Your first column is the same at every angle. At which angle does the weight need no "
+            "torque?",
+        ),
+        Mistake(
+            "radians converted",
+            _changed(0, lambda q, qd, qdd, g: g * np.sin(np.radians(q))),
+            sentences.RADIANS_CONVERTED,
+        ),
+        Mistake(
+            "in degrees",
+            _changed(0, lambda q, qd, qdd, g: g * np.sin(np.degrees(q))),
+            sentences.IN_DEGREES,
+        ),
+        Mistake(
+            "inertia and damping exchanged",
+            lambda q, qd, qdd, g: _row(q, qd, qdd, g)[[0, 2, 1, 3]],
+            "The columns of J and d have changed places.",
+        ),
+        Mistake(
+            "velocity for its sign",
+            _changed(3, lambda q, qd, qdd, g: qd),
+            "Your last column grows with the speed, as the one before it. How large is dry friction in "
+            "a joint that moves twice as fast?",
+        ),
+        Mistake(
+            "sign of the angle",
+            _changed(3, lambda q, qd, qdd, g: np.sign(q)),
+            "Your last column has the sign of the angle. Does friction depend on where a pendulum is, "
+            "or on how it moves?",
         ),
         Mistake(
             "exchanged",

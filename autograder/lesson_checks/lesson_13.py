@@ -7,6 +7,7 @@ import numpy as np
 from autograder.judging.check import Check, Criterion
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.quantities import UnfitError, each, vector
+from autograder.judging.terms import Term
 from autograder.lesson_checks.arm import ARM
 from autograder.lesson_checks.choice import Choice, Option
 from autograder.lesson_checks.number import Number, WrongNumber
@@ -49,6 +50,12 @@ MOMENTUM = Check(
     calls=_arms,
     quantities=_rates,
     criteria=(Criterion("the rate of the momentum of all joints", "N·m"),),
+    terms=(
+        Term("the motors' torque", lambda C, qd, u, f, g: u),
+        Term("friction", lambda C, qd, u, f, g: -f),
+        Term("gravity", lambda C, qd, u, f, g: -g),
+        Term("the velocity term", lambda C, qd, u, f, g: C.T @ qd),
+    ),
     mistakes=(
         Mistake(
             "M q̈",

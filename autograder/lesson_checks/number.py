@@ -15,6 +15,16 @@ from autograder.protocol.words import described
 ALMOST_NOTHING = 0.0005
 SIGN = "The size is right and the sign is not."
 DEGREES = "You counted in degrees. The unit of the answer has radians in it."
+FACTOR_TO = 0.01  # a factor is one of these, and no other, to this share
+# What a number without a sentence of its own may be a multiple of the right one by.
+FACTORS = (
+    (
+        2.0,
+        "You are off by a factor of 2. Is there a ½ too many or too few, or does something count twice?",
+    ),
+    (9.81, "You are off by a factor of 9.81. Is g missing, or is it there once too often?"),
+    (1000.0, "You are off by a factor of 1000. Is each of your numbers in SI units?"),
+)
 
 
 @dataclass(frozen=True)
@@ -36,8 +46,8 @@ class Number:
     id: "05-sag" is answered in my_sag. text: what is asked for, as the card's row. unit: "" for none.
     right: within a share `tolerance` of it an answer is right. wrong: of several that fit the nearest
     is named. otherwise: what to say of any other number, unless its sign alone is wrong or it counts
-    in degrees. further: on the card of a right answer, why it is right or what it leads to. hints: for
-    `hint`.
+    in degrees; where it is off by one of FACTORS, that comes first. further: on the card of a right
+    answer, why it is right or what it leads to. hints: for `hint`.
 
     ValueError where right is 0 (ask for a Choice), two wrong numbers have one name, or numbers are so
     close that an answer could be both.
@@ -110,6 +120,10 @@ class Number:
             return DEGREES
         if self.unit.endswith("/rad") and self._same(math.degrees(number), self.right):
             return DEGREES
+        room = min(self.tolerance, FACTOR_TO) * abs(self.right)
+        for factor, said in FACTORS if self.unit else ():
+            if min(abs(number * f - self.right) for f in (factor, 1 / factor)) <= room:
+                return f"{said} {self.otherwise}"
         return self.otherwise
 
     def _same(self, given: float, number: float) -> bool:

@@ -8,6 +8,7 @@ from autograder.digest import digest
 from autograder.judging import dependence, scaling
 from autograder.judging.call_text import FEW, rounded
 from autograder.judging.check import VISIBLE_CASES, VISIBLE_SEED, Check
+from autograder.judging.loops import Loop
 from autograder.judging.quantities import each
 from autograder.protocol import Call, encode_call
 
@@ -34,8 +35,12 @@ def all_calls(check: Check) -> list[Call]:
     calls = shown_calls(check)
     if not isinstance(check.quantities, each):
         return calls
-    probes = [probe.call for call in calls for probe in dependence.probes(check.signature, call)]
-    scaled = [one.call for call in calls for one in scaling.scalings(check.signature, call)]
+    # A whole run is asked for once.
+    alone = [call for call in calls if not isinstance(call, Loop)]
+    probes = [
+        probe.call for call in alone for probe in dependence.probes(check.signature, call, True)
+    ]
+    scaled = [one.call for call in alone for one in scaling.scalings(check.signature, call)]
     return [*calls, *probes, *scaled]
 
 

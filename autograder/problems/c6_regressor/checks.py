@@ -16,7 +16,7 @@ from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.mutation.generated import Generated
-from autograder.problems.c6_regressor import mistakes
+from autograder.problems.c6_regressor import fit_mistakes, mistakes, rank_mistakes, regressors
 from autograder.problems.material import following, planar_2r, sampling
 from autograder.protocol import Call
 
@@ -56,9 +56,12 @@ def _columns(call, value):
             f"an array of shape {value.shape}; it must return one row for each joint and one "
             "column for each of the six parameters, (2, 6)"
         )
-    masses, inertias = value[:, [mistakes.M1, mistakes.M2]], value[:, [mistakes.J1, mistakes.J2]]
-    at_joint_1, at_joint_2 = value[:, mistakes.MC2]
-    return masses, value[:, mistakes.MC1], inertias, np.array(at_joint_1), np.array(at_joint_2)
+    masses, inertias = (
+        value[:, [regressors.M1, regressors.M2]],
+        value[:, [regressors.J1, regressors.J2]],
+    )
+    at_joint_1, at_joint_2 = value[:, regressors.MC2]
+    return masses, value[:, regressors.MC1], inertias, np.array(at_joint_1), np.array(at_joint_2)
 
 
 # The entries of π as the mechanism writes them out, and by their names in the notebook.
@@ -76,7 +79,7 @@ class SixColumns(Generated):
 
     def __call__(self, calls):
         return [
-            (m, np.insert(values, mistakes.M1, 0.0, -1)) for m, values in super().__call__(calls)
+            (m, np.insert(values, regressors.M1, 0.0, -1)) for m, values in super().__call__(calls)
         ]
 
 
@@ -117,7 +120,7 @@ def _identify_calls(rng, count):
         while True:
             q, qd, qdd = motion = _motion(rng, int(rng.integers(9, 16)))
             Y = planar_2r.regressor(q, qd, qdd, arm)
-            W = mistakes.stacked(Y)[:, planar_2r.BASE_COLUMNS]
+            W = regressors.stacked(Y)[:, planar_2r.BASE_COLUMNS]
             # Well shown as a whole, and by joint 1 alone, so that nothing is judged on luck.
             if max(np.linalg.cond(W), np.linalg.cond(W[::2])) < 40:
                 break
@@ -181,7 +184,7 @@ def _rank_calls(rng, count):
 def _of_plain_rank(rng, made_of):
     while True:
         motion = made_of(*_motion(rng, SAMPLES), known(sampling.planar_2r(rng)))
-        values = np.linalg.svd(mistakes.stacked(planar_2r.regressor(*motion)))[1]
+        values = np.linalg.svd(regressors.stacked(planar_2r.regressor(*motion)))[1]
         shares = values / values[0]
         if not np.any((shares > ROUNDING) & (shares < LEAST_SHOWN)):
             return motion
@@ -255,7 +258,7 @@ CHECKS = (
     Check(
         id="c6-rank_of_excitation",
         signature="rank_of_excitation(q, qd, qdd, arm)",
-        reference=mistakes.rank,
+        reference=rank_mistakes.rank,
         calls=_rank_calls,
         quantities=_ranks,
         criteria=(
@@ -297,7 +300,7 @@ CHECKS = (
             ),
         ),
         # Counts are so few that those of one criterion may be a mistake's by chance.
-        mistakes=tuple(replace(mistake, claim=Claim.WHOLE) for mistake in mistakes.RANK),
+        mistakes=tuple(replace(mistake, claim=Claim.WHOLE) for mistake in rank_mistakes.RANK),
         hints=(
             "Each sample gives a Y with two rows. Put the rows of all samples under each other: the "
             "matrix W has 2K rows and 6 columns. How many of its columns are independent?",
@@ -326,7 +329,7 @@ CHECKS = (
         id="c6-identify",
         signature="identify(q, qd, qdd, u, arm)",
         returns="beta",
-        reference=mistakes.fit,
+        reference=fit_mistakes.fit,
         calls=_identify_calls,
         quantities=_estimates,
         criteria=(
@@ -345,7 +348,7 @@ CHECKS = (
                 otherwise=NOT_LEAST_SQUARES,
             ),
         ),
-        mistakes=mistakes.IDENTIFY,
+        mistakes=fit_mistakes.IDENTIFY,
         hints=(
             "Stack the samples as in part B, and the torques in the same order: W π = u. The six "
             "columns depend on each other. Which four do you keep, and what do these four unknowns "

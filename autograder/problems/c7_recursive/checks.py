@@ -12,8 +12,8 @@ from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.problems.c7_recursive import libraries
 from autograder.problems.c7_recursive.counting import count
+from autograder.problems.c7_recursive.counting_mistakes import COUNT
 from autograder.problems.c7_recursive.library_mistakes import (
-    COUNT,
     GRAVITY_SIGN,
     TERMS,
     gravity_sign,

@@ -71,10 +71,10 @@ class Counted:
     __radd__, __rsub__, __rmul__ = __add__, __sub__, __mul__
 
 
-def operations(algorithm, n: int) -> dict:
-    """How often the algorithm adds, subtracts and multiplies for n links."""
+def operations(algorithm, n: int, number: type[Counted] = Counted) -> dict:
+    """How often the algorithm adds, subtracts and multiplies for n links, as such numbers count it."""
     counts = {"+": 0, "-": 0, "*": 0}
-    x = Counted(counts)
+    x = number(counts)
     arm = SimpleNamespace(g=x, **{name: n * [x] for name in ("l", "lc", "m", "I")})
     algorithm(*4 * [n * [x]], arm)
     return counts

@@ -1,4 +1,4 @@
-"""Mistakes in what is asked of a library that has only rnea, and in counting operations."""
+"""Mistakes in what is asked of a library that has only rnea."""
 
 from collections.abc import Callable
 from types import SimpleNamespace
@@ -7,8 +7,6 @@ import numpy as np
 
 from autograder.judging.claims import Claim
 from autograder.judging.diagnosis import Mistake
-from autograder.problems.c7_recursive.counting import count, direct, operations
-from autograder.problems.c7_recursive.counting import sweeps as by_sweeps
 
 
 def parts(library, q, qd) -> SimpleNamespace:
@@ -43,13 +41,37 @@ def _column(v):
     return v[:, np.newaxis]
 
 
+def _velocity_as_acceleration(library, q, qd):
+    """C q̇ and f of calls in which q̇ comes where q̈ belongs."""
+    of = parts(library, q, qd)
+    return of.M, 0 * of.c, of.g, of.M @ qd
+
+
+GRAVITY_IN_M = (
+    "Each column of your M holds a torque that is there without any acceleration. What does the "
+    "library return for an arm that is held still?"
+)
+FRICTION_IN_C = (
+    "Your C q̇ holds the friction. Turn all velocities round: which of the two torques changes its "
+    "sign, and which does not?"
+)
+GRAVITY_ONCE = (
+    "Half of the gravity torque is left in your C q̇ and in your f. Both come from two calls, and "
+    "gravity is in each of these: from which of them have you taken it away?"
+)
+ORDER = (
+    "Your C q̇, g and f are right, but they come in another order. In which order does the docstring "
+    "ask for them?"
+)
+
+
 TERMS = (
     Mistake(
         "gravity in M",
         _but(M=lambda of: of.M + _column(of.g)),
-        "Each column of your M holds a torque that is there without any acceleration. What does the "
-        "library return for an arm that is held still?",
+        GRAVITY_IN_M,
     ),
+    Mistake("gravity added to M", _but(M=lambda of: of.M + 2 * _column(of.g)), GRAVITY_IN_M),
     Mistake(
         "M asked in motion",
         _but(M=lambda of: of.M + _column(of.c + of.f)),
@@ -82,9 +104,9 @@ TERMS = (
     Mistake(
         "friction in C q̇",
         _but(c=lambda of: of.c + of.f),
-        "Your C q̇ holds the friction. Turn all velocities round: which of the two torques changes its "
-        "sign, and which does not?",
+        FRICTION_IN_C,
     ),
+    Mistake("friction in C q̇, of the way back", _but(c=lambda of: of.c - of.f), FRICTION_IN_C),
     Mistake(
         "gravity and friction in C q̇",
         _but(c=lambda of: of.c + of.f + of.g),
@@ -96,6 +118,46 @@ TERMS = (
         _but(f=lambda of: of.f + of.c),
         "Your friction holds C q̇. Turn all velocities round: which of the two torques changes its "
         "sign, and which does not?",
+    ),
+    Mistake(
+        "gravity in the friction",
+        _but(f=lambda of: of.f + of.g),
+        "Your friction holds a torque that is there without any velocity. What does the library return "
+        "for an arm that is held still?",
+    ),
+    Mistake(
+        "gravity and C q̇ in the friction",
+        _but(f=lambda of: of.f + of.c + of.g),
+        "Your friction is all that the library returns without acceleration. Which two other torques "
+        "are in it?",
+    ),
+    Mistake(
+        "gravity left in one of two calls",
+        _but(c=lambda of: of.c + of.g / 2, f=lambda of: of.f - of.g / 2),
+        GRAVITY_ONCE,
+        claim=Claim.WHOLE,
+    ),
+    Mistake(
+        "gravity left in the other of two calls",
+        _but(c=lambda of: of.c + of.g / 2, f=lambda of: of.f + of.g / 2),
+        GRAVITY_ONCE,
+        claim=Claim.WHOLE,
+    ),
+    Mistake(
+        "velocity in the place of the acceleration",
+        _velocity_as_acceleration,
+        "Your C q̇ is 0, and your f is M times q̇. In which order does the library take the velocity "
+        "and the acceleration?",
+        claim=Claim.WHOLE,
+    ),
+    *(
+        Mistake(f"in the order {name}", _but(**of), ORDER, claim=Claim.WHOLE)
+        for name, of in {
+            "g, C q̇, f": {"c": lambda of: of.g, "g": lambda of: of.c},
+            "C q̇, f, g": {"g": lambda of: of.f, "f": lambda of: of.g},
+            "g, f, C q̇": {"c": lambda of: of.g, "g": lambda of: of.f, "f": lambda of: of.c},
+            "f, C q̇, g": {"c": lambda of: of.f, "g": lambda of: of.c, "f": lambda of: of.g},
+        }.items()
     ),
     Mistake(
         "C q̇ and friction exchanged",
@@ -194,59 +256,5 @@ GRAVITY_SIGN = _of_all(
         _inertia,
         "You return the sign of the inertia's torque. It says whose torque the library gives; what "
         "does gravity add to it?",
-    ),
-)
-
-
-def _counted(kinds: str):
-    return lambda n: tuple(
-        sum(number for kind, number in operations(algorithm, n).items() if kind in kinds)
-        for algorithm in (direct, by_sweeps)
-    )
-
-
-COUNT = (
-    Mistake(
-        "products only",
-        _counted("*"),
-        "You count the multiplications only. What else costs an operation?",
-    ),
-    Mistake(
-        "sums only",
-        _counted("+-"),
-        "You count sums and differences only. What else costs an operation?",
-    ),
-    Mistake("plus only", _counted("+"), "You count the signs + only. What else is asked for?"),
-    Mistake(
-        "without subtractions",
-        _counted("+*"),
-        "Your count leaves the subtractions out. Which method of your number stands for −?",
-    ),
-    Mistake(
-        "exchanged",
-        lambda n: count(n)[::-1],
-        "Your two counts are right, but in the other order. Which of them does the docstring ask for "
-        "first?",
-    ),
-    Mistake(
-        "not set back",
-        lambda n: (count(n)[0], sum(count(n))),
-        "Your second count includes the first one. When does your counter start again from zero?",
-    ),
-    Mistake(
-        "one link fewer",
-        lambda n: count(n - 1),
-        "Your counts are those of an arm with one link fewer. How long are the lists that you pass?",
-    ),
-    Mistake(
-        "n times one link",
-        lambda n: tuple(n * number for number in count(1)),
-        "You take n times the operations of one link. Look at the loops: in which algorithm does a link "
-        "cost more when the arm is longer?",
-    ),
-    Mistake(
-        "pairs counted twice",
-        lambda n: (count(n)[0] + (count(n)[0] - n * count(1)[0]), count(n)[1]),
-        "You count each pair of links twice. Where does the inner loop of the direct sum begin?",
     ),
 )

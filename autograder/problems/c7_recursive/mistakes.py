@@ -1,12 +1,17 @@
 """Mistakes in the two sweeps: each is a sweep in which something counts wrongly, or not at all."""
 
-from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
 
 from autograder.judging.diagnosis import Mistake
-from autograder.problems.c7_recursive.sweeps import Sweeps, changed
+from autograder.problems.c7_recursive.sweeps import (
+    AlwaysDown,
+    FirstLeftOut,
+    LastLeftOut,
+    Reversed,
+    Sweeps,
+)
 
 # The chain of the notebook's set-up cell.
 EXAMPLE = SimpleNamespace(
@@ -25,6 +30,18 @@ CENTRIPETAL = (
     "In your outward sweep a point of a turning link has no acceleration towards the axis. What "
     "acceleration has the end of a sling that turns evenly?"
 )
+OUTWARDS = (
+    "In your outward sweep a point of a turning link is accelerated away from the axis. Which way does "
+    "the string pull a stone that turns evenly on it?"
+)
+ORDER_OF_ALONG = (
+    "What the angular acceleration adds to a point's acceleration has the wrong sign. In which order do "
+    "the factors of this cross product stand?"
+)
+ORDER_OF_MOMENT = (
+    "In your inward sweep a force has its moment with the wrong sign. In which order do force and lever "
+    "arm stand in the cross product?"
+)
 HANDED_DOWN = (
     "Your inward sweep loses something on its way to the base. A joint carries all links beyond "
     "it: which two things does the next link hand down?"
@@ -38,6 +55,10 @@ NOT_TURNED = (
     f"You hand vectors on without turning them {FRAMES}. In whose axes are the components of each "
     "vector given?"
 )
+HANDED_ON = (
+    "You hand the {} on without turning it. In whose axes are its components given, and in whose do you "
+    "use them?"
+)
 NOT_WITH_THE_LINK = (
     "A vector or matrix of the chain is given in the axes of its link, which have turned with it. You "
     "use one of them as if its axes were still those of the base. "
@@ -50,23 +71,6 @@ CENTRE_FOR_JOINT = (
     "You carry on at the centre of mass of the link, as if the next joint sat there. Which of "
     "the chain's vectors leads to the next joint?"
 )
-
-
-@dataclass(frozen=True)
-class _AlwaysDown(Sweeps):
-    """Gravity of Earth along −z, also where there is none."""
-
-    def __call__(self, q, qd, qdd, chain):
-        down = np.full_like(chain.gravity, [0.0, 0.0, -9.81])
-        return super().__call__(q, qd, qdd, changed(chain, gravity=down))
-
-
-@dataclass(frozen=True)
-class _Reversed(Sweeps):
-    """The torques from the tip to the base."""
-
-    def __call__(self, q, qd, qdd, chain):
-        return super().__call__(q, qd, qdd, chain)[..., ::-1]
 
 
 def _mistakes(*rows) -> tuple[Mistake, ...]:
@@ -94,7 +98,7 @@ RNEA = _mistakes(
     ),
     (
         "9.81 downwards",
-        _AlwaysDown(),
+        AlwaysDown(),
         "Your gravity is always 9.81 m/s² along −z. The check also takes the chain to other places, and "
         "hangs it from walls: which entry of chain says where gravity points?",
     ),
@@ -113,6 +117,12 @@ RNEA = _mistakes(
     ("no centripetal acceleration of the joint", Sweeps(joint_centre=0.0), CENTRIPETAL),
     ("no centripetal acceleration of the centre", Sweeps(centre=0.0), CENTRIPETAL),
     ("no centripetal acceleration", Sweeps(joint_centre=0.0, centre=0.0), CENTRIPETAL),
+    ("centripetal acceleration of the joint outwards", Sweeps(joint_centre=-1.0), OUTWARDS),
+    ("centripetal acceleration of the centre outwards", Sweeps(centre=-1.0), OUTWARDS),
+    ("centripetal acceleration outwards", Sweeps(joint_centre=-1.0, centre=-1.0), OUTWARDS),
+    ("sign of the angular acceleration at the joint", Sweeps(joint_along=-1.0), ORDER_OF_ALONG),
+    ("sign of the angular acceleration at the centre", Sweeps(along=-1.0), ORDER_OF_ALONG),
+    ("sign of the angular acceleration", Sweeps(joint_along=-1.0, along=-1.0), ORDER_OF_ALONG),
     (
         "no angular acceleration at the joint",
         Sweeps(joint_along=0.0),
@@ -137,6 +147,9 @@ RNEA = _mistakes(
         "The next link pulls at the far end of this link, and in your inward sweep this force has no "
         "moment about the joint. What is its lever arm?",
     ),
+    ("sign of the moment of the link's own force", Sweeps(lever=-1.0), ORDER_OF_MOMENT),
+    ("sign of the moment of the next link's force", Sweeps(arm=-1.0), ORDER_OF_MOMENT),
+    ("sign of both moments", Sweeps(lever=-1.0, arm=-1.0), ORDER_OF_MOMENT),
     ("force not handed down", Sweeps(force=0.0), HANDED_DOWN),
     ("torque not handed down", Sweeps(torque=0.0), HANDED_DOWN),
     ("nothing handed down", Sweeps(torque=0.0, arm=0.0), HANDED_DOWN),
@@ -185,6 +198,16 @@ RNEA = _mistakes(
     ("not turned outwards", Sweeps(out=0), NOT_TURNED),
     ("not turned inwards", Sweeps(back=0), NOT_TURNED),
     ("not turned", Sweeps(out=0, back=0), NOT_TURNED),
+    *(
+        (f"{vector} not turned", Sweeps(unturned=name), HANDED_ON.format(vector))
+        for name, vector in (
+            ("omega", "angular velocity"),
+            ("alpha", "angular acceleration"),
+            ("a", "acceleration of the joint"),
+            ("f", "force"),
+            ("t", "moment"),
+        )
+    ),
     (
         "inertia not turned",
         Sweeps(in_base="I"),
@@ -235,8 +258,18 @@ RNEA = _mistakes(
         "Your friction helps the motor. On which side of the equation of motion does f(q̇) stand?",
     ),
     (
+        "first joint left out",
+        FirstLeftOut(),
+        "The torque of the first joint is 0 in your result. At which link does your inward loop end?",
+    ),
+    (
+        "last link left out",
+        LastLeftOut(),
+        "The last link loads no joint in your result. At which link does your inward loop begin?",
+    ),
+    (
         "order of the joints",
-        _Reversed(),
+        Reversed(),
         "Your torques are right, but come in reverse order. Your inward sweep finds the last joint's "
         "torque first: where in the result does it belong?",
     ),

@@ -45,7 +45,8 @@ class Sweeps:
     projected: onto the joint's axis, or else the third component. out, back: whether vectors are turned
     into the next link's axes and back; −1 turns them the wrong way. in_base: the entry of the chain that
     is used as if its axes were the base's. joint_at, arm_at: what is taken for the next joint's place,
-    outwards and inwards: "offset", "com", or "before", which is the joint before it.
+    outwards and inwards: "offset", "com", or "before", which is the joint before it. unturned: the one
+    vector that is handed on as it is: "omega", "alpha", "a", "f" or "t".
     """
 
     gravity: float = 1.0
@@ -72,6 +73,7 @@ class Sweeps:
     in_base: str = ""
     joint_at: str = "offset"
     arm_at: str = "offset"
+    unturned: str = ""
 
     def __call__(self, q, qd, qdd, chain) -> np.ndarray:
         """Of one chain, or with a leading axis of as many as there are."""
@@ -85,7 +87,8 @@ class Sweeps:
             # Of the joint, still in the axes of the link before.
             r, out = _place(own, k, self.joint_at), _turned(_transposed(R[k]), self.out)
             a = a + self.joint_along * cross(alpha, r) + self.joint_centre * _inwards(omega, r)
-            omega, alpha, a, down = (np.matvec(out, v) for v in (omega, alpha, a, down))
+            omega, alpha = self._handed("omega", out, omega), self._handed("alpha", out, alpha)
+            a, down = self._handed("a", out, a), np.matvec(out, down)
             axis, c, m = own.axis[..., k, :], own.com[..., k, :], chain.m[..., k, np.newaxis]
             joint = axis * qd[..., k, np.newaxis]
             alpha = self.turn * alpha + self.twist * cross(omega, joint)
@@ -105,7 +108,7 @@ class Sweeps:
         for k in reversed(range(n)):
             if k + 1 < n:
                 back = _turned(R[k + 1], self.back)
-                f, t = np.matvec(back, f), np.matvec(back, t)
+                f, t = self._handed("f", back, f), self._handed("t", back, t)
                 r = _place(own, k + 1, self.arm_at)
                 t = self.torque * t + self.arm * cross(r, f)
             f, t = forces[k] + self.force * f, torques[k] + t
@@ -126,6 +129,9 @@ class Sweeps:
             for place, value in zip(places, values, strict=True):
                 found[place] = value
         return found
+
+    def _handed(self, name: str, turn, v) -> np.ndarray:
+        return v if name == self.unturned else np.matvec(turn, v)
 
     def _own(self, chain, R) -> SimpleNamespace:
         """The chain, or with one entry as it is where its axes are taken for the base's."""
@@ -181,6 +187,44 @@ def rnea(q, qd, qdd, chain) -> np.ndarray:
 def changed(chain, **entries) -> SimpleNamespace:
     """The chain with other entries."""
     return SimpleNamespace(**vars(chain) | entries)
+
+
+@dataclass(frozen=True)
+class AlwaysDown(Sweeps):
+    """Gravity of Earth along −z, also where there is none."""
+
+    def __call__(self, q, qd, qdd, chain):
+        down = np.full_like(chain.gravity, [0.0, 0.0, -9.81])
+        return super().__call__(q, qd, qdd, changed(chain, gravity=down))
+
+
+@dataclass(frozen=True)
+class FirstLeftOut(Sweeps):
+    """Nothing at the first joint."""
+
+    def __call__(self, q, qd, qdd, chain):
+        u = super().__call__(q, qd, qdd, chain)
+        u[..., 0] = 0.0
+        return u
+
+
+@dataclass(frozen=True)
+class LastLeftOut(Sweeps):
+    """Nothing of the last link."""
+
+    def __call__(self, q, qd, qdd, chain):
+        left = {name: np.array(getattr(chain, name)) for name in ("m", "I", "viscous")}
+        left["m"][..., -1] = left["viscous"][..., -1] = 0.0
+        left["I"][..., -1, :, :] = 0.0
+        return super().__call__(q, qd, qdd, changed(chain, **left))
+
+
+@dataclass(frozen=True)
+class Reversed(Sweeps):
+    """The torques from the tip to the base."""
+
+    def __call__(self, q, qd, qdd, chain):
+        return super().__call__(q, qd, qdd, chain)[..., ::-1]
 
 
 def random_chain(rng: np.random.Generator, n: int, gravity: bool) -> SimpleNamespace:

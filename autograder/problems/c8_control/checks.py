@@ -18,7 +18,7 @@ from autograder.judging.loops import Loop
 from autograder.judging.models import Beside
 from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.section import Section
-from autograder.problems.c8_control import law, loops, mistakes
+from autograder.problems.c8_control import law, loops, mistakes, rate_mistakes, regressor_mistakes
 from autograder.problems.material import following, planar_2r, sampling
 from autograder.protocol import Call
 
@@ -152,10 +152,10 @@ def _rate_calls(rng, count):
         arm, q, qd = sampling.planar_2r(rng), sampling.angles(rng), sampling.velocities(rng)
         s = rng.choice([-1.0, 1.0], 2) * rng.uniform(0.3, 1.5, 2)
         a, b = rng.choice([-1.0, 1.0], 2) * rng.uniform(0.7, 1.5, 2) * (len(calls) % 2)
-        C_used = law.valid_C(q, qd, arm, a, b)
+        C_used = rate_mistakes.valid_C(q, qd, arm, a, b)
         gains = SimpleNamespace(KD=0.3 * _gains(rng, arm).KD)
         args = (q, qd, s, C_used, gains, arm)
-        damping, rest = s @ gains.KD @ s, abs(law.rate_of_V(*args, damping=0.0))
+        damping, rest = s @ gains.KD @ s, abs(rate_mistakes.rate_of_V(*args, damping=0.0))
         # Neither of the two is small beside the other, where it is not zero.
         if len(calls) % 2 == 0 or 0.2 * damping < rest < 5 * damping:
             calls.append(Call("V_dot", args))
@@ -229,7 +229,7 @@ CHECKS = (
         id="c8-regressor_r",
         signature="regressor_r(q, qd, qd_r, qdd_r, arm)",
         returns="Y_r",
-        reference=mistakes.regressor_r,
+        reference=regressor_mistakes.regressor_r,
         calls=_regressor_calls,
         quantities=_columns,
         criteria=(
@@ -239,8 +239,8 @@ CHECKS = (
             Criterion("column of m2 ℓc2, joint 1", "m/s²", 0.4),
             Criterion("column of m2 ℓc2, joint 2", "m/s²", 0.3),
         ),
-        mistakes=mistakes.REGRESSOR,
-        terms=mistakes.REGRESSOR_TERMS,
+        mistakes=regressor_mistakes.REGRESSOR,
+        terms=regressor_mistakes.REGRESSOR_TERMS,
         hints=(
             "Start from your regressor of c6. M and g do not know q̇r; q̈r simply takes the place of q̈. "
             "Which column alone has products of velocities?",
@@ -335,15 +335,15 @@ CHECKS = (
     Check(
         id="c8-V_dot",
         signature="V_dot(q, qd, s, C_used, gains, arm)",
-        reference=law.rate_of_V,
+        reference=rate_mistakes.rate_of_V,
         calls=_rate_calls,
         quantities=each(partial(_rates, Beside(_christoffel))),
         criteria=(
             Criterion("V̇ with the Christoffel C", "W", 0.4),
             Criterion("V̇ with a valid C that is not skew", "W", 0.6),
         ),
-        mistakes=law.RATE,
-        terms=law.V_TERMS,
+        mistakes=rate_mistakes.RATE,
+        terms=rate_mistakes.V_TERMS,
         hints=(
             "V has two parts. Take the derivative of each: the first is a product of three factors, of "
             "which all depend on time.",

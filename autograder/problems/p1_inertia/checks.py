@@ -19,7 +19,7 @@ from autograder.problems.material.definiteness import (
     is_symmetric,
     least_eigenvalue,
 )
-from autograder.problems.p1_inertia import mistakes
+from autograder.problems.p1_inertia import definiteness_mistakes, links_mistakes, mistakes
 from autograder.protocol import Call
 
 NOTHING = np.empty(0)  # a quantity of a criterion that a call says nothing of
@@ -153,7 +153,7 @@ SKEWED = Said(
     _said_of(True, Kind.SKEWED),
 )
 LAST_DIGIT = Said(
-    next(m.sentence for m in mistakes.IS_SPD if m.name == "exact symmetry"),
+    next(m.sentence for m in definiteness_mistakes.IS_SPD if m.name == "exact symmetry"),
     lambda answered: (
         _said_of(False, Kind.ROUNDED)(answered)
         and not _said_of(True, Kind.ROUNDED)(answered)
@@ -251,7 +251,7 @@ CHECKS = (
             Criterion("matrix of one link", "kg·m²", 0.5),
             Criterion("matrix of several links", "kg·m²", 0.5),
         ),
-        mistakes=mistakes.INERTIA_FROM_LINKS,
+        mistakes=links_mistakes.INERTIA_FROM_LINKS,
         terms=(
             _block_term("the rotation of the links", slice(0, 3), slice(0, 3)),
             _block_term("the translation of the links", slice(3, 6), slice(3, 6)),
@@ -329,7 +329,7 @@ CHECKS = (
                 is_truth=True,
             ),
         ),
-        mistakes=mistakes.IS_SPD,
+        mistakes=definiteness_mistakes.IS_SPD,
         hints=(
             "There are two questions in the name: is the matrix symmetric, and is it positive "
             "definite? Ask them one after the other.",
@@ -362,7 +362,7 @@ CHECKS = (
                 is_truth=True,
             ),
         ),
-        mistakes=mistakes.SINGULAR_ARM,
+        mistakes=definiteness_mistakes.SINGULAR_ARM,
         hints=(
             "M is singular where some velocity other than zero costs no energy. Each link's energy "
             "has two parts, and none of them is negative: what must each of them be?",

@@ -29,7 +29,12 @@ from autograder.problems.material.systems import (
     times,
     torque_function,
 )
-from autograder.problems.p5_state_space import mistakes
+from autograder.problems.p5_state_space import (
+    drift_mistakes,
+    mistakes,
+    run_mistakes,
+    step_mistakes,
+)
 from autograder.protocol import Call, Function
 
 # What order 4 looks like where the step is not yet small. A method of order 3 shows 3.3 at most.
@@ -258,7 +263,7 @@ CHECKS = (
                 matching=EXACTLY,
             ),
         ),
-        mistakes=mistakes.STEP,
+        mistakes=step_mistakes.STEP,
         hints=(
             "f(x, u) is a slope: how fast the state changes there. Write the four slopes on four "
             "lines; each one needs the one before it.",
@@ -338,7 +343,7 @@ CHECKS = (
                 is_property=True,
             ),
         ),
-        mistakes=mistakes.SIMULATE,
+        mistakes=run_mistakes.SIMULATE,
         hints=(
             "First make an array of len(t) rows, with x0 in the first row. How many steps are "
             "then left to take?",
@@ -364,7 +369,7 @@ CHECKS = (
     Check(
         id="p5-energy_drift",
         signature="energy_drift(x, arm)",
-        reference=mistakes.drift,
+        reference=drift_mistakes.drift,
         calls=_drift_calls,
         quantities=_drift_parts,
         criteria=(
@@ -372,8 +377,10 @@ CHECKS = (
             Criterion("change of the potential energy", "J", 0.35),
             Criterion("drift where both change", "J", 0.3),
         ),
-        catalogue=Generated("planar-2r", "energy_drift", mistakes.DRIFT_SAID, mistakes.EXAMPLE),
-        terms=mistakes.DRIFT_TERMS,
+        catalogue=Generated(
+            "planar-2r", "energy_drift", drift_mistakes.DRIFT_SAID, mistakes.EXAMPLE
+        ),
+        terms=drift_mistakes.DRIFT_TERMS,
         hints=(
             "First write a function for the energy of one state; then use it on every row.",
             "For the potential energy you need the heights of the two centres of mass. The second "

@@ -132,6 +132,92 @@ def test_arguments_that_are_not_tried(args):
     assert probes("torque(q)", Call("torque", args)) == []
 
 
+def of_matrices(used) -> Check:
+    """Judges a number of two matrices and a vector, by the names of those that count."""
+
+    def right(A, v, robot):
+        held = {"A": np.sum(A**2), "v[0]": v[0], "robot.I": np.trace(robot.I)}
+        return np.array(1.0 + np.prod([np.sin(held[name]) + 2 for name in used]))
+
+    def calls(rng, count):
+        return [
+            Call("x", (rng.normal(size=(2, 3)), rng.normal(size=2),
+                       SimpleNamespace(I=rng.normal(size=(2, 2)))))
+            for _ in range(count)
+        ]  # fmt: skip
+
+    return check((), signature="x(A, v, robot)", reference=right, calls=calls)
+
+
+OF_MATRICES = ("A", "v[0]", "robot.I")
+
+
+@given(st.sets(st.sampled_from(OF_MATRICES)), st.sets(st.sampled_from(OF_MATRICES)))
+def test_a_matrix_is_one_argument(needed, used):
+    judging, other = of_matrices(sorted(needed)), of_matrices(sorted(used)).reference
+    found = " ".join(said(judging, lambda *args: 0.3 + other(*args) ** 2))
+    before, _, after = found.partition(" do not depend")
+    if "robot.I" in needed and "robot.I" not in used:
+        assert "do not depend on robot at all" in found
+    elif needed != used:
+        extra, missing = ({name for name in OF_MATRICES if f" {name}" in text.replace(",", "")}
+                          for text in (before, after))  # fmt: skip
+        assert (extra, missing) == (used - needed, needed - used)
+    else:
+        assert "depend" not in found
+
+
+def test_a_criterion_of_some_calls_is_asked_of_these():
+    """The last call is another one's, and says nothing of what this one depends on."""
+
+    @each
+    def by_sign(call, value):
+        nothing = np.empty(0)
+        return (value, nothing) if call.args[0] > 0 else (nothing, value)
+
+    judging = check(
+        (),
+        signature="x(a, b)",
+        reference=lambda a, b: np.array(a * b),
+        calls=lambda rng, count: [Call("x", (float(s), rng.uniform(1, 2))) for s in (3, 2, -1, -2)],
+        criteria=(Criterion("forth", "N", 0.5), Criterion("back", "N", 0.5)),
+        quantities=by_sign,
+    )
+    (found,) = said(judging, lambda a, b: a * b if a < 0 else a**2 + 7)
+    assert found == "In your forth, the values do not depend on b; the right ones do."
+
+
+def test_a_number_that_leads_to_another_criterion_is_no_part_of_an_error():
+    """The velocity is 0 in all that the first criterion judges: it does not change what is off there."""
+
+    @each
+    def by_rest(call, value):
+        nothing = np.empty(0)
+        return (value, nothing) if call.args[1] == 0 else (nothing, value)
+
+    judging = check(
+        (),
+        signature="x(a, v)",
+        reference=lambda a, v: np.array(a + v),
+        calls=lambda rng, count: [
+            Call("x", (rng.uniform(1, 2), v)) for v in (0.0, 0.0, 0.0, *rng.uniform(1, 2, 3))
+        ],
+        criteria=(Criterion("rest", "N", 0.5), Criterion("motion", "N", 0.5)),
+        quantities=by_rest,
+    )
+    assert said(judging, lambda a, v: a + v + 7.0) == (
+        "What is off in your motion is the same whatever the arguments are. Which of your terms is a "
+        "mere number?",
+    )
+    assert not [text for text in said(judging, lambda a, v: a + v + a**3) if "rest changes" in text]
+
+
+def test_a_symmetric_positive_matrix_stays_one():
+    (A,) = (probe.call.args[0] for probe in probes("x(A)", Call("x", (np.eye(3),)), True))
+    np.testing.assert_array_equal(A, A.T)
+    assert np.linalg.eigvalsh(A)[0] > 0
+
+
 def test_the_argument_itself_is_left_as_it_is():
     (call,) = calls(np.random.default_rng(0), 1)
     before = real(call.args[1])

@@ -33,6 +33,8 @@ TABLE = {
             "right alone, back": "I_link @ R",
             "no transpose": "R @ I_link @ R",
             "entry by entry": "R * I_link * R.T",
+            "entry by entry, left": "R * I_link @ R.T",
+            "entry by entry, right": "R @ I_link * R.T",
         },
         other=("R", "np.zeros((3, 3))", "np.linalg.inv(I_link)"),
     ),

@@ -8,7 +8,7 @@ from autograder.judging.verdict import State, Verdict
 from autograder.lesson_checks import checks_of
 from autograder.lesson_checks.arm import ARM
 from autograder.lesson_checks.choice import Choice
-from autograder.lesson_checks.number import DEGREES, SIGN, Number
+from autograder.lesson_checks.number import DEGREES, FACTORS, SIGN, Number
 from autograder.student.lesson import verdict_on
 from tests.autograder.lesson_checks.answers import NUMBERS, cell_of, filled, lesson, table
 
@@ -89,7 +89,9 @@ def test_no_mistake_is_named_of_another_wrong_answer(id, verdict):
         assert found.state is State.INCORRECT, f"{typed}: {found}"
         assert not known & set(found.diagnosis), typed
         if isinstance(CHECKS[id], Number):
-            assert found.diagnosis[0] in (CHECKS[id].otherwise, SIGN, DEGREES)
+            said = CHECKS[id].otherwise
+            factors = (f"{factor} {said}" for _, factor in FACTORS)
+            assert found.diagnosis[0] in (said, SIGN, DEGREES, *factors)
 
 
 @pytest.mark.parametrize("id", ANSWERS)

@@ -56,6 +56,20 @@ def test_a_wrong_sign_and_degrees_are_named_in_every_check(unit, typed, sentence
     assert (found.state, found.diagnosis) == (State.INCORRECT, (sentence,))
 
 
+@pytest.mark.parametrize(
+    ("unit", "typed", "factor"),
+    [("N·m", 20.0, "2."), ("N·m", 98.1, "9.81."), ("N·m", 1.0194, "9.81."), ("N·m", 0.01, "1000."),
+     ("N·m", 19.7, ""), ("N·m", 100.0, ""), ("N·m", 40.0, ""), ("N·m", -20.0, ""), ("", 20.0, "")],
+)  # fmt: skip
+@pytest.mark.parametrize("tolerance", [0.01, 0.05])
+def test_a_factor_is_named_before_what_else_is_said(unit, typed, factor, tolerance):
+    asked = replace(number(5.0), unit=unit, tolerance=tolerance)
+    (found,) = asked.judge({"my_torque": typed}).diagnosis
+    assert found.endswith("No.")
+    assert ("You are off by a factor of " + factor in found) == bool(factor)
+    assert ("factor" in found) == bool(factor)
+
+
 def test_numbers_that_cannot_be_told_apart_are_refused():
     number(9.7)
     for wrong in ((9.81,), (5.0, 5.09), (10.0,)):

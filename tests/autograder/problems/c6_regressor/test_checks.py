@@ -14,7 +14,7 @@ from autograder.judging.diagnosis import Wrong
 from autograder.judging.stacked import layouts
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
-from autograder.problems.c6_regressor import mistakes
+from autograder.problems.c6_regressor import fit_mistakes, mistakes, regressors
 from autograder.problems.c6_regressor.checks import LEAST_SHOWN, MOTIONS
 from autograder.problems.material import planar_2r, sampling
 from autograder.protocol import Reply, real
@@ -51,7 +51,7 @@ def test_estimates_agree_with_the_library():
         q, qd, qdd, u, arm = call.args
         model = Planar2R(lc1=0.3, lc2=0.3, m1=1.0, m2=1.0, I1=0.1, I2=0.1, **vars(arm))
         theirs = identify(model, q, qd, qdd, u, columns=on_link_axes(model))
-        np.testing.assert_allclose(mistakes.fit(q, qd, qdd, u, arm), theirs.estimate, rtol=1e-9)
+        np.testing.assert_allclose(fit_mistakes.fit(q, qd, qdd, u, arm), theirs.estimate, rtol=1e-9)
 
 
 def test_ranks_are_those_of_the_course():
@@ -61,7 +61,7 @@ def test_ranks_are_those_of_the_course():
         calls = check.calls(np.random.default_rng(seed), VISIBLE_CASES)
         assert [check.reference(*call.args) for call in calls] == [4, 3, 2, 3, 4, 2, 4, 2]
         for call in calls:
-            values = np.linalg.svd(mistakes.stacked(planar_2r.regressor(*call.args)))[1]
+            values = np.linalg.svd(regressors.stacked(planar_2r.regressor(*call.args)))[1]
             assert not np.any((values > 1e-12 * values[0]) & (values < LEAST_SHOWN * values[0]))
             assert values[0] * LEAST_SHOWN > 1e-5  # a limit of 1e-6 N·m is as good
     assert len(MOTIONS) == 8
@@ -73,8 +73,8 @@ def test_noise_makes_the_truth_wrong():
     check = CHECKS["c6-identify"]
     for place, call in enumerate(check.calls(rng, 12)):
         q, qd, qdd, u, arm = call.args
-        W = mistakes.stacked(planar_2r.regressor(q, qd, qdd, arm))[:, planar_2r.BASE_COLUMNS]
-        left = np.ravel(u) - W @ mistakes.fit(q, qd, qdd, u, arm)
+        W = regressors.stacked(planar_2r.regressor(q, qd, qdd, arm))[:, planar_2r.BASE_COLUMNS]
+        left = np.ravel(u) - W @ fit_mistakes.fit(q, qd, qdd, u, arm)
         assert (np.max(np.abs(left)) > 0.1) == bool(place % 2)
         assert set(vars(arm)) == {"l1", "l2", "g"}
 

@@ -119,6 +119,9 @@ def count(*changes):
     return but(COUNT, *changes)
 
 
+# In outwards 0.0 − a s of each link, and the sums with the first joint's px, py and ax; then, in the
+# direct sum, its place once more and each total; in the sweeps the first of the three that they carry.
+FLOATS = "return a - (n + 4) - (2 + n), b - (n + 4) - 3"
 OUT = "a = R[k].T @ (a + cross(wd, r) + cross(w, cross(w, r)))"
 OUT_2 = "w, wd = R[k].T @ w, R[k].T @ wd"
 BACK = "f, t = R[k] @ f, R[k] @ t"
@@ -157,10 +160,60 @@ TABLE = {
             rnea(" + cross(w, cross(w, c))", "", " + cross(w, cross(w, r))", ""),
             0.45,
         ),
+        (
+            "centripetal acceleration of the joint outwards",
+            rnea(" + cross(w, cross(w, r))", " - cross(w, cross(w, r))"),
+            0.45,
+        ),
+        (
+            "centripetal acceleration of the centre outwards",
+            rnea(" + cross(w, cross(w, c))", " + cross(w, cross(c, w))"),
+            0.45,
+        ),
+        (
+            "centripetal acceleration outwards",
+            rnea("cross(w, cross(w, c))", "cross(w, cross(c, w))", "cross(w, r))", "cross(r, w))"),
+            0.45,
+        ),
+        (
+            "sign of the angular acceleration at the joint",
+            rnea("cross(wd, r)", "cross(r, wd)"),
+            0.2,
+        ),
+        (
+            "sign of the angular acceleration at the centre",
+            rnea("cross(wd, c)", "cross(c, wd)"),
+            0.2,
+        ),
+        (
+            "sign of the angular acceleration",
+            rnea("cross(wd, c)", "cross(c, wd)", "cross(wd, r)", "cross(r, wd)"),
+            0.2,
+        ),
         ("no angular acceleration at the joint", rnea(" + cross(wd, r)", ""), 0.2),
         ("no angular acceleration at the centre", rnea(" + cross(wd, c)", ""), 0.2),
         ("moment arm of the link's own force missing", rnea(LEVER, ""), 0),
         ("moment arm of the next link's force missing", rnea(f"    {DOWN}", ""), 0),
+        (
+            "sign of the moment of the link's own force",
+            rnea("cross(chain.com[k], F[k])", "cross(F[k], chain.com[k])"),
+            0,
+        ),
+        (
+            "sign of the moment of the next link's force",
+            rnea("cross(chain.offset[k], f)", "cross(f, chain.offset[k])"),
+            0,
+        ),
+        (
+            "sign of both moments",
+            rnea(
+                "cross(chain.com[k], F[k])",
+                "cross(F[k], chain.com[k])",
+                "cross(chain.offset[k], f)",
+                "cross(f, chain.offset[k])",
+            ),
+            0,
+        ),
         ("force not handed down", rnea("f = f + F[k]", "f = F[k]"), 0),
         (
             "torque not handed down",
@@ -208,6 +261,11 @@ TABLE = {
         ("not turned outwards", rnea(OUT, OUT.replace("R[k].T @ ", ""), OUT_2, ""), 0),
         ("not turned inwards", rnea(BACK, ""), 0),
         ("not turned", rnea("R = [rotation(chain.axis[k], q[k])", "R = [np.eye(3)"), 0),
+        ("angular velocity not turned", rnea("R[k].T @ w,", "w,"), 0.45),
+        ("angular acceleration not turned", rnea("R[k].T @ wd", "wd"), 0.2),
+        ("acceleration of the joint not turned", rnea("a = R[k].T @ (a", "a = (a"), 0),
+        ("force not turned", rnea("R[k] @ f,", "f,"), 0),
+        ("moment not turned", rnea("R[k] @ t", "t"), 0),
         ("inertia not turned", in_base("R @ chain.I[k] @ R.T", "chain.I[k]"), 0.2),
         ("centre of mass not turned", in_base("R @ chain.com[k]", "chain.com[k]"), 0),
         ("axis not turned", in_base("z, c, I = R @ chain.axis[k]", "z, c, I = chain.axis[k]"), 0),
@@ -222,6 +280,8 @@ TABLE = {
         ("no rotational inertia", rnea("N.append(", "N.append(0 * (", CARRIED, f"{CARRIED})"), 0.2),
         ("friction missing", rnea(" + chain.viscous[k] * qd[k]", ""), 0.45),
         ("sign of friction", rnea("+ chain.viscous", "- chain.viscous"), 0.45),
+        ("first joint left out", rnea("range(n - 1, -1, -1)", "range(n - 1, 0, -1)"), 0),
+        ("last link left out", rnea("range(n - 1, -1, -1)", "range(n - 2, -1, -1)"), 0),
         ("order of the joints", rnea("return u", "return u[::-1]"), 0),
         (
             ("gyroscopic term missing", "friction missing"),
@@ -231,6 +291,7 @@ TABLE = {
     ],
     "c7-terms": [
         ("gravity in M", terms("library(q, o, e) - g", "library(q, o, e)"), 0.7),
+        ("gravity added to M", terms("library(q, o, e) - g", "library(q, o, e) + g"), 0.7),
         (
             "M asked in motion",
             terms("library(q, o, e) - g", "library(q, qd, e) - g"),
@@ -255,6 +316,34 @@ TABLE = {
             0.7,
         ),
         ("C q̇ in the friction", terms("(b1 - b2) / 2", "b1"), 0.8),
+        ("friction in C q̇, of the way back", terms("c, f = (b1 + b2) / 2", "c, f = b2"), 0.7),
+        ("gravity in the friction", terms("M, c, g, f", "M, c, g, library(q, qd, o) - c"), 0.8),
+        (
+            "gravity and C q̇ in the friction",
+            terms("M, c, g, f", "M, c, g, library(q, qd, o)"),
+            0.8,
+        ),
+        (
+            "gravity left in one of two calls",
+            terms("library(q, -qd, o) - g", "library(q, -qd, o)"),
+            0.5,
+        ),
+        (
+            "gravity left in the other of two calls",
+            terms("library(q, qd, o) - g", "library(q, qd, o)"),
+            0.5,
+        ),
+        (
+            "velocity in the place of the acceleration",
+            terms(
+                "library(q, qd, o)", "library(q, o, qd)", "library(q, -qd, o)", "library(q, o, -qd)"
+            ),
+            0.5,
+        ),
+        ("in the order g, C q̇, f", terms("M, c, g, f", "M, g, c, f"), 0.5),
+        ("in the order C q̇, f, g", terms("M, c, g, f", "M, c, f, g"), 0.6),
+        ("in the order g, f, C q̇", terms("M, c, g, f", "M, g, f, c"), 0.3),
+        ("in the order f, C q̇, g", terms("M, c, g, f", "M, f, c, g"), 0.3),
         ("C q̇ and friction exchanged", terms("c, f =", "f, c ="), 0.5),
         ("gravity of the level arm", terms("M, c, g", "M, c, library(o, o, o)"), 0.8),
         ("gravity in motion", terms("M, c, g", "M, c, library(q, qd, o)"), 0.8),
@@ -297,7 +386,19 @@ TABLE = {
         ("exchanged", count("return a, b", "return b, a"), 0),
         ("not set back", count("return a, b", "return a, a + b"), 0.5),
         ("one link fewer", count("kinds =", "n, kinds = n - 1,"), 0),
+        ("one link more", count("kinds =", "n, kinds = n + 1,"), 0),
+        (
+            "without those of a float",
+            count("return a, b", FLOATS),
+            0,
+        ),
+        ("without the outward sweep", count("return a, b", "return a - 24 * n, b - 24 * n"), 0),
         ("n times one link", count("direct(k, n)", "n * direct(k, 1)"), 0.5),
         ("pairs counted twice", count("pairs = n * (n + 1) // 2", "pairs = n * n"), 0.5),
+        (
+            "pairs without the link itself",
+            count("pairs = n * (n + 1) // 2", "pairs = n * (n - 1) // 2"),
+            0.5,
+        ),
     ],
 }

@@ -9,12 +9,16 @@ TRACED = {
             *(
                 "With every mass and inertia doubled, and all else that holds kilograms, the right "
                 f"values double, and those of your torques {torques} do not. Do all its terms have the "
-                "same unit?"
-                for torques in (
-                    "at rest, in gravity",
-                    "of a start from rest, without gravity",
-                    "at constant joint rates, without gravity",
-                    "with all of these at once",
+                f"same unit?{more}"
+                for torques, more in (
+                    ("at rest, in gravity", ""),
+                    ("of a start from rest, without gravity", ""),
+                    ("at constant joint rates, without gravity", ""),
+                    (
+                        "with all of these at once",
+                        " What is off in your torques with all of these at once is the same whatever "
+                        "the arguments are. Which of your terms is a mere number?",
+                    ),
                 )
             ),
         ),

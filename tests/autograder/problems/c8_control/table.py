@@ -24,12 +24,14 @@ def hold(gravity="g_vec(q)", spring="arm.kp * (q_star - q)", damper="- arm.kd * 
     return f"{first}{MATRICES}\nreturn {gravity} + {spring} {damper}"
 
 
+TOP = "l1 * c2 * (2 * a1 + a2) - l1 * s2 * products + g * c12"
+LOW = "l1 * c2 * a1 + l1 * s2 * v1 * r1 + g * c12"
 LINES = {
     "products": "v2 * r1 + (v1 + v2) * r2",
     "mc1": "g * c1",
     "m2": "l1**2 * a1 + l1 * g * c1",
-    "top": "l1 * c2 * (2 * a1 + a2) - l1 * s2 * products + g * c12",
-    "low": "l1 * c2 * a1 + l1 * s2 * v1 * r1 + g * c12",
+    "top": TOP,
+    "low": LOW,
     "J1": "a1",
     "J2": "a1 + a2",
 }
@@ -37,8 +39,9 @@ LINES = {
 
 def Y(first="", **lines):
     """The body of regressor_r, with one of its lines replaced."""
-    assert lines.keys() <= LINES.keys()
-    defined = "\n".join(f"{name} = {text}" for name, text in (LINES | lines).items())
+    cosines = {name: lines[name] for name in ("c1", "c12") if name in lines}
+    assert lines.keys() <= LINES.keys() | cosines.keys()
+    defined = "\n".join(f"{name} = {text}" for name, text in (cosines | LINES | lines).items())
     return f"""{first}
 l1, g = arm.l1, arm.g
 (q1, q2), (v1, v2), (r1, r2), (a1, a2) = q, qd, qd_r, qdd_r
@@ -91,6 +94,11 @@ TABLE = {
         ("sign of gravity", hold("-g_vec(q)"), 0),
         ("sign of the error", hold(spring="arm.kp * (q - q_star)"), 0.2),
         ("no spring", hold(spring="0"), 0.2),
+        ("spring to zero", hold(spring="- arm.kp * q"), 0),
+        ("sum for the error", hold(spring="arm.kp * (q_star + q)"), 0),
+        ("spring without its gain", hold(spring="(q_star - q)"), 0.2),
+        ("damping without its gain", hold(damper="- qd"), 0.5),
+        ("damper on the angle", hold(damper="- arm.kd * q"), 0),
         ("no damping", hold(damper=""), 0.5),
         ("sign of the damping", hold(damper="+ arm.kd * qd"), 0.5),
         (
@@ -127,6 +135,13 @@ TABLE = {
         ("no acceleration", Y("qdd_r = 0 * qdd_r"), 0.1),
         ("no gravity", Y("arm.g = 0"), 0.1),
         ("sign of gravity", Y("arm.g = -arm.g"), 0.1),
+        ("sine for cosine in gravity", Y(c1="np.sin(q1)", c12="np.sin(q1 + q2)"), 0.1),
+        ("wrong angle of link 2 in gravity", Y(c12="c2"), 0.3),
+        (
+            "sine for cosine in the coupling",
+            Y(top=TOP.replace("c2 *", "s2 *"), low=LOW.replace("c2 *", "s2 *")),
+            0.3,
+        ),
         (
             "coupling without the factor 2",
             Y(top="l1 * c2 * (a1 + a2) - l1 * s2 * products + g * c12"),
@@ -147,12 +162,18 @@ TABLE = {
         ("Λ taken to be 1", law(qd_r="ref.qd - e", qdd_r="ref.qdd - ed"), 0),
         ("wanted acceleration for q̈r", law(qdd_r="ref.qdd"), 0),
         ("sign of Λ in q̈r", law(qdd_r="ref.qdd + gains.Lam @ ed"), 0),
+        ("wanted velocity left out", law(qd_r="-gains.Lam @ e"), 0),
+        ("wanted acceleration left out", law(qdd_r="-gains.Lam @ ed"), 0),
+        ("q̇r and q̈r exchanged", law(Y="Y_of(q, qd, qdd_r, qd_r)"), 0),
         ("q̇ for q̇r in Y_r", law(Y="Y_of(q, qd, qd, qdd_r)"), 0.35),
         ("q̇r for q̇ in Y_r", law(Y="Y_of(q, qd_r, qd_r, qdd_r)"), 0.35),
         ("q̇r and q̇ exchanged in s", law(s="qd_r - qd"), 0),
         ("Y_r of the wanted motion", law(Y="Y_of(ref.q, ref.qd, ref.qd, ref.qdd)"), 0),
         ("Y_r at the wanted angles", law(Y="Y_of(ref.q, qd, qd_r, qdd_r)"), 0),
         ("error for s", law(s="q - ref.q"), 0),
+        ("velocity error for s", law(s="ed"), 0),
+        ("K_D on the velocity error", law(u="Y @ pi_hat - gains.KD @ ed"), 0.3),
+        ("damping without K_D", law(u="Y @ pi_hat - s"), 0.3),
         ("sign of K_D", law(u="Y @ pi_hat + gains.KD @ s"), 0.3),
         ("K_D left out", law(u="Y @ pi_hat"), 0.3),
         ("Y_r π̂ left out", law(u="-gains.KD @ s"), 0.3),
@@ -190,6 +211,9 @@ TABLE = {
         ("C left out", rate("-D + R"), 0),
         ("q̇ for s", rate("-qd @ K @ qd + qd @ (N / 2 - C_used) @ qd"), 0),
         ("q̇ for s in the damping", rate("-qd @ K @ qd + R - F"), 0),
+        ("damping without K_D", rate("-s @ s + R - F"), 0),
+        ("C times q̇", rate("-D + R - s @ C_used @ qd"), 0),
+        ("Ṁ along s", rate("-D + s @ M_dot(q, s) @ s / 2 - F"), 0),
         ("M for Ṁ", rate("-D + s @ M(q) @ s / 2 - F"), 0),
         ("Ṁ from q̇1", rate("-D + s @ M_dot(q, qd[::-1]) @ s / 2 - F"), 0),
         ("example arm", rate("-D + R - F", EXAMPLE), 0),

@@ -12,7 +12,7 @@ from autograder.judging.check import HIDDEN_CASES, VISIBLE_CASES
 from autograder.judging.loops import Loop
 from autograder.judging.verdict import State
 from autograder.problems import CHECKS
-from autograder.problems.c8_control import law, loops, mistakes
+from autograder.problems.c8_control import loops, mistakes, rate_mistakes, regressor_mistakes
 from autograder.problems.c8_control.checks import LEAST_RISE, MORE_ERROR, NEAR, SLOW
 from autograder.problems.material import planar_2r, sampling
 from autograder.problems.material.driven_arm import STEP, Arm
@@ -49,7 +49,7 @@ def test_the_regressor_is_that_of_the_library():
         arm = planar_2r.changed(arm, **vars(known))
         model = Planar2R(**vars(arm))
         theirs = regressor(model, q, qd, qdd_r, qd_r) @ parameters(model)
-        ours = mistakes.regressor_r(q, qd, qd_r, qdd_r, known) @ planar_2r.parameters(arm)
+        ours = regressor_mistakes.regressor_r(q, qd, qd_r, qdd_r, known) @ planar_2r.parameters(arm)
         np.testing.assert_allclose(ours, theirs, rtol=1e-9)
 
 
@@ -171,11 +171,13 @@ def test_V_dot_is_the_slope_of_V():
             return at @ planar_2r.M(q + t * qd, arm) @ at / 2
 
         slope = (V(dt) - V(-dt)) / (2 * dt)
-        assert law.rate_of_V(q, qd, s, C_used, gains, arm) == pytest.approx(slope, rel=1e-6)
+        assert rate_mistakes.rate_of_V(q, qd, s, C_used, gains, arm) == pytest.approx(
+            slope, rel=1e-6
+        )
 
 
 def another_C(rng, q, qd, arm):
-    C_used = law.valid_C(q, qd, arm, *rng.normal(size=2))
+    C_used = rate_mistakes.valid_C(q, qd, arm, *rng.normal(size=2))
     np.testing.assert_allclose(C_used @ qd, planar_2r.C(q, qd, arm) @ qd)
     return C_used
 

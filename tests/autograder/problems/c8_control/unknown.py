@@ -25,7 +25,33 @@ TRACED = {
             ),
         ),
     ],
+    "c8-slotine_li": [
+        (
+            law(both="np.cos(np.arange(8)) + np.concatenate([u, rate])"),
+            *(
+                f"What is off in your {part} is the same whatever the arguments are. Which of your "
+                "terms is a mere number?"
+                for part in (
+                    "torque u",
+                    "rates of the estimates of m1 and m2",
+                    "rates of the estimates of m1 ℓc1 and m2 ℓc2",
+                    "rates of the estimates of J1 and J2",
+                )
+            ),
+        ),
+    ],
     "c8-V_dot": [
+        (
+            rate("-D + 1.3 * R - F"),
+            "In your V̇ with a valid C that is not skew, the part with Ṁ comes out 30 % too large.",
+        ),
+        (
+            rate("-D + R - F + s @ s * q[0]"),
+            *(
+                f"In your V̇ with {which}, the values depend on q[0]; the right ones do not."
+                for which in ("the Christoffel C", "a valid C that is not skew")
+            ),
+        ),
         (
             rate("-1.3 * D + R - F"),
             "In your V̇ with the Christoffel C, every value is 30 % too large. Which factor belongs "
@@ -34,9 +60,7 @@ TRACED = {
         ),
     ],
 }
-UNEXPLAINED = {
-    "c8-slotine_li": [law(both="np.cos(np.arange(8)) + np.concatenate([u, rate])")],
-}
+UNEXPLAINED: dict = {}
 NEARLY = {"c8-slotine_li": [law(both="np.concatenate([u * 1.0001, rate])")]}
 UNFIT = {
     "c8-gravity_compensation": [(hold("0", "0", "+ qd[0]"), "it must return shape (2,)")],

@@ -40,8 +40,18 @@ TRACED = {
             ),
         ),
     ],
+    "p1-inertia_from_links": [
+        (
+            f"{LINKS} + 1",
+            *(
+                f"What is off in your matrix of {links} is the same whatever the arguments are. Which of "
+                "your terms is a mere number?"
+                for links in ("one link", "several links")
+            ),
+        ),
+    ],
 }
-UNEXPLAINED = {"p1-inertia_from_links": [f"{LINKS} + 1"]}
+UNEXPLAINED: dict = {}
 NEARLY = {
     "p1-singular_arm": [
         singular({"I2": 1e-4}, "[0, np.pi]"),

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from autograder.problems import CHECKS
 from autograder.problems.material.systems import rk4, run
-from autograder.problems.p5_state_space.mistakes import explicit
+from autograder.problems.p5_state_space.step_mistakes import explicit
 from tests.autograder.course_problems import problem
 from tests.submissions.answers import indented
 

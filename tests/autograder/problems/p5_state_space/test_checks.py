@@ -16,7 +16,7 @@ from autograder.problems.material.systems import (
     smooth,
 )
 from autograder.problems.p5_state_space.checks import LEAST_ORDER
-from autograder.problems.p5_state_space.mistakes import METHODS, explicit
+from autograder.problems.p5_state_space.step_mistakes import METHODS, explicit
 from autograder.protocol import real
 from tests.autograder.course_problems import problem
 from tests.autograder.problems.p5_state_space.right import held_ivp
