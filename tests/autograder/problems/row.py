@@ -1,12 +1,17 @@
 """A row in a problem's table of wrong answers, and which mistakes a check names for it."""
 
-from dataclasses import dataclass, replace
-from functools import cache
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache, partial
+
+import numpy as np
 
 from autograder.judging.check import Check
 from autograder.judging.diagnosis import Catalogue, Mistake
+from autograder.judging.models import evaluated
 from autograder.judging.verdict import Verdict
 from autograder.problems import CHECKS
+from autograder.protocol import Call
 from tests.autograder.verdicts import judged_by
 
 
@@ -43,26 +48,70 @@ class Sentence(str):
 
 
 @dataclass(frozen=True)
+class Remembered:
+    """What a function gives for these calls, found once: all rows of a check are tried with the same."""
+
+    of: Callable[[list[Call]], Sequence | np.ndarray]
+    found: dict = field(default_factory=dict)
+
+    def __call__(self, calls):
+        key = tuple(map(id, calls))
+        if key not in self.found:
+            # The calls are kept too, so that no others get their ids.
+            self.found[key] = calls, self.of(calls)
+        return self.found[key][1]
+
+
+@dataclass(frozen=True)
+class Wrong:
+    """A mistake's model, asked for the numbers of several calls alone."""
+
+    for_calls: Remembered
+
+
+@dataclass(frozen=True)
 class Naming:
     """A catalogue whose sentences know whose they are."""
 
-    of: Catalogue
+    made: list[Mistake]
+    numbers: Remembered
+
+    @classmethod
+    def of(cls, catalogue: Catalogue) -> "Naming":
+        made = [named(mistake) for mistake in catalogue.mistakes()]
+        return cls(made, Remembered(lambda calls: [values for _, values in catalogue(calls)]))
 
     def mistakes(self):
-        return [replace(m, sentence=Sentence(m)) for m in self.of.mistakes()]
+        return self.made
 
     def __call__(self, calls):
-        values = (values for _, values in self.of(calls))
-        return list(zip(self.mistakes(), values, strict=True))
+        return list(zip(self.made, self.numbers(calls), strict=True))
+
+
+def named(mistake: Mistake) -> Mistake:
+    return replace(mistake, sentence=Sentence(mistake))
 
 
 @cache
 def naming(check_id: str) -> Check:
-    """The check, with sentences that know whose they are."""
+    """The check, with sentences that know whose they are, and with the same calls for the same numbers
+    drawn: these, and what each mistake gives for them, are found once for all rows.
+    """
     check = CHECKS[check_id]
-    named = tuple(replace(m, sentence=Sentence(m)) for m in check.mistakes)
-    catalogue = check.catalogue and Naming(check.catalogue)
-    return replace(check, mistakes=named, catalogue=catalogue)
+    mistakes = tuple(
+        replace(named(m), wrong=Wrong(Remembered(partial(evaluated, m.wrong))))
+        for m in check.mistakes
+    )
+    drawn: dict[tuple[str, int], list[Call]] = {}
+
+    def calls(rng, count):
+        key = str(rng.bit_generator.state), count
+        if key not in drawn:
+            drawn[key] = check.calls(rng, count)
+        return drawn[key]
+
+    catalogue = check.catalogue and Naming.of(check.catalogue)
+    return replace(check, calls=calls, mistakes=mistakes, catalogue=catalogue)
 
 
 def verdict_on(row: Row) -> Verdict:
