@@ -12,8 +12,9 @@ from pathlib import Path
 
 from autograder.bundle.archive import BundleError, write_bundle
 from autograder.nbgrader_glue import write_problem
+from docs.browser import bytecode
 from docs.browser.course import Course
-from docs.browser.lite import SiteError, build
+from docs.browser.lite import AT_ONCE, PLACE, SiteError, build
 from docs.browser.pyodide import Pyodide, PyodideError
 
 ROOT = Path(__file__).parents[2]
@@ -29,6 +30,7 @@ def main(to: Path, assignments: list[str]) -> int:
             course = Course(bundle.path)
             site = Path(work) / "site"
             build(course, pyodide, site)
+            slower = _add_bytecode(site) if folder else ""
             shutil.rmtree(to, ignore_errors=True)
             to.parent.mkdir(parents=True, exist_ok=True)
             shutil.move(site, to)
@@ -36,10 +38,21 @@ def main(to: Path, assignments: list[str]) -> int:
         print(f"docs.browser: {error}", file=sys.stderr)
         return 1
     print(f"{to}: written, version {course.version}. Pyodide is {pyodide.place}.")
+    if slower:
+        print(slower)
     print(
         "Serve it as it is, over https; browsers start no Python from a page opened from the disk."
     )
     return 0
+
+
+def _add_bytecode(site: Path) -> str:
+    """A line for whoever made the site, where its packages have to be compiled in each page."""
+    try:
+        bytecode.add(site / PLACE, AT_ONCE)
+    except bytecode.BytecodeError as error:
+        return f"A page starts some seconds later than it could: {error}."
+    return ""
 
 
 if __name__ == "__main__":

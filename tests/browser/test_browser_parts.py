@@ -18,7 +18,7 @@ pytest.importorskip(
     reason="needs jupyterlite_pyodide_kernel: pip install -c constraints.txt -e .[browser]",
 )
 
-from docs.browser import lite, needs, notes
+from docs.browser import bytecode, lite, needs, notes
 from docs.browser.installed import NotPureError, wheel_of
 from docs.browser.pyodide import LOCK, Pyodide, PyodideError, Wheel
 
@@ -99,6 +99,56 @@ def test_a_folder_without_a_part_is_refused(folder, missing):
     (folder / missing).unlink()
     with pytest.raises(PyodideError, match=f"is no Pyodide: it has no {missing}"):
         Pyodide.in_folder(folder)
+
+
+@pytest.fixture
+def site(tmp_path):
+    """Where a site has its packages: one of those that get bytecode, one of the others."""
+    folder = tmp_path / "site"
+    folder.mkdir()
+    packages = {}
+    for name in ("armdyn", "own"):
+        file = f"{name}-1-py3-none-any.whl"
+        with zipfile.ZipFile(folder / file, "w") as packed:
+            packed.writestr(f"{name}/a.py", "")
+        packages[name] = {"file_name": file, "sha256": "old"}
+    (folder / LOCK).write_text(json.dumps({"packages": packages}))
+    return folder
+
+
+def test_bytecode_comes_beside_its_source(site, tmp_path):
+    for name in ("armdyn", "own"):
+        compiled = tmp_path / "made" / name / "__pycache__" / "a.cpython-312.pyc"
+        compiled.parent.mkdir(parents=True)
+        compiled.write_bytes(b"compiled")
+    bytecode.put_in(site, tmp_path / "made")
+    packages = json.loads((site / LOCK).read_text())["packages"]
+    wheel = site / packages["armdyn"]["file_name"]
+    with zipfile.ZipFile(wheel) as packed:
+        assert packed.namelist() == ["armdyn/a.py", "armdyn/__pycache__/a.cpython-312.pyc"]
+        assert packed.read("armdyn/__pycache__/a.cpython-312.pyc") == b"compiled"
+    assert packages["armdyn"]["sha256"] == hashlib.sha256(wheel.read_bytes()).hexdigest()
+    assert packages["own"]["sha256"] == "old"
+
+
+NODES = {
+    "": "Node, which would compile the packages, is not installed here",
+    "#!/bin/sh\necho too old >&2; exit 1\n": "Python did not start in Node: too old",
+}
+
+
+@pytest.mark.parametrize("script", NODES)
+def test_a_site_stays_as_it_is_where_node_compiles_nothing(site, tmp_path, monkeypatch, script):
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    if script:
+        (programs / "node").write_text(script)
+        (programs / "node").chmod(0o755)
+    monkeypatch.setenv("PATH", str(programs))
+    before = {path: path.read_bytes() for path in site.iterdir()}
+    with pytest.raises(bytecode.BytecodeError, match=NODES[script]):
+        bytecode.add(site, ["armdyn"])
+    assert {path: path.read_bytes() for path in site.iterdir()} == before
 
 
 def test_an_installed_package_becomes_a_wheel_without_its_tests():

@@ -156,12 +156,20 @@ COMPILED = """
 from armdyn import codegen, derive
 codegen.c_model(derive.planar_chain(1), dict(l1=1, lc1=1, m1=1, I1=1, g=1))
 """
+# Of what a kernel and a problem's first cell import: what was not there, and what had to be compiled.
+UNCOMPILED = """import sympy, pathlib
+of = {"IPython", "autograder", "numpy", "prompt_toolkit", "sympy", "traitlets"}
+specs = [module.__spec__ for name, module in sys.modules.items() if name.partition(".")[0] in of]
+specs = [spec for spec in specs if spec and (spec.origin or "").endswith(".py")]
+print(of - {spec.name for spec in specs})
+print([spec.name for spec in specs if not pathlib.Path(spec.cached).exists()])"""
 NEVER = "def M(q, pend):\n    while True: pass"
 
 
 def test_what_a_browser_lacks(site, needs, tmp_path):
     cells = {
         "later": f"{SETUP}\nimport sys\nprint([name for name in {LATER} if name in sys.modules])",
+        "uncompiled": UNCOMPILED,
         "singular": "np.linalg.inv(np.zeros((2, 2)))",
         "by another": "np.linalg.matrix_power(np.zeros((2, 2)), -1)",
         "indefinite": "np.linalg.cholesky([[1, 2], [2, 1]])",
@@ -176,6 +184,7 @@ def test_what_a_browser_lacks(site, needs, tmp_path):
     (outputs,) = ran(site, needs, tmp_path, {"problems/p3-pendulum/lacks": one}).values()
     said = dict(zip(cells, map(json.dumps, outputs), strict=True))
     assert '"[]' in said["later"]
+    assert "".join(part["text"] for part in outputs[1]) == "set()\n[]\n"
     assert "Singular matrix" in said["singular"]
     assert "Singular matrix" in said["by another"]
     assert "Matrix is not positive definite" in said["indefinite"]
