@@ -8,7 +8,7 @@ import ast
 from functools import cache
 from types import CodeType, FunctionType
 
-from autograder.bundle.shaking import source_of
+from autograder.bundle.shaking import lines_of, source_of, without_comments
 
 
 class Makers:
@@ -37,10 +37,14 @@ def _maker(module: str, code: CodeType) -> str:
     node = _node(module, code)
     names = ", ".join(code.co_freevars)
     if isinstance(node, ast.Lambda):
-        return f"def _made({names}):\n    return {ast.unparse(node)}\n"
+        source = without_comments(f"({ast.get_source_segment(source_of(module), node)})")
+        return f"def _made({names}):\n    return {source}\n"
     node.decorator_list = []
-    inner = "\n".join(f"    {line}" for line in ast.unparse(node).splitlines())
-    return f"def _made({names}):\n{inner}\n    return {node.name}\n"
+    inner = lines_of(
+        source_of(module), node
+    )  # which are indented already, as a text in them may not be
+    indent = " " * node.col_offset
+    return f"def _made({names}):\n{inner}\n{indent}return {node.name}\n"
 
 
 def _node(module: str, code: CodeType) -> ast.Lambda | ast.FunctionDef:

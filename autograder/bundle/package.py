@@ -12,7 +12,8 @@ import autograder
 from autograder import lesson_checks
 from autograder.bundle.describing import Describing
 from autograder.bundle.makers import Makers
-from autograder.bundle.shaking import Shaking, path_of
+from autograder.bundle.oldest import OLDEST, unreadable_line
+from autograder.bundle.shaking import Shaking, ShakingError, path_of
 from autograder.bundle.storing import in_numbers
 from autograder.judging.check import Check
 from autograder.problems import MODULES, families, own_checks
@@ -149,6 +150,12 @@ def _in_parts(describing: Describing) -> Iterator[tuple[str, bytes]]:
         if module in shaking.modules:
             source += f"{shaking.source(module)}\n\n\n{describing.makers.written(module)}"
         source += CHECKS.format(name=of_checks[module]) if module in of_checks else ""
+        if line := unreadable_line(source):
+            raise ShakingError(
+                f"{path_of(module)}: Python {'.'.join(map(str, OLDEST))}, which students may have, "
+                f"cannot read {source.splitlines()[line - 1].strip()}. Write this line as older Pythons "
+                "read it"
+            )
         path = PurePosixPath(*module.split("."))
         yield f"{path}.py", source.encode()
         for package in path.parents[:-2]:

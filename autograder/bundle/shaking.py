@@ -1,13 +1,16 @@
 """Takes from modules what is needed, and leaves the rest: the references, the mistakes, the answers.
 
 Only whole statements of a module are taken: a function, a class, a constant, an import. What a statement
-names is needed too, wherever it stands.
+names is needed too, wherever it stands. It is written down as it stands there, but for its comments:
+`ast.unparse` may write what only new Pythons read, such as an f-string with one kind of quotes.
 """
 
 import ast
 import builtins
 import dis
 import importlib.util
+import io
+import tokenize
 from collections.abc import Callable
 from importlib.abc import InspectLoader
 from pathlib import Path
@@ -15,7 +18,9 @@ from types import CodeType
 
 
 class ShakingError(ValueError):
-    """What is needed leads to a module that a student's package may not have."""
+    """What is needed leads to a module that a student's package may not have, or that an older Python of
+    a student cannot read.
+    """
 
 
 class Shaking:
@@ -25,6 +30,7 @@ class Shaking:
         self._may_take, self._has = may_take, has
         self._taken: dict[str, set[int]] = {}  # by the module: the places of its statements
         self._loaded: dict[str, set[str]] = {}  # by the module: the names that what is taken uses
+        self._sources: dict[str, str] = {}
         self._trees: dict[str, ast.Module] = {}
 
     @property
@@ -54,14 +60,14 @@ class Shaking:
         """The module with only what is needed."""
         tree, taken = self._tree(module), self._taken[module]
         names = self._loaded.get(module, set())
-        kept: list[ast.stmt] = []
+        kept: list[str] = []
         for place, statement in enumerate(tree.body):
             if isinstance(statement, ast.Import | ast.ImportFrom):
                 only = _only(statement, names)
-                kept += [only] if only.names else []
+                kept += [ast.unparse(only)] if only.names else []
             elif place in taken:
-                kept.append(statement)
-        return ast.unparse(ast.Module(kept, []))
+                kept.append(lines_of(self._sources[module], statement))
+        return "\n".join(kept)
 
     def _follow(self, module: str, statement: ast.stmt) -> None:
         self._loaded.setdefault(module, set()).update(_loads(statement))
@@ -95,7 +101,8 @@ class Shaking:
 
     def _tree(self, module: str) -> ast.Module:
         if module not in self._trees:
-            self._trees[module] = ast.parse(source_of(module))
+            self._sources[module] = source_of(module)
+            self._trees[module] = ast.parse(self._sources[module])
         return self._trees[module]
 
 
@@ -117,6 +124,24 @@ def source_of(module: str) -> str:
     if source is None:
         raise ModuleNotFoundError(module)
     return source
+
+
+def lines_of(source: str, statement: ast.stmt) -> str:
+    """The lines of a statement, with its decorators and without comments."""
+    decorators = getattr(statement, "decorator_list", [])
+    first = min(node.lineno for node in [statement, *decorators])
+    lines = source.split("\n")[first - 1 : statement.end_lineno]
+    return without_comments("\n".join(lines))
+
+
+def without_comments(source: str) -> str:
+    """Whole statements of Python."""
+    lines = source.split("\n")
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.COMMENT:
+            line, column = token.start
+            lines[line - 1] = lines[line - 1][:column].rstrip()
+    return "\n".join(lines)
 
 
 def _is_module(name: str) -> bool:

@@ -15,6 +15,7 @@ from autograder.judging.terms import SURPLUS, Term, in_words, percent_off, terms
 
 # A formula is exact to rounding; within this it is approximated.
 NEAR = 2e-3
+LARGE = 1e12
 # A factor is one of these, and no other, to this.
 SAME = 1e-4
 
@@ -41,6 +42,11 @@ def of_numbers(
     text = criterion.text
     if said := _factor(right, theirs, tolerance):
         return f"In your {text}, every value {said}"
+    if _are_whole(right, theirs):
+        return (
+            f"In your {text}, every value is a whole number. Do you round, or put the values into an "
+            "array of whole numbers, as np.array([0, 0]) is? One made by np.zeros keeps decimals."
+        )
     if off := terms_off(right, theirs, terms, tolerance):
         return f"In your {text}, {_joined([in_words(term, times) for term, times in off])}."
     if _are_equal(right) and any(map(np.any, right)) and not _are_equal(theirs):
@@ -103,6 +109,15 @@ def _factor(right: list, theirs: list, tolerance: float) -> str:
     if 0.5 < factor < 2:
         return f"is {percent_off(factor)}. Which factor belongs to all terms?"
     return f"is {_signed(factor)} times the right one. Which factor belongs to all terms?"
+
+
+def _are_whole(right: list, theirs: list) -> bool:
+    """Whether the values are whole numbers, at least two of them not 0, and the right ones are not."""
+    expected, given = (np.concatenate([np.ravel(v) for v in values]) for values in (right, theirs))
+    if np.any(given != np.round(given)) or len(np.unique(given[given != 0])) < 2:
+        return False
+    # A number so large has no decimals in any array.
+    return bool(np.any(expected != np.round(expected)) and np.max(np.abs(given)) < LARGE)
 
 
 def _are_equal(cases: list) -> bool:

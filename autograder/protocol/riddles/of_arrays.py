@@ -19,6 +19,8 @@ def _operands(scene: Scene) -> list[ast.expr]:
     node = scene.node
     if isinstance(node, ast.BinOp):
         return [node.left, node.right]
+    if isinstance(node, ast.AugAssign):
+        return [node.target, node.value]
     if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
         return []
     given = node.args if len(node.args) == 2 else [node.func.value, *node.args]
@@ -177,10 +179,6 @@ def _sides(scene: Scene, found, error) -> Words | None:
     return tuple(word for node, shape in words for word in (text(node), str(shape)))
 
 
-def _assigned(scene: Scene, found, error) -> Words | None:
-    return found[1], found[2]
-
-
 PRODUCT = "In a product A @ B, the last length of A must be the first of B."
 MATMUL = r"matmul: Input operand|^shapes .* not aligned|^Matrix size mismatch|^Dimension mismatch"
 ROWS = (
@@ -220,13 +218,6 @@ ROWS = (
         r"could not be broadcast together",
         "{0} is {1}, and {2} is {3}. The signs +, −, * and / join arrays entry by entry.",
         _two_shapes,
-    ),
-    Row(
-        "put into",
-        ("ValueError",),
-        r"could not broadcast input array from shape (\(.*\)) into shape (\(.*\))",
-        "An array of shape {0} does not fit where you put it: the place has the shape {1}.",
-        _assigned,
     ),
     Row(
         "singular",

@@ -149,6 +149,18 @@ def _called(scene: Scene, found, error) -> Words | None:
     return (text(node.func),) if node else None
 
 
+def _entries_called(scene: Scene, found, error) -> Words | None:
+    """An array or a list with one whole number in round brackets behind it."""
+    node = scene.find(ast.Call)
+    if node is None or node.keywords or not node.args:
+        return None
+    at = [scene.value(part) for part in node.args]
+    if type(scene.value(node.func)) not in (np.ndarray, list, tuple) or {*map(type, at)} != {int}:
+        return None
+    of, index = text(node.func), ", ".join(map(text, node.args))
+    return of, f"{of}[{index}]"
+
+
 def _divisor(scene: Scene, found, error) -> Words | None:
     node = scene.find(ast.BinOp)
     if node is None or not isinstance(node.op, ast.Div) or isinstance(node.right, ast.Constant):
@@ -243,6 +255,13 @@ ROWS = (
         r"|'(function|builtin_function_or_method|method|numpy\.ufunc)' object is not subscriptable",
         "{0} is a function. Call it: write its arguments behind it, in round brackets.",
         _operand(_is_function),
+    ),
+    Row(
+        "called entry",
+        ("TypeError",),
+        r"'(numpy\.ndarray|list|tuple)' object is not callable",
+        "The entries of {0} stand in square brackets, {1}, and are counted from 0.",
+        _entries_called,
     ),
     Row(
         "called number",

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ..words import one_line
-from . import of_arrays, of_missing, of_names
+from . import of_arrays, of_changing, of_missing, of_names
 from .row import Row
 from .scene import Scene
 
@@ -18,7 +18,9 @@ OWN_SYMBOL = Row(
     "{0} takes only numbers, and this is a SymPy expression. The arguments are numbers: where does the "
     "symbol come from?",
 )
-TABLE = {row.kind: row for row in (*of_names.ROWS, *of_missing.ROWS, *of_arrays.ROWS)}
+TABLE = {
+    row.kind: row for row in (*of_names.ROWS, *of_missing.ROWS, *of_arrays.ROWS, *of_changing.ROWS)
+}
 KNOWN = TABLE | {row.kind: row for row in (PRINTED, OWN_SYMBOL)}
 
 

@@ -33,8 +33,8 @@ OWN = ("ipykernel_", "<ipython-input")
 
 
 class Scene:
-    """Where the student's own code raised an error. node: its expression, tree: its cell; None where
-    they are not known.
+    """Where the student's own code raised an error. node: its expression, or the statement x += y; tree:
+    its cell; None where they are not known.
     """
 
     def __init__(self, error: BaseException):
@@ -146,12 +146,12 @@ def _places(error: BaseException):
 
 
 def _node(code: CodeType, at: int) -> ast.AST | None:
-    """The expression of the instruction at which the code stopped."""
+    """The expression of the instruction at which the code stopped, or the statement x += y."""
     place = next(itertools.islice(code.co_positions(), at // 2, None), None)
     if place is None or None in place:
         return None
     for node in ast.walk(tree_of(code) or ast.Module([], [])):
-        if isinstance(node, ast.expr) and place == (
+        if isinstance(node, ast.expr | ast.AugAssign) and place == (
             node.lineno,
             node.end_lineno,
             node.col_offset,

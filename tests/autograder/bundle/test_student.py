@@ -79,25 +79,6 @@ def test_the_notebook_says_its_version_and_keeps_it(installed):
         nbformat.validate(notebook)
 
 
-def test_the_start_file_starts_what_it_has_installed(installed, tmp_path):
-    folder = tmp_path / "a student's folder"
-    folder.mkdir()
-    (wheel,) = installed.folder.glob("*.whl")
-    for path in (wheel, installed.folder / "start.py"):
-        shutil.copy(path, folder)
-    (folder / ".venv").mkdir()
-    (folder / ".venv" / "bin").symlink_to(installed.python.parent)
-    (folder / ".venv" / "installed.txt").write_text(wheel.name)
-    (folder / "lessons").mkdir()
-    done = installed.run("start.py", "--version", cwd=folder)
-    assert re.fullmatch(r"\d+\.\d+.*", done.stdout.strip())
-    said = (installed.folder / "START-HERE.txt").read_text()
-    assert f'uvx --from "{wheel.name}[lab]" autograder lab' in said
-    wheel = folder / wheel.name
-    wheel.unlink()
-    assert "is not beside" in installed.run("start.py", cwd=folder, check=False).stdout
-
-
 def test_the_command_opens_the_course_where_there_is_none(installed, tmp_path):
     """As `uvx --from …whl autograder lab` does in an empty folder."""
     with socket.create_server(("127.0.0.1", 0)) as free:

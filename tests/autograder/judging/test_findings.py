@@ -58,6 +58,28 @@ def test_a_factor_is_said_only_where_it_is_one(seed, factor, noise):
     assert "every value" not in of_numbers(ASKED, right, spoilt, [])
 
 
+@pytest.mark.parametrize("made", [np.trunc, np.round, lambda value: np.trunc(3 * value) + 1])
+def test_whole_numbers_are_told_as_an_array_of_them_would_keep_them(made):
+    right = drawn(1)
+    said = of_numbers(ASKED, right, [made(value) for value in right], [])
+    assert said.startswith("In your torque, every value is a whole number. Do you round")
+    whole = [made(value) for value in right]
+    whole[2] = whole[2] + 0.25
+    assert "whole number" not in of_numbers(ASKED, right, whole, [])
+
+
+@pytest.mark.parametrize(
+    ("right", "theirs"),
+    [
+        (times(4, [np.trunc(v) + 1 for v in drawn(1)]), [np.trunc(v) for v in drawn(2)]),
+        (drawn(1), [np.ones(2)] * 8),
+        (times(1e20, drawn(1)), times(1e20, drawn(2))),
+    ],
+)
+def test_whole_numbers_that_say_nothing_of_an_array(right, theirs):
+    assert "whole number" not in of_numbers(ASKED, right, theirs, [])
+
+
 def test_one_number_that_is_always_the_same_is_no_multiple():
     assert of_numbers(ASKED, [np.array(2.0)] * 6, [np.array(3.0)] * 6, []) == ""
 

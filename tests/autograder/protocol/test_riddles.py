@@ -98,6 +98,33 @@ CASES = [
     ("broadcast", "q * np.ones(3) if 0 else q + I", "q is (2,), and I is (6, 6). " + ENTRY_BY_ENTRY),
     ("broadcast", "q[:1] * 2 + J.T * I", "J.T is (3, 6), and I is (6, 6). " + ENTRY_BY_ENTRY),
     (
+        "broadcast",
+        "g = np.zeros(2)\ng -= J.T @ I @ J @ J[0]\nreturn g",
+        "g is (2,), and J.T @ I @ J @ J[0] is (3,). " + ENTRY_BY_ENTRY,
+    ),
+    (
+        "shape that stays",
+        "x = np.zeros(2)\nx += np.diag(q) * qd\nreturn x",
+        "x has the shape (2,), which += and its like do not change, and what would come out has (2,2). "
+        "Is there a * where the product of a matrix and a vector, @, belongs?",
+    ),
+    (
+        "whole numbers",
+        "x = np.array([0, 0])\nx += q\nreturn x",
+        "x is an array of whole numbers, as np.array([0, 0]) is, and can hold no others. Make it with "
+        "np.zeros, or write 0.0.",
+    ),
+    (
+        "called entry",
+        "q(1) * arm.l1",
+        "The entries of q stand in square brackets, q[1], and are counted from 0.",
+    ),
+    (
+        "called entry",
+        "2.0 * A(0, 1)",
+        "The entries of A stand in square brackets, A[0, 1], and are counted from 0.",
+    ),
+    (
         "put into",
         "x = np.zeros(4)\nx[2:] = A\nreturn x",
         "An array of shape (2,2) does not fit where you put it: the place has the shape (2,).",
