@@ -15,6 +15,7 @@ from autograder import nbgrader_glue
 # nbgrader starts `alembic` by its bare name, which is found only where the environment is activated.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 
+nbgrader_glue.end_in_words()
 root = Path(__file__).resolve().parent
 course = root / "course"
 problems = root / "problems"
@@ -60,7 +61,7 @@ c.HTMLExporter.filters = nbgrader_glue.PAGE_FILTERS
 c.HTMLExporter.extra_template_basedirs = nbgrader_glue.page_templates()
 c.HTMLExporter.extra_template_paths = nbgrader_glue.templates_of_nbgrader()
 
-c.Application.logging_config = {"formatters": {"console": {"class": nbgrader_glue.LOG_FORMATTER}}}
+c.Application.logging_config = nbgrader_glue.LOG
 # Without, each kernel that Validate starts warns that others could read its traffic.
 c.KernelManager.transport_encryption = "auto" if zmq.has("curve") else "disabled"
 

@@ -4,6 +4,7 @@
 nothing in a server that is started outside a course.
 """
 
+import logging
 import os
 from pathlib import Path
 from typing import Any
@@ -82,6 +83,11 @@ def course_of(folder: Path) -> Path | None:
     return None
 
 
+def is_needed(record: logging.LogRecord) -> bool:
+    """False of nbgrader's warning, at the start and at each Validate, that a student has no settings."""
+    return "No nbgrader_config.py file found" not in record.getMessage()
+
+
 def enable() -> None:
     """Let every Jupyter server of this environment load this; OSError if that cannot be written."""
     toggle_server_extension_python(__name__, enabled=True)
@@ -100,6 +106,8 @@ def _link_jupyter_server_extension(server: ServerApp) -> None:
     # Assignment List looks for nbgrader_config.py in problems/, and here.
     paths = [str(course), *filter(None, [os.environ.get("JUPYTER_CONFIG_PATH")])]
     os.environ["JUPYTER_CONFIG_PATH"] = os.pathsep.join(paths)
+    if not (course / "nbgrader_config.py").is_file():
+        logging.getLogger("NbGrader").addFilter(is_needed)
     if "contents_manager_class" not in server.config.ServerApp:
         server.contents_manager_class = CourseContents
     if zmq.has("curve"):
@@ -109,7 +117,12 @@ def _link_jupyter_server_extension(server: ServerApp) -> None:
 
 def _load_jupyter_server_extension(server: ServerApp) -> None:
     """Jupyter calls this, and before nbgrader's: the first that serves an address is asked."""
-    if course_of(Path(server.root_dir).resolve()) is not None:
+    course = course_of(Path(server.root_dir).resolve())
+    if course is not None and (course / "nbgrader_config.py").is_file():
+        from autograder.nbgrader_glue.buttons import show_in_words
+
+        show_in_words(server)
+    if course is not None:
         # This takes a second, which is not always needed.
         from autograder.nbgrader_glue import environment, validating
 

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from autograder.bundle import wheel
+
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 FORMS = sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("[0-9]*.yml"))
@@ -47,6 +49,7 @@ def test_the_newest_release_of_the_changelog_is_this_version(citation, releases)
     version, date = releases[0]
     assert version == PROJECT["version"]
     assert date == str(citation["date-released"])
+    assert date == "-".join(f"{part:02}" for part in wheel.RELEASED[:3])
     assert datetime.date.fromisoformat(date)
 
 

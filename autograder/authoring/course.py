@@ -22,6 +22,11 @@ def own_file(root: Path, name: str) -> Path:
     return root / "solutions" / name / f"{name}.py"
 
 
+def is_as_written(path: Path, name: str) -> bool:
+    """Whether nobody has put a mechanism in the file yet."""
+    return path.read_text(encoding="utf-8", errors="replace") == template(name)
+
+
 def found(root: Path, name: str) -> Mechanism:
     """The mechanism of this name: of its file in solutions/, or of the kit; or of the file NAME.py.
 
@@ -32,8 +37,7 @@ def found(root: Path, name: str) -> Mechanism:
     path = own_file(root, name)
     if path.is_file():
         shown = path.relative_to(root).as_posix()
-        text = path.read_text(encoding="utf-8", errors="replace")
-        if text == template(name):
+        if is_as_written(path, name):
             raise NoMechanismError(
                 f"{shown} is still as it was written: put your mechanism in it first"
             )

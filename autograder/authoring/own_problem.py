@@ -7,6 +7,7 @@ import nbformat
 from nbformat.v4 import new_code_cell, new_markdown_cell
 
 from autograder.authoring.checks_template import of_a_problem, of_the_kit
+from autograder.authoring.course import is_as_written, own_file
 from autograder.authoring.problem import ProblemError, as_notebook, cell_of
 from autograder.files import put_in_place
 from autograder.judging.check import Check
@@ -25,11 +26,21 @@ def checks_file(root: Path, name: str) -> Path:
 
 
 def write_checks(root: Path, name: str) -> Path:
-    """Write the file of a problem's own checks, to be filled in. ProblemError where it is there."""
+    """Write the file of a problem's own checks, to be filled in. ProblemError where it is there, or
+    where a mechanism's file is to give the checks. One that nobody has filled in goes.
+    """
     path = checks_file(root, name)
     if path.exists():
         raise ProblemError(f"{path.relative_to(root).as_posix()} is there already")
-    source = _source(root, name)
+    source, mechanism = _source(root, name), own_file(root, name)
+    if source is None and mechanism.is_file():
+        if not is_as_written(mechanism, name):
+            shown = mechanism.relative_to(root).as_posix()
+            raise ProblemError(
+                f"{shown} is a mechanism, and gives the checks: `autograder new-problem {name}` writes "
+                "its problem. For checks without a mechanism, move that file away first"
+            )
+        mechanism.unlink()
     known = {id: CHECKS[id].signature for id in _ids(source) if id in CHECKS} if source else {}
     path.parent.mkdir(mode=0o700, exist_ok=True)  # it holds answers
     put_in_place(path, of_the_kit(name, known) if known else of_a_problem(name), 0o600)

@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 WHEEL = "Wheel-Version: 1.0\nGenerator: armdyn\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
-LONG_AGO = (1980, 1, 1, 0, 0, 0)  # so that the same files make the same wheel
+# The date of every file, so that the same files make the same wheel: that of the kit's release.
+RELEASED = (2026, 11, 29, 0, 0, 0)
 
 
 def write_wheel(
@@ -37,7 +38,7 @@ def zipped(files: Mapping[str, bytes]) -> bytes:
     archive = io.BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as written:
         for path, data in files.items():
-            entry = zipfile.ZipInfo(path, LONG_AGO)
+            entry = zipfile.ZipInfo(path, RELEASED)
             entry.external_attr = 0o644 << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             written.writestr(entry, data)

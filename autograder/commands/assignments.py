@@ -1,9 +1,9 @@
 """What several commands ask of an assignment's name, and of the class list."""
 
-import difflib
 from pathlib import Path
 
 from autograder import arguments as argument
+from autograder.meant import meant
 
 
 def name_of(assignment: str) -> str:
@@ -16,9 +16,8 @@ def unknown(root: Path, assignment: str) -> str:
     names = known(root)
     if assignment in names:
         return ""
-    near = [name for name in names if assignment and assignment.casefold() in name.casefold()]
-    meant = near or difflib.get_close_matches(assignment, names)
-    named = f"Did you mean {' or '.join(meant)}?" if meant else f"There are {', '.join(names)}."
+    near = meant(assignment, names)
+    named = f"Did you mean {' or '.join(near)}?" if near else f"There are {', '.join(names)}."
     return (
         f"there is no solutions/{assignment}/{assignment}.ipynb. {named if names else ''}".rstrip()
     )

@@ -61,6 +61,7 @@ def run(root: Path, given: argparse.Namespace) -> int:
 
 def _of_checks(root: Path, given: argparse.Namespace) -> int:
     """Write checks/NAME.py to fill in, or the notebook of the checks that it has."""
+    from autograder.authoring.course import own_file
     from autograder.authoring.own_problem import OwnChecksError, write_checks, write_own_problem
     from autograder.authoring.problem import ProblemError
 
@@ -75,7 +76,10 @@ def _of_checks(root: Path, given: argparse.Namespace) -> int:
         )
     try:
         if given.checks:
+            unwritten = own_file(root, name).is_file()
             path = write_checks(root, name)
+            if unwritten and not own_file(root, name).exists():
+                say(f"solutions/{name}/{name}.py, which nobody had filled in, is gone")
             say(f"{path.relative_to(root)}: written, for you to fill in. Then run")
             say(f"  autograder try {name}")
             if not (root / "solutions" / name / f"{name}.ipynb").exists():

@@ -3,12 +3,14 @@
 Importing this package does not import nbgrader, which takes seconds; its modules do.
 """
 
+from autograder.nbgrader_glue.in_words import end_in_words
 from autograder.nbgrader_glue.private import make_private
 from autograder.nbgrader_glue.release import write_problem
 from autograder.nbgrader_glue.steps import (
     EXCHANGE,
     FEEDBACK_EXPORTER,
     GRADES_EXPORTER,
+    LOG,
     LOG_FORMATTER,
     PAGE_FILTERS,
     RELEASE_EXPORTER,
@@ -27,12 +29,14 @@ __all__ = [
     "EXCHANGE",
     "FEEDBACK_EXPORTER",
     "GRADES_EXPORTER",
+    "LOG",
     "LOG_FORMATTER",
     "PAGE_FILTERS",
     "RELEASE_EXPORTER",
     "SUBMISSION_EXPORTER",
     "TEXT_STUB",
     "autograde_preprocessors",
+    "end_in_words",
     "feedback_preprocessors",
     "generate_preprocessors",
     "make_private",

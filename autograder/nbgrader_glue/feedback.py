@@ -9,6 +9,7 @@ import nbformat
 from nbformat import NotebookNode
 from pygments.formatters import HtmlFormatter
 
+from autograder.nbgrader_glue.in_words import stopping
 from autograder.nbgrader_glue.items import arranged, number, title_of
 from autograder.nbgrader_glue.kept_editions import kept
 from autograder.nbgrader_glue.late import settle_before
@@ -36,7 +37,8 @@ class FeedbackExporter(PageExporter):
         if self.parent is not None:
             leave_out_unfit(self.parent)
             can_start(self.parent)
-            settle_before(self.parent)
+            with stopping(self.parent):
+                settle_before(self.parent)
             self._renewal = Renewal(self.parent)
 
     def from_notebook_node(self, nb, resources=None, **kw):

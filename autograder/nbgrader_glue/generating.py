@@ -15,6 +15,7 @@ from nbgrader import api
 from nbgrader.converters.base import NbGraderException
 
 from autograder.nbgrader_glue import agreement, worked
+from autograder.nbgrader_glue.in_words import stopping
 from autograder.nbgrader_glue.kept_editions import FOLDER, keep
 from autograder.nbgrader_glue.release import generate
 from autograder.nbgrader_glue.source import look_at
@@ -41,8 +42,9 @@ class ReleaseExporter(NotebookExporter):
 
         def convert_notebooks() -> None:
             changes = [_Change(converter, Path(folder).name) for folder in converter.assignments]
-            for change in changes:
-                change.check()
+            with stopping(converter):
+                for change in changes:
+                    change.check()
             try:
                 convert()
             finally:
@@ -115,8 +117,9 @@ class _Change:
                 "`nbgrader autograde %s`",
                 *(count, self._name, self._name),
             )
-        here = self._release.parent, self._root / "problems" / self._name
-        if any(folder not in here for folder in worked.places(self._root, self._name)):
+        new, mine = self._release.parent, self._root / "problems" / self._name
+        others = [at for at in worked.places(self._root, self._name) if at not in (new, mine)]
+        if not all(_same(new, other) for other in others):
             self._log.warning(
                 "Students fetch the older one until you run `nbgrader release_assignment %s --force`",
                 self._name,

@@ -19,7 +19,8 @@ from traitlets.config import Config
 from autograder import roster, term_calendar
 from autograder.nbgrader_glue.folders import QUIET
 from autograder.nbgrader_glue.release import configuration
-from autograder.term_calendar import Assignment, in_utc
+from autograder.roster import Roster
+from autograder.term_calendar import Assignment, Calendar, in_utc
 from autograder.terminal import plain, shown_name, shown_points
 
 MOST_LINES = 10  # for each assignment
@@ -53,13 +54,18 @@ class Lateness:
         return None if penalty is None else min(max(penalty, 0), score)
 
 
+def read_files(root: Path) -> tuple[Calendar, Roster | None]:
+    """The calendar and the class list. CalendarError or RosterError if one of them is wrong."""
+    return term_calendar.read_if_there(root), roster.read_if_there(root)
+
+
 def settle(root: Path, gradebook: api.Gradebook) -> list[str]:
     """Set due dates, extensions and late penalties in the gradebook, and the names of the class list;
     what has changed but for names, in lines.
 
     CalendarError if the calendar is wrong, RosterError if the class list is.
     """
-    calendar, people = term_calendar.read_if_there(root), roster.read_if_there(root)
+    calendar, people = read_files(root)
     lines: list[str] = []
     listed = people.people if people else {}
     for student in gradebook.students:
@@ -92,7 +98,7 @@ def settle_course(root: Path) -> list[str]:
 
 
 def settle_before(converter) -> None:
-    """For nbgrader's command that writes pages: settle what these will show."""
+    """For a command of nbgrader: settle what pages will show, and say what has changed."""
     course = converter.coursedir
     with api.Gradebook(course.db_url, course.course_id) as gradebook:
         for line in settle(Path(course.root), gradebook):

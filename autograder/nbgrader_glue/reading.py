@@ -9,12 +9,16 @@ from nbgrader.converters.base import NbGraderException
 
 from autograder.nbgrader_glue.agreement import DisagreementError, check_before
 from autograder.nbgrader_glue.handed_in import counted, mechanisms_beside
+from autograder.nbgrader_glue.in_words import stopping
+from autograder.nbgrader_glue.late import read_files, settle_before
 from autograder.nbgrader_glue.names import leave_out_unfit
 from autograder.nbgrader_glue.regrading import Regrading
 from autograder.nbgrader_glue.source import UnsoundError, refuse_unsound, tell
 from autograder.nbgrader_glue.start import can_start
 from autograder.nbgrader_glue.submitted import RefusedError, check, timestamp
+from autograder.notebook.reading import UnreadableError, read
 from autograder.notebook.version import other_version
+from autograder.protocol import one_line
 from autograder.sandbox.room import Room
 
 
@@ -33,8 +37,11 @@ class SubmissionExporter(NotebookExporter):
         self._refuse_unsound()
         self.regrading = None
         if hasattr(self.parent, "init_destination"):
-            self._agree()
+            with stopping(self.parent):
+                self._agree()
+                read_files(Path(self._course.root))
             self.regrading = Regrading(self.parent)
+            self._settle_after()
         for folder, notebooks in getattr(self.parent, "assignments", {}).items():
             self._read_time(Path(folder))
             name = self._course.assignment_id
@@ -43,6 +50,21 @@ class SubmissionExporter(NotebookExporter):
                 and self._source(name).exists()
             ):
                 self._look_for(Path(folder), name, notebooks)
+
+    def _settle_after(self) -> None:
+        """Have the penalties of what was graded follow the calendar, as `autograder grade` does."""
+        converter = self.parent
+        assert converter is not None
+        convert = converter.convert_notebooks
+
+        def convert_notebooks() -> None:
+            try:
+                convert()
+            finally:
+                with stopping(converter):
+                    settle_before(converter)
+
+        converter.convert_notebooks = convert_notebooks
 
     def _refuse_unsound(self) -> None:
         """UnsoundError if the assignment's source cannot be graded as it is written."""
@@ -110,11 +132,13 @@ class SubmissionExporter(NotebookExporter):
         self._check(folder)
         if not os.path.exists(filename):
             filename = str(self._counted(folder, names["notebook"]))
-        return super().from_filename(filename, resources=resources, **kw)
+        try:
+            return super().from_filename(filename, resources=resources, **kw)
+        except UnreadableError as error:
+            raise RefusedError(f"{one_line(os.path.basename(filename))} {error}") from None
 
     def from_file(self, file_stream, resources=None, **kw):
-        text = file_stream.read().removeprefix("\ufeff")  # Windows editors write it
-        notebook = nbformat.reads(text, as_version=4)
+        notebook, _ = read(file_stream.buffer.read())
         name = self._course.assignment_id
         source = self._source(name)
         if source.is_file():

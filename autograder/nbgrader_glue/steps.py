@@ -19,6 +19,11 @@ FEEDBACK_EXPORTER = "autograder.nbgrader_glue.feedback.FeedbackExporter"
 GRADES_EXPORTER = "autograder.nbgrader_glue.grades.GradesExporter"
 # For every command.
 LOG_FORMATTER = "autograder.nbgrader_glue.log.PlainFormatter"
+LOG = {
+    "formatters": {"console": {"class": LOG_FORMATTER}},
+    "filters": {"in_words": {"()": "autograder.nbgrader_glue.in_words.InWords"}},
+    "handlers": {"console": {"filters": ["in_words"]}},
+}
 # For the formgrader and `generate_feedback`: what shows a student's text, formulas and pictures.
 PAGE_FILTERS = {
     "markdown2html": "autograder.nbgrader_glue.markdown.markdown2html",

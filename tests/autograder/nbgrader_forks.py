@@ -12,7 +12,6 @@ import subprocess
 import sys
 import tempfile
 import threading
-import traceback
 from functools import cache
 from pathlib import Path
 
@@ -87,7 +86,7 @@ def _exit(main) -> None:
     except SystemExit as ended:
         code = ended.code
     except BaseException:
-        traceback.print_exc()
+        sys.excepthook(*sys.exc_info())
         code = 1
     if not isinstance(code, int | None):
         print(code, file=sys.stderr)

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import logging
 import os
 import re
 import shutil
@@ -20,6 +21,7 @@ import pytest
 from ipykernel.ipkernel import IPythonKernel
 from jupyter_client.kernelspec import KernelSpecManager
 from jupyter_server.serverapp import ServerApp
+from nbgrader.apps.baseapp import NbGrader
 
 from armdyn.ports.toolchain import processes
 from autograder import cli, lab_server
@@ -210,6 +212,23 @@ def test_a_server_elsewhere_is_left_as_it_is(tmp_path, monkeypatch):
     assert (server.config, server.contents_manager_class) == before
     assert server.root_dir == str(tmp_path)
     assert "JUPYTER_CONFIG_PATH" not in os.environ
+
+
+def test_nbgrader_misses_no_settings_where_a_student_needs_none(tmp_path, monkeypatch, capsys):
+    (tmp_path / "lessons").mkdir()
+    (tmp_path / "armdyn.json").write_text("{}")
+    monkeypatch.setenv("JUPYTER_CONFIG_PATH", "")  # is changed
+    monkeypatch.chdir(tmp_path)
+    log = logging.getLogger("NbGrader")
+    try:
+        NbGrader().load_config_file()
+        assert "No nbgrader_config.py file found" in capsys.readouterr().err
+        lab_server._link_jupyter_server_extension(ServerApp(root_dir=str(tmp_path)))
+        NbGrader().load_config_file()
+        assert capsys.readouterr().err == ""
+    finally:
+        log.removeFilter(lab_server.is_needed)
+        log.handlers.clear()
 
 
 @pytest.fixture

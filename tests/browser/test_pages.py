@@ -158,6 +158,18 @@ def test_a_proof_is_read_and_marked_in_the_formgrader(formgrader, server, taught
     assert returned(taught).stat().st_mtime_ns == made
 
 
+def test_a_button_that_fails_says_why_in_a_sentence(formgrader, server, taught, tmp_path):
+    address, _ = server
+    damaged = courses.submit(taught, "eve", "{")
+    formgrader.goto(f"{address}/formgrader/manage_submissions/{P3}")
+    formgrader.locator("#main-table tr", has_text="eve").locator(".autograde a").click()
+    dialog = formgrader.get_by_role("dialog")
+    expect(dialog).to_contain_text(f"{P3}.ipynb is not valid JSON: ask the student for it again")
+    formgrader.screenshot(path=tmp_path / "refused.png")
+    assert not re.search(r"Traceback|\[DEBUG\]", dialog.inner_text())
+    shutil.rmtree(damaged.parents[1])
+
+
 def returned(root: Path) -> Path:
     return root / "course" / "feedback" / "ada" / P3 / f"{P3}.html"
 

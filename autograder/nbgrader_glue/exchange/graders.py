@@ -34,6 +34,12 @@ class ReleaseFeedback(Entered, default.ExchangeReleaseFeedback):
     def copy_files(self) -> None:
         folders = sorted({os.path.dirname(page) for page in glob.glob(f"{self.src_path}/*.html")})
         elsewhere = [folder for folder in folders if not _from_the_exchange(Path(folder))]
+        if not folders:
+            name = self.coursedir.assignment_id
+            self.log.warning(
+                "There are no pages of %s to release: `nbgrader generate_feedback %s` writes them",
+                *(name, name),
+            )
         for folder in folders:
             if folder not in elsewhere:
                 self.src_path = glob.escape(folder)

@@ -60,6 +60,20 @@ def test_a_file_to_fill_in_then_a_notebook_of_it_and_what_is_left_to_do(root, ca
     assert "small letters, digits and hyphens" in capsys.readouterr().err
 
 
+def test_checks_take_the_place_of_a_mechanism_only_where_nobody_has_written_one(root, capsys):
+    mechanism = root / "solutions" / "my-cart" / "my-cart.py"
+    assert main(["new-problem", "my-cart"]) == 0
+    text = mechanism.read_text()
+    mechanism.write_text(text + "# mine\n")
+    assert main(["new-problem", "my-cart", "--checks"]) == 2
+    assert "my-cart.py is a mechanism, and gives the checks" in capsys.readouterr().err
+    assert not (root / "checks" / "my-cart.py").exists()
+    mechanism.write_text(text)
+    assert main(["new-problem", "my-cart", "--checks"]) == 0
+    assert (root / "checks" / "my-cart.py").is_file()
+    assert not mechanism.exists()
+
+
 def test_trying_finds_what_is_not_as_it_should_be(root, capsys):
     two = CART.replace("np.diag(np.diag(M(q, arm)))", "M(q, arm)").replace(
         "calls=swing_calls", "calls=M_calls"

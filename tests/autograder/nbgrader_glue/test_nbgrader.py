@@ -236,8 +236,17 @@ def test_damaged_file_stops_nobody_else(course):
     folder = course.root / "course" / "submitted" / "damaged" / P3
     folder.mkdir(parents=True)
     (folder / f"{P3}.ipynb").write_text('{"cells": [')
+    (folder.parents[1] / "z_after" / P3 / "timestamp.txt").write_text("2026-11-30 09:00 UTC")
+    calendar = 'penalty = { percent-per-day = 10 }\n[p3-pendulum]\ndue = "2026-11-29"\n'
+    (course.root / "course" / "calendar.toml").write_text(calendar)
     said = course.nbgrader("autograde", P3, status=1)
     assert "error processing assignment 'p3-pendulum' for student 'damaged'" in said
+    assert "| ERROR] p3-pendulum.ipynb is not valid JSON: ask the student for it again\n" in said
+    assert "Traceback" not in said
+    # The calendar counts at once, also where somebody's work could not be graded.
+    assert "late: 1 points off, and not 0" in said
+    with Gradebook(f"sqlite:///{course.root / 'course' / 'gradebook.db'}") as gradebook:
+        assert gradebook.find_submission(P3, "z_after").late_submission_penalty == 1.0
     assert (folder / f"{P3}.ipynb").read_text() == '{"cells": ['
     for student in ("a_before", "z_after"):
         assert automatic(course.scores(student)) == POINTS

@@ -140,6 +140,15 @@ COMMANDS = [
 ]
 
 
+OF_NBGRADER = [
+    ("generate_assignment", P3, "--force"),
+    ("autograde", P3, "--force"),
+    ("generate_feedback", P3),
+    ("export",),
+    ("db", "student", "list"),
+]
+
+
 @pytest.fixture
 def kept(graded, monkeypatch):
     monkeypatch.chdir(graded)
@@ -175,3 +184,22 @@ def test_a_damaged_gradebook_is_a_sentence(kept, capsys, command):
         path.write_bytes(whole)
     (said,) = capsys.readouterr().err.splitlines()
     assert "the gradebook cannot be read or written: file is not a database. Look at db_url" in said
+
+
+@pytest.mark.parametrize("command", OF_NBGRADER, ids=" ".join)
+def test_nbgraders_own_commands_say_it_too(kept, command):
+    path = kept / "course" / "gradebook.db"
+    before = courses.files(kept / "course")
+    with holding(kept) as other:
+        other.lock()
+        locked_said = courses.run(kept, "nbgrader", *command, status=1)
+    whole = path.read_bytes()
+    path.write_bytes(b"no database" * 999)
+    try:
+        damaged_said = courses.run(kept, "nbgrader", *command, status=1)
+    finally:
+        path.write_bytes(whole)
+    assert locked.LOCKED in locked_said
+    assert "the gradebook cannot be read or written: file is not a database." in damaged_said
+    assert "Traceback" not in locked_said + damaged_said
+    assert courses.files(kept / "course") == before
