@@ -4,20 +4,27 @@ import getpass
 import os
 from pathlib import Path
 
+from autograder.judging.passages import filled
 from autograder.problems import PROBLEMS_WITH_FAMILIES, arm_card
 from autograder.problems.material.conventions import BOOK, Convention, drawn
 from autograder.problems.material.given import code
 from autograder.protocol import OwnArm
 from autograder.student.display import show
 
+# JupyterLab breaks printed lines anywhere, also within a word.
 TYPE_IT = (
-    "No name is known here. Until you give yours, you have the arm of the book. Put these two lines, "
-    "with the name under which you hand in, into a new cell above this one, and run both cells:\n\n"
-    '    from autograder import own_arm\n    own_arm("{problem}", "your name")\n'
+    filled(
+        "No name is known here. Until you give yours, you have the arm of the book. Put these two "
+        "lines, with the name under which you hand in, into a new cell above this one, and run both "
+        "cells:",
+        indent=0,
+    )
+    + '\n\n    from autograder import own_arm\n    own_arm("{problem}", "your name")\n'
 )
-OF_THE_BOOK = (
+OF_THE_BOOK = filled(
     "This check took the arm of the book, as no name is known. The grader takes your own arm: type your "
-    "name as it says below the set-up cell."
+    "name as it says below the set-up cell.",
+    indent=0,
 )
 _typed: list[str] = []
 _nameless: set[str] = set()
