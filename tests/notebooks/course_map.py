@@ -46,9 +46,8 @@ PROBLEMS = """
 ## The problems
 
 Each check runs in the student's notebook and, with fresh arms and states, in the grader. It knows
-that many wrong models by name, which are in `mistakes.py`, or files like `step_mistakes.py`, beside the
-problem's checks. Each of them has a wrong answer in the problem's table, and [one test]({}) runs all
-tables.
+that many wrong models by name, which are in `mistakes.py`, and files like it, beside the checks. Each of
+them has a wrong answer in the problem's table, and [one test]({}) runs all tables.
 """
 TABLES_TEST = ROOT / "tests" / "autograder" / "problems" / "test_mistakes.py"
 

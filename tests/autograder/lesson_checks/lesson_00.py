@@ -23,7 +23,13 @@ TABLE = {
             "M transposed": "M.T @ qdd + C @ qd + g_vec + f_vec",
             "C transposed": "M @ qdd + qd @ C + g_vec + f_vec",
         },
-        other=("g_vec + f_vec", "0 * qd", "M @ qdd + C @ np.ones(len(qd)) + g_vec + f_vec"),
+        other=(
+            "g_vec + f_vec",
+            "0 * qd",
+            "M @ qdd + C @ np.ones(len(qd)) + g_vec + f_vec",
+            "M @ (qdd + 2 * qd) + g_vec + f_vec",
+            "M @ qdd + (C + C.T) @ qd / 2 + g_vec + f_vec",
+        ),
     ),
     "00-size": Answers(
         right=("216", "6**3", "6 * 6 * 6", "np.zeros((6, 6, 6)).size"),

@@ -36,7 +36,7 @@ TABLE = {
             "entry by entry, left": "R * I_link @ R.T",
             "entry by entry, right": "R @ I_link * R.T",
         },
-        other=("R", "np.zeros((3, 3))", "np.linalg.inv(I_link)"),
+        other=("R", "np.zeros((3, 3))", "np.linalg.inv(I_link)", "R * I_link @ R"),
     ),
     "03-hand": Answers(
         right=('"c"',),

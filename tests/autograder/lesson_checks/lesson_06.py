@@ -56,7 +56,12 @@ TABLE = {
             "Coulomb without its sign": "[g * np.sin(q), qdd, qd, 1]",
             "speeds": "[g * np.sin(q), qdd, abs(qd), 1]",
         },
-        other=("[0, 0, 0, 0]", "[q, q, g, qdd]", "[g * q, qdd**2, qd**2, qd**3]"),
+        other=(
+            "[0, 0, 0, 0]",
+            "[q, q, g, qdd]",
+            "[g * np.sin(2 * q), 0, 0, qd**2]",
+            "[g * q, qdd**2, qd**2, qd**3]",
+        ),
     ),
     "06-bodies": Answers(
         right=("0.178", "(0.5 * 0.8)**2 / 0.9"),

@@ -44,8 +44,8 @@ TRACED = {
         (
             f"{LINKS} + 1",
             *(
-                f"What is off in your matrix of {links} is the same whatever the arguments are. Which of "
-                "your terms is a mere number?"
+                f"What is off in your matrix of {links} is the same whatever the arguments are. Which "
+                "of your terms is a mere number?"
                 for links in ("one link", "several links")
             ),
         ),
