@@ -93,6 +93,11 @@ def _delays(process: str) -> float:
 
 
 def _delay(path: str) -> float:
-    with suppress(OSError, ValueError, IndexError), open(path) as file:
-        return int(file.read().split()[1]) / 1e9
+    with suppress(OSError, ValueError, IndexError):
+        # Read twice in each call of a student's function, where `open` takes twice as long.
+        file = os.open(path, os.O_RDONLY)
+        try:
+            return int(os.read(file, 100).split()[1]) / 1e9
+        finally:
+            os.close(file)
     return 0.0

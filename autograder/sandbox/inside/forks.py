@@ -92,7 +92,7 @@ def _serve(channel):
     from shell import new_shell
 
     shell = new_shell()
-    loaded.load()
+    loaded.load(shell)
     own = os.pidfd_open(os.getpid())
     channel.send(b"ready")
     while True:

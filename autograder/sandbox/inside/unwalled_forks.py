@@ -32,7 +32,7 @@ def main():
     from shell import new_shell
 
     shell = new_shell()
-    loaded.load()
+    loaded.load(shell)
     ended, wake = os.pipe()
     os.set_blocking(ended, False)
     os.set_blocking(wake, False)

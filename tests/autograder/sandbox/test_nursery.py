@@ -125,6 +125,17 @@ class TestAlike:
         with Room(way) as room:
             assert printed(room, draw) == printed(pair[0], draw)
 
+    def test_a_figure_a_simplified_sum_and_an_error_load_nothing(self, way):
+        with Room(way) as room:
+            room.run("import inspect, sys, sympy, matplotlib.pyplot as plt\nq = sympy.Symbol('q')")
+            room.run("before = set(sys.modules), len(inspect.modulesbyfile)")
+            room.run("plt.plot([0, 1])")
+            room.run("sympy.simplify(q + sympy.sin(q) ** 2 + sympy.cos(q) ** 2)")
+            assert failed(room, "1 / 0").startswith("ZeroDivisionError")
+            assert printed(room, "print(set(sys.modules) - before[0])") == "set()"
+            # Before an error is shown, Python looks up the files of all modules.
+            assert printed(room, "print(len(inspect.modulesbyfile) < 1.1 * before[1])") == "True"
+
 
 @WALLED
 class TestRights:
