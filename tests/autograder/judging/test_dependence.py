@@ -183,7 +183,7 @@ def test_a_criterion_of_some_calls_is_asked_of_these():
         criteria=(Criterion("forth", "N", 0.5), Criterion("back", "N", 0.5)),
         quantities=by_sign,
     )
-    (found,) = said(judging, lambda a, b: a * b if a < 0 else a**2 + 7)
+    (found,) = said(judging, lambda a, b: a * b if a < 0 else a**2 + 7.5)
     assert found == "In your forth, the values do not depend on b; the right ones do."
 
 
