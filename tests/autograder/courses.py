@@ -11,7 +11,7 @@ import nbformat
 import sqlalchemy
 
 from tests.autograder.course_problems import problem, without_plots
-from tests.autograder.nbgrader_forks import nbgrader
+from tests.autograder.nbgrader_forks import PROGRAMS, installed
 from tests.once import made_once
 
 ROOT = Path(__file__).parents[2]
@@ -25,8 +25,8 @@ def run(root: Path, *command: str, status: int = 0) -> str:
     """What one of the environment's commands printed; it must end with this status."""
     name, *arguments = command
     settings = {"JUPYTER_DATA_DIR": str(root / "data")}
-    if name == "nbgrader" and hasattr(os, "fork"):
-        ended, printed = nbgrader(root, *arguments, **settings)
+    if name in PROGRAMS and hasattr(os, "fork"):
+        ended, printed = installed(root, name, *arguments, **settings)
     else:
         result = subprocess.run(
             [Path(sys.executable).parent / name, *arguments],

@@ -18,13 +18,8 @@ from pathlib import Path
 PROGRAMS = ("nbgrader", "autograder")
 
 
-def nbgrader(folder: Path, *arguments: str, **environment: str) -> tuple[int, str]:
-    """The exit status of an nbgrader command, and what it printed on stdout and stderr."""
-    return installed(folder, "nbgrader", *arguments, **environment)
-
-
 def installed(folder: Path, program: str, *arguments: str, **environment: str) -> tuple[int, str]:
-    """The same of one of the PROGRAMS."""
+    """The exit status of a command of one of the PROGRAMS, and what it printed on stdout and stderr."""
     server = _server()
     with tempfile.NamedTemporaryFile("r", encoding="utf-8", errors="replace") as log:
         request = {
