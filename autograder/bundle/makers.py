@@ -40,9 +40,8 @@ def _maker(module: str, code: CodeType) -> str:
         source = without_comments(f"({ast.get_source_segment(source_of(module), node)})")
         return f"def _made({names}):\n    return {source}\n"
     node.decorator_list = []
-    inner = lines_of(
-        source_of(module), node
-    )  # which are indented already, as a text in them may not be
+    # Its lines keep their own indent: those of a text in them may have none.
+    inner = lines_of(source_of(module), node)
     indent = " " * node.col_offset
     return f"def _made({names}):\n{inner}\n{indent}return {node.name}\n"
 

@@ -26,9 +26,8 @@ def main() -> int:
         if before != WHEEL.name and (failed := _install(again=bool(before))):
             print("start.py:", failed)
             return 1
-        return subprocess.run(
-            [str(PYTHON), "-c", COMMAND, "lab", *sys.argv[1:]], cwd=HERE
-        ).returncode
+        command = [str(PYTHON), "-c", COMMAND, "lab", *sys.argv[1:]]
+        return subprocess.run(command, cwd=HERE).returncode
     except KeyboardInterrupt:
         return 0
 
@@ -44,10 +43,8 @@ def _runs() -> bool:
 def _install(again: bool) -> str:
     """Install the course; what failed, if something did. again: whether .venv is kept."""
     print("Installing the course into .venv; the first time takes some minutes.", flush=True)
-    if (
-        not again
-        and subprocess.run([sys.executable, "-m", "venv", "--clear", str(VENV)]).returncode
-    ):
+    make = [sys.executable, "-m", "venv", "--clear", str(VENV)]
+    if not again and subprocess.run(make).returncode:
         return (
             f"no .venv could be made in {HERE}. Can you write into this folder, and has this Python its "
             "venv (on Debian and Ubuntu: apt install python3-venv)?"
