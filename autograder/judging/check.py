@@ -27,6 +27,7 @@ from autograder.judging.models import Model, evaluated
 from autograder.judging.on_top import on_top
 from autograder.judging.places import NOWHERE, place
 from autograder.judging.quantities import Numbers, Quantities, each, one_number
+from autograder.judging.remarks import remarks
 from autograder.judging.section import Section
 from autograder.judging.stacked import layouts, rows
 from autograder.judging.terms import Term
@@ -44,7 +45,6 @@ VISIBLE_SEED = 20260101
 HIDDEN_CASES = 24
 # An answer that took longer, s, is not called again to find out more about it.
 SLOW = 2.0
-CARET = "Your {} uses ^. In Python ^ is no power; the power is **."
 
 Ask = Callable[[list[Call]], list[Reply]]
 
@@ -152,10 +152,10 @@ class Check:
                 found = self._judge_replies(calls, expected, replies, ask_again)
         except Exception as error:
             return verdict.check_failed(self.id, error)
-        if found.state is not State.CORRECT and replies[0].caret:
-            remarks = filter(None, [found.remark, CARET.format(self.name)])
-            return replace(found, remark=" ".join(remarks))
-        return found
+        if found.state in (State.CORRECT, State.NOT_ATTEMPTED):
+            return found
+        said = [found.remark, *remarks(replies[0], self.signature)]
+        return replace(found, remark=" ".join(filter(None, said)))
 
     def _judge_replies(
         self, calls: list[Call], expected: Numbers, replies: list[Reply], ask: Ask | None

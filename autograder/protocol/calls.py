@@ -14,7 +14,7 @@ import numpy as np
 from . import causes, riddles
 from .arguments import changed, real
 from .limits import PATIENCE, Limit, TimeLimitError, time_limit
-from .own_code import is_left_open, line_of
+from .own_code import is_left_open, line_of, takes
 from .readings import (
     MOST_NUMBERS,
     FaultKind,
@@ -78,6 +78,7 @@ class Reply:
     changed: each argument that the call changed: its place, and the name in a namespace or "".
     again: what a second call gave, with the arguments as the first call had changed them. caret:
     whether the function uses ^, which is no power. cause: where a number came up that is not finite.
+    takes: the function's arguments by the names that its first line gives them; () if it is not Python.
     """
 
     value: np.ndarray | dict | list | None = None
@@ -86,6 +87,7 @@ class Reply:
     again: "Reply | None" = None
     caret: bool = False
     cause: causes.Cause | None = None
+    takes: tuple[str, ...] = ()
 
 
 def answer(call: Call, namespace: Mapping) -> Reply:
@@ -106,7 +108,7 @@ def _answer(call: Call, namespace: Mapping) -> Reply:
         return Reply(fault=Fault(FaultKind.NOT_CALLABLE, type(function).__name__))
     given: list = []
     watch = Stopwatch()
-    reply = _called(call, function, given, CALL_SECONDS)
+    reply = replace(_called(call, function, given, CALL_SECONDS), takes=takes(function))
     if not reply.fault and riddles.uses_caret(function):
         reply = replace(reply, caret=True)
     changes = () if reply.fault else _changes(call.args, given)

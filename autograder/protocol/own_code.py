@@ -2,9 +2,10 @@
 
 import os
 import traceback
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from pathlib import Path
 from traceback import FrameSummary
+from types import CodeType
 
 from .words import other_cell, shortened
 
@@ -12,6 +13,8 @@ from .words import other_cell, shortened
 CELLS = ("ipykernel_", "<ipython-input")
 INSTALLED = ("site-packages", "dist-packages")
 OF_PYTHON = Path(os.__file__).parent
+MOST_ARGUMENTS = 12
+LONGEST_NAME = 30
 
 
 def line_of(frames: Iterable[FrameSummary]) -> str:
@@ -27,6 +30,23 @@ def line_of(frames: Iterable[FrameSummary]) -> str:
     else:
         where = "" if own[-1].filename == own[0].filename else other_cell(own[-1].name)
     return shortened(f"{where}, {line}" if where else line)
+
+
+def takes(function) -> tuple[str, ...]:
+    """The arguments of a Python function by the names that its first line gives them; () for what has
+    none, or more than a function of the course could have.
+    """
+    code = getattr(function, "__code__", None)
+    names = code.co_varnames[: code.co_argcount] if isinstance(code, CodeType) else ()
+    return names if are_arguments(names) else ()
+
+
+def are_arguments(names: Collection) -> bool:
+    """Whether these may be the names of a function's arguments."""
+    return len(names) <= MOST_ARGUMENTS and all(
+        isinstance(name, str) and len(name) <= LONGEST_NAME and name.isidentifier()
+        for name in names
+    )
 
 
 def is_left_open(error: NotImplementedError) -> bool:

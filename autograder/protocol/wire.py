@@ -5,6 +5,7 @@ from dataclasses import replace
 from .arguments import decode, encode
 from .calls import MOST_CHANGES, Call, Fault, Reply
 from .causes import decode_cause, encode_cause
+from .own_code import are_arguments
 from .readings import FaultKind, decode_value, encode_value
 from .riddles import decode_riddle, encode_riddle
 from .words import shortened
@@ -24,11 +25,12 @@ def decode_call(message: dict) -> Call:
 
 
 def encode_reply(reply: Reply) -> dict:
+    takes = {"takes": list(reply.takes)} if reply.takes else {}
     if reply.fault:
         fault = reply.fault
         said = {"kind": fault.kind, "message": fault.message, "line": fault.line}
-        return {"fault": said | {"riddle": encode_riddle(fault.riddle)}}
-    message = {"value": encode_value(reply.value)}
+        return {"fault": said | {"riddle": encode_riddle(fault.riddle)}, **takes}
+    message = {"value": encode_value(reply.value), **takes}
     if reply.caret:
         message["caret"] = True
     if reply.cause:
@@ -42,6 +44,9 @@ def encode_reply(reply: Reply) -> dict:
 def decode_reply(message) -> Reply:
     """A reply from the sandbox; anything else becomes a fault, never an exception."""
     reply = _decode_reply(message)
+    match message:
+        case {"takes": list(names)} if are_arguments(names):
+            reply = replace(reply, takes=tuple(names))
     match message:
         case {"changed": list(changes), "again": again} if not reply.fault:
             known = (change for change in changes if _is_change(change))

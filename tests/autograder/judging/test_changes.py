@@ -209,6 +209,7 @@ def test_a_room_sees_changes_too():
     with Room(Way.UNWALLED) as room:
         room.run("def g(q, arm):\n    arm.I2 += 1\n    return arm.I2")
         (reply,) = room.ask([Call("g", (1.0, SimpleNamespace(I2=1.0)))])
-    assert reply == Reply(np.array(2.0), None, ((1, "I2"),), Reply(np.array(3.0)))
+    again = Reply(np.array(3.0))
+    assert reply == Reply(np.array(2.0), None, ((1, "I2"),), again, takes=("q", "arm"))
     room_fault = Fault(FaultKind.RAISED, "m", "l")
     assert protocol.decode_reply(protocol.encode_reply(Reply(fault=room_fault))).fault == room_fault

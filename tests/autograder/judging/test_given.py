@@ -124,14 +124,6 @@ def test_an_array_where_one_truth_value_belongs():
     )
 
 
-def test_a_caret_is_told_of_a_wrong_answer_and_not_of_a_right_one():
-    said = "Your g_vec uses ^. In Python ^ is no power; the power is **."
-    body = "k = {}\nreturn pend.m * pend.g * pend.lc * np.sin(q) * (k ^ 3)"
-    assert judged("p3-g_vec", body.format(1)).remark == said
-    right = judged("p3-g_vec", body.format(2))
-    assert (right.state, right.remark) == (State.CORRECT, "")
-
-
 def test_a_forged_fault_gets_no_more_than_a_fault():
     """Fewer replies than calls, the last of them a fault, as the sandbox sends them."""
     check = CHECKS["p3-g_vec"]
