@@ -32,7 +32,7 @@ from autograder.student import (
 )
 from autograder.student import fresh as fresh_cases
 from autograder.student.definitions import watched
-from autograder.student.display import show
+from autograder.student.display import say, show
 from autograder.student.own_arm import drawn_for, reminder
 from autograder.student.pasted import as_pasted
 
@@ -80,7 +80,7 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     if isinstance(id, str) and derivation_of(id):
         raise UnknownCheckError(f"no check judges {id!r}: call derivation with its lines")
     if said := version.remark(str(id)):
-        print(said)
+        say(said)
     namespace = sys._getframe(1).f_globals
     verdict = _naming_an_old_function(verdict_on(known_check(id).id, namespace, fresh))
     failing.note(verdict)
@@ -90,15 +90,15 @@ def check(id: str | None = None, fresh: bool = False) -> None:
     shown = card.mimebundle(verdict, below.lines(verdict, pictured), below.points(verdict))
     show(shown)
     for broken in own_checks.broken(own_checks.files_here()):
-        print(broken)
+        say(broken)
     _tell_of_no_limit()
     if fresh and (said := fresh_cases.refusal()):
-        print(said)
+        say(said)
     if said := reminder(id):
-        print(said)
+        say(said)
     told = in_grading.told(verdict.check, _cells)
     for one in told:
-        print(f"When it is graded: {one.said}")
+        say(f"When it is graded: {one.said}")
     if verdict.state not in (State.CORRECT, State.NOT_HERE):
         raise NotCorrectError(verdict, shown["text/plain"])
     costs = [one.said for one in told if one.costs]
@@ -137,7 +137,7 @@ def _earlier(later: str, id: str) -> Check | None:
 @cache  # once in a kernel
 def _tell_of_no_limit() -> None:
     if said := no_limit():
-        print(said)
+        say(said)
 
 
 def _naming_an_old_function(verdict: Verdict) -> Verdict:

@@ -1,5 +1,12 @@
 """Shows an output where a student's code runs: in a notebook's cell, or as plain text elsewhere."""
 
+from autograder.judging.passages import filled
+
+
+def say(sentence: str) -> None:
+    """Print it in lines that end between words; JupyterLab breaks a long one anywhere."""
+    print(filled(sentence, indent=0))
+
 
 def show(bundle: dict[str, str]) -> None:
     """bundle: the same thing as text/plain and as text/html."""

@@ -4,27 +4,20 @@ import getpass
 import os
 from pathlib import Path
 
-from autograder.judging.passages import filled
 from autograder.problems import PROBLEMS_WITH_FAMILIES, arm_card
 from autograder.problems.material.conventions import BOOK, Convention, drawn
 from autograder.problems.material.given import code
 from autograder.protocol import OwnArm
-from autograder.student.display import show
+from autograder.student.display import say, show
 
-# JupyterLab breaks printed lines anywhere, also within a word.
-TYPE_IT = (
-    filled(
-        "No name is known here. Until you give yours, you have the arm of the book. Put these two "
-        "lines, with the name under which you hand in, into a new cell above this one, and run both "
-        "cells:",
-        indent=0,
-    )
-    + '\n\n    from autograder import own_arm\n    own_arm("{problem}", "your name")\n'
+NO_NAME = (
+    "No name is known here. Until you give yours, you have the arm of the book. Put these two lines, "
+    "with the name under which you hand in, into a new cell above this one, and run both cells:"
 )
-OF_THE_BOOK = filled(
+TWO_LINES = '\n    from autograder import own_arm\n    own_arm("{problem}", "your name")\n'
+OF_THE_BOOK = (
     "This check took the arm of the book, as no name is known. The grader takes your own arm: type your "
-    "name as it says below the set-up cell.",
-    indent=0,
+    "name as it says below the set-up cell."
 )
 _typed: list[str] = []
 _nameless: set[str] = set()
@@ -51,7 +44,7 @@ def own_arm(
             raise ValueError("type your name in quotes, as it stands on what you hand in")
         _typed[:] = [name]
         if arm is None:
-            print(f"Your name is {name.strip()}. Now run the set-up cell, and all cells below it.")
+            say(f"Your name is {name.strip()}. Now run the set-up cell, and all cells below it.")
             return None
     # The instructor's notebooks hold the answers for the arm of the book.
     same_for_all = same_for_all or Path.cwd().parent.name == "solutions"
@@ -63,7 +56,8 @@ def own_arm(
         _drawn[problem] = own
     if given is None and not same_for_all:
         _nameless.add(problem)
-        print(TYPE_IT.format(problem=problem))
+        say(NO_NAME)
+        print(TWO_LINES.format(problem=problem))
     whose = "the arm of the book" if given is None else f"the arm of {given.strip()}"
     show(arm_card.mimebundle(own, whose, arm, code(own, problem)))
     return own.own_arm(code(own, problem))

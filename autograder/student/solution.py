@@ -7,7 +7,7 @@ from autograder import worked_answers
 from autograder.problems import READ, families, known_check
 from autograder.problems.material.conventions import BOOK
 from autograder.proofs import derivation_of
-from autograder.student.display import show
+from autograder.student.display import say, show
 from autograder.student.own_arm import drawn_for
 
 
@@ -21,7 +21,7 @@ def solution(id: str | None = None) -> None:
     id = str(id) if _is_text(id) or _is_derivation(id) else known_check(id).id
     answer = opened().get(id)
     if answer is None:
-        print(f"There is no worked answer for {id} yet. {_when(id)}")
+        say(f"There is no worked answer for {id} yet. {_when(id)}")
     else:
         _show(id, answer)
 

@@ -8,6 +8,7 @@ import sys
 
 from autograder.lesson_checks import known, typed
 from autograder.lesson_checks.choice import Choice
+from autograder.student.display import say
 
 
 def watch() -> None:
@@ -19,7 +20,7 @@ def watch() -> None:
 
 def _ended(result) -> None:
     if isinstance(result.error_in_exec, NameError) and (said := advice(result.info.raw_cell or "")):
-        print(said)
+        say(said)
 
 
 def advice(cell: str) -> str:
