@@ -53,7 +53,7 @@ def both(tmp_path_factory):
 
 
 def said(package: Path, notebook: Path, code: str = "", **environment: str) -> str:
-    """What the checks print in a kernel whose working folder has this notebook."""
+    """What the checks print, in one line, in a kernel whose working folder has this notebook."""
     code = code or "import autograder\nautograder.check('p3-M')"
     namespace = "def M(q, pend):\n    return 1.0\n"
     begin = f"import sys\nsys.path.insert(0, {str(package)!r})\n"
@@ -63,7 +63,7 @@ def said(package: Path, notebook: Path, code: str = "", **environment: str) -> s
         cwd=notebook.parent, capture_output=True, text=True, check=True, timeout=120,
         env={name: os.environ[name] for name in ("PATH", "LANG") if name in os.environ} | environment,
     )  # fmt: skip
-    return done.stdout
+    return " ".join(done.stdout.split())
 
 
 def test_the_package_alone_has_no_problem_and_no_lesson(both):
