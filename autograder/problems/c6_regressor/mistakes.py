@@ -81,15 +81,9 @@ REGRESSOR_SAID = {
         "vertical. From which axis is q1 measured, and at which q1 does the weight of link 1 "
         "pull most?"
     ),
-    "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2 / in g_vec": (
-        "In the gravity of link 2 you take q2 for its direction in space. From where is q2 "
-        "measured?"
-    ),
+    "wrong angle / the weight of link 2 beyond the elbow / q2 / q1 + q2 / in g_vec": sentences.Q2_ALONE,
     "halved / the coupling of the two links / M11 / in M": COUPLING_ONCE,
-    "sine for cosine / the coupling of the two links / in M": (
-        "In your column of m2 ℓc2, the accelerations come with the sine of q2. Which function "
-        "of q2 does M hold, and is it largest when the arm is stretched?"
-    ),
+    "sine for cosine / the coupling of the two links / in M": sentences.COUPLING_WITH_SINE,
     "wrong angle / the coupling of the two links / q1 / q2 / in M": (
         "In your column of m2 ℓc2, the accelerations come with the cosine of q1. Would the "
         "inertia of the arm change if the whole arm turned about the shoulder?"

@@ -5,6 +5,7 @@ import numpy as np
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.terms import Term
 from autograder.problems.c8_control.mistakes import EXAMPLE
+from autograder.problems.material import sentences
 from autograder.problems.material.planar_2r import changed, regressor
 
 
@@ -160,7 +161,7 @@ REGRESSOR = (
     Mistake(
         "wrong angle of link 2 in gravity",
         _weighed_at(lambda q1, q2: (q1, q2 - q1)),
-        "In the gravity of link 2 you take q2 for its direction in space. From where is q2 measured?",
+        sentences.Q2_ALONE,
     ),
     Mistake(
         "sine for cosine in the coupling",
@@ -170,8 +171,7 @@ REGRESSOR = (
                 (1, 4): arm.l1 * (np.sin(q[1]) - np.cos(q[1])) * qdd_r[0],
             }
         ),
-        "In your column of m2 ℓc2, the accelerations come with the sine of q2. Which function of q2 "
-        "does M hold, and is it largest when the arm is stretched?",
+        sentences.COUPLING_WITH_SINE,
     ),
     Mistake(
         "coupling without the factor 2",

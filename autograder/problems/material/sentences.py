@@ -25,3 +25,10 @@ LAST_LINK_ONLY = (
     "Your result holds only the last link. Does your loop add each link, or write over the one "
     "before?"
 )
+Q2_ALONE = (
+    "In the gravity of link 2 you take q2 for its direction in space. From where is q2 measured?"
+)
+COUPLING_WITH_SINE = (
+    "In your column of m2 ℓc2, the accelerations come with the sine of q2. Which function of q2 does M "
+    "hold, and is it largest when the arm is stretched?"
+)
