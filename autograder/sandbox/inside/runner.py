@@ -25,6 +25,7 @@ PROCESS_SECONDS = 600
 MOST_TEXT = 200_000
 MOST_OUTPUTS = 50
 MOST_LEFT_OUT = 500  # characters about a line that was left out
+MOST_HANDLED = 100  # errors, each raised while the last was handled
 # Quick calls are answered together, as waking the judge costs more than a call.
 HELD_SECONDS = 0.02
 # What a feedback page shows of a student's output. No HTML or JavaScript: it would run in the
@@ -166,7 +167,7 @@ def _run(shell, source, seconds, protocol):
         # It may have come again while the first was shown, and code may swallow it and go on.
         errors = [one for one in errors if one[0] is not protocol.TimeLimitError]
         errors.insert(0, (protocol.TimeLimitError, limit.error, []))
-        if isinstance(stopped, protocol.TimeLimitError):
+        if _comes_of(protocol.TimeLimitError, stopped):
             stopped = limit.error
     # A magic's error is only shown, and the cell goes on, perhaps to an error that stops it.
     told = [*errors[:1], *(error for error in errors[1:] if error[1] is stopped)]
@@ -174,6 +175,16 @@ def _run(shell, source, seconds, protocol):
         _error(shell, source, kind, value, lines, protocol) | {"stopped": value is stopped}
         for kind, value, lines in told
     ]
+
+
+def _comes_of(kind, error):
+    """Whether an error is of this kind, or was raised while one of it was handled."""
+    with suppress(Exception):  # it may be of a student's own class
+        for _ in range(MOST_HANDLED):
+            if error is None or isinstance(error, kind):
+                return error is not None
+            error = error.__cause__ or error.__context__
+    return False
 
 
 def _error(shell, source, kind, value, lines, protocol):
