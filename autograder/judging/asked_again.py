@@ -96,7 +96,9 @@ class AskedAgain:
     def _probes(self, case: int) -> list[dependence.Probe]:
         """None of arguments that are not plain numbers."""
         call = self.calls[case]
-        return [] if isinstance(call, Loop) else dependence.probes(self.signature, call, True)
+        return (
+            [] if isinstance(call, Loop) else dependence.probes(self.signature, call, matrices=True)
+        )
 
     def _in_other_units(self, case: int) -> scaling.InOtherUnits | None:
         call = self.calls[case]

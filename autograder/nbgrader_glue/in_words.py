@@ -68,11 +68,13 @@ class InWords(logging.Filter):
             self._asked = Path(found[1]).name
         elif said.startswith(SEE_ABOVE):
             _say(record, "The lines above say why")
-        elif error is not None and said.startswith((TRACEBACK, UPGRADE)) and (reason := why(error)):
-            if said.startswith(UPGRADE):
-                from autograder.nbgrader_glue.locked import is_locked
+        elif not isinstance(error, Exception) or not (reason := why(error)):
+            return True
+        elif said.startswith(UPGRADE):
+            from autograder.nbgrader_glue.locked import is_locked
 
-                return not is_locked(error)  # type: ignore[arg-type]
+            return not is_locked(error)
+        elif said.startswith(TRACEBACK):
             _say(record, reason)
         return True
 

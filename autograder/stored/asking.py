@@ -38,7 +38,9 @@ def all_calls(check: Check) -> list[Call]:
     # A whole run is asked for once.
     alone = [call for call in calls if not isinstance(call, Loop)]
     probes = [
-        probe.call for call in alone for probe in dependence.probes(check.signature, call, True)
+        probe.call
+        for call in alone
+        for probe in dependence.probes(check.signature, call, matrices=True)
     ]
     scaled = [one.call for call in alone for one in scaling.scalings(check.signature, call)]
     return [*calls, *probes, *scaled]
