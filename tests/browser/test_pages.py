@@ -140,9 +140,11 @@ def test_a_proof_is_read_and_marked_in_the_formgrader(formgrader, server, taught
     formgrader.screenshot(path=tmp_path / "marking.png", full_page=True)
     assert formgrader.evaluate(LOST) == 0
     assert RAW.findall(formgrader.get_by_role("main").inner_text()) == []
-    score.fill("4")
-    score.press("Tab")
-    expect(formgrader.locator(".score-saved").last).to_be_visible()
+    with formgrader.expect_response("**/formgrader/api/grade/*") as answer:
+        score.fill("4")
+        score.press("Tab")
+    assert answer.value.ok
+    expect(formgrader.locator(".score-saved.glyphicon-ok").last).to_be_visible()
     assert formgrader.asked == []
 
     with Gradebook(f"sqlite:///{taught / 'course' / 'gradebook.db'}") as gradebook:
