@@ -19,7 +19,7 @@ from autograder.judging.quantities import array, each
 from autograder.judging.section import Section
 from autograder.mutation.generated import Generated
 from autograder.problems.material import following, planar_2r, sampling
-from autograder.problems.p2_energy_skew import mistakes
+from autograder.problems.p2_energy_skew import christoffel_mistakes, mistakes, other_mistakes
 from autograder.protocol import Call, Expressions, Symbol
 
 # Ṁ − 2C is clearly not skew where C + Cᵀ and Ṁ differ by this share of the largest entry of C.
@@ -141,7 +141,7 @@ def _symbolic_calls(rng, count):
     return calls
 
 
-_christoffel = mistakes.at_points(lambda numbers: numbers.C)
+_christoffel = christoffel_mistakes.at_points(lambda numbers: numbers.C)
 
 
 def _symbolic(christoffel: Beside, call, value):
@@ -278,7 +278,7 @@ CHECKS = (
                 is_bound=True,
             ),
         ),
-        mistakes=mistakes.OTHER,
+        mistakes=other_mistakes.OTHER,
         terms=mistakes.CORIOLIS_TERMS,
         hints=(
             "C q̇ holds the product q̇1 q̇2 in its first row. In which entries of the row can it stand?",
@@ -322,8 +322,8 @@ CHECKS = (
                 is_property=True,
             ),
         ),
-        mistakes=mistakes.CHRISTOFFEL,
-        terms=mistakes.CHRISTOFFEL_TERMS,
+        mistakes=christoffel_mistakes.CHRISTOFFEL,
+        terms=christoffel_mistakes.CHRISTOFFEL_TERMS,
         hints=(
             "Three loops: i over rows, j over columns, and the sum over k. sp.diff(M[i, j], q[k]) "
             "is one derivative of the three.",
