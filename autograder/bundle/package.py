@@ -25,7 +25,7 @@ STAND_INS = Path(__file__).parent / "stand_ins"
 # Folders and files of `autograder` that a student's package has as they are.
 WHOLE = (
     *("judging", "protocol", "proofs", "stored", "student"),
-    *("__init__", "digest", "files", "hints_seen", "lab", "lab_server", "lean", "terminal"),
+    *("__init__", "digest", "files", "hints_seen", "lab", "lab_server", "terminal"),
     *("worked_answers", "pictures/__init__", "lesson_checks/__init__", "lesson_checks/choice"),
     *("lesson_checks/number", "lesson_checks/typed", "problems/__init__", "problems/arm_card"),
     *("problems/material/__init__", "problems/material/described", "checks"),

@@ -54,7 +54,6 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Archive the course; the exit status is 1 if something is open, left out or left where it was."""
-    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.nbgrader_glue.closing import Closing
     from autograder.pipeline import run as pipeline
     from autograder.pipeline.lock import locked

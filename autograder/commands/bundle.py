@@ -36,7 +36,6 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Write the archive of these assignments for a class; without any, of all."""
-    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.bundle.archive import BundleError, write_bundle
     from autograder.bundle.describing import DescribingError
     from autograder.bundle.shaking import ShakingError

@@ -37,7 +37,7 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Put hand-ins into course/submitted/; the exit status is 1 if one of them needs a look."""
-    from autograder import lean, roster, term_calendar  # noqa: F401  before nbformat is imported
+    from autograder import roster, term_calendar
     from autograder.lms.collect import collect
     from autograder.nbgrader_glue.shelf import Submissions
     from autograder.pipeline import run as pipeline

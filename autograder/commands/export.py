@@ -74,7 +74,7 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Write the marks; the exit status is 1 if somebody's could not be."""
-    from autograder import lean, roster, term_calendar  # noqa: F401  before nbformat is imported
+    from autograder import roster, term_calendar
     from autograder.files import put_in_place
     from autograder.lms import export as exporting
     from autograder.nbgrader_glue.marks import pages_of, read_marks

@@ -18,7 +18,7 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Remove a student from the course, after asking; the exit status is 1 if nothing was removed."""
-    from autograder import lean, roster  # noqa: F401  before nbformat is imported
+    from autograder import roster
     from autograder.nbgrader_glue.forget import known, person, traces
     from autograder.nbgrader_glue.mentions import Called, mentions
     from autograder.pipeline import run as pipeline

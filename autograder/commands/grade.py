@@ -42,7 +42,6 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Grade an assignment's submissions; the exit status is 1 if one could not be graded."""
-    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.pipeline import run as pipeline
 
     assignment = name_of(given.assignment)

@@ -62,7 +62,7 @@ def make_key(root: Path, given: argparse.Namespace) -> int:
 
 def send(root: Path, given: argparse.Namespace) -> int:
     """Send the marks; the exit status is 1 if somebody's could not be."""
-    from autograder import lean, roster, term_calendar  # noqa: F401  before nbformat is imported
+    from autograder import roster, term_calendar
     from autograder.lms.export import chosen
     from autograder.nbgrader_glue.marks import read_marks
 

@@ -41,7 +41,6 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Serve the page for marking until Ctrl-C; then say how many answers are left."""
-    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.lab import has_display
     from autograder.marking.desk import Desk
     from autograder.marking.kept import Kept

@@ -35,7 +35,6 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Write a problem to solutions/, or first the file to fill in, of a mechanism or of checks."""
-    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.authoring.course import FillInError, NoMechanismError, own
     from autograder.authoring.own_problem import checks_file
     from autograder.authoring.problem import ProblemError, usual_asks, write_problem

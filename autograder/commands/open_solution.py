@@ -37,7 +37,6 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Open an assignment's worked answers to students; without a name, all whose time has come."""
-    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.nbgrader_glue.worked import open_answers, settings
     from autograder.worked_answers import FULL_MARKS
 

@@ -24,7 +24,6 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Write the report on a class, or on the term, to course/report/, and a summary to the terminal."""
-    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.files import put_in_place
     from autograder.nbgrader_glue.class_list import read_class, read_term
     from autograder.nbgrader_glue.late import settle_course

@@ -45,7 +45,6 @@ def add_to(commands) -> None:
 
 def run(root: Path, given: argparse.Namespace) -> int:
     """Try a mechanism's checks; the exit status is 1 if a mistake is not named by its sentence."""
-    from autograder import lean  # noqa: F401  before nbformat is imported
     from autograder.authoring.course import NoMechanismError, files_of, found
     from autograder.authoring.leads_on import led_on
     from autograder.authoring.own_problem import checks_file

@@ -30,7 +30,7 @@ from autograder.terminal import shown_name, shown_note, shown_points
 CACHE = Path("course") / "cache-of-results"
 LOCK = Path("course") / "grading.lock"
 AGAIN = "so the next run judges this notebook again; fewer --jobs leave each more time"
-PRELOAD = ("autograder.lean", "autograder.pipeline.worker")
+PRELOAD = ("autograder.pipeline.worker",)
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ import numpy as np
 from autograder.judging.check import VISIBLE_CASES, Check
 from autograder.judging.diagnosis import Mistake
 from autograder.judging.models import evaluated
+from autograder.judging.quantities import each
 from autograder.judging.verdict import State
 from autograder.protocol import Reply
 
@@ -66,7 +67,9 @@ def assert_each_is_found(check: Check, few: int | None = None, count: int = VISI
     made = check.catalogue(calls)
     found = Found([(replace(m, sentence=f"{k}: {m.name}"), v) for k, (m, v) in enumerate(made)])
     assert [m for m, _ in made] == check.catalogue.mistakes()
-    asked = replace(check, catalogue=found, quantities=Once(check.quantities))
+    # Those of each call by itself are formed for all mutants at once.
+    formed = check.quantities if isinstance(check.quantities, each) else Once(check.quantities)
+    asked = replace(check, catalogue=found, quantities=formed)
     stride = max(1, len(made) // few) if few else 1
     for k in range(0, len(made), stride):
         mistake, values = found.made[k]

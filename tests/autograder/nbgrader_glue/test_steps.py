@@ -49,7 +49,7 @@ def test_steps_are_nbgraders_but_for_ours(ours, theirs, first, left_out):
 
 
 def test_naming_them_does_not_import_nbgrader():
-    code = "import sys; from autograder import lean, nbgrader_glue, pipeline\n"
+    code = "import sys; from autograder import nbgrader_glue, pipeline\n"
     code += "print([m for m in ('nbgrader', 'nbconvert', 'scipy', 'sympy', 'IPython', "
     code += "'matplotlib', 'rfc3987_syntax') if m in sys.modules])"
     printed = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
