@@ -136,6 +136,26 @@ CENTRE_IN = ("cross(chain.offset[k], f)", "cross(chain.com[k - 1], f)")
 OWN_OUT = (PLACE, "r, c, m, I = chain.axis[k], chain.offset[k - 1 if k else 0],")
 OWN_IN = ("cross(chain.offset[k], f)", "cross(chain.offset[k - 1], f)")
 
+CROSS_C, CROSS_R = "cross(w, cross(w, c))", "cross(w, cross(w, r))"
+RATE = "w = w + z * qd[k]\n"
+
+
+def late(line):
+    """The acceleration of the joint, once its link has its rates."""
+    return rnea(f"    {OUT}\n", "", RATE, f"{RATE}    {line}\n")
+
+
+AT_JOINT = f"cross(wd, r) + {CROSS_R}"
+SHARE = "    u[k] = chain.axis[k] @ t + chain.viscous[k] * qd[k]\n"
+TURNED_FIRST = rnea(f"    {OUT}\n", "", OUT_2, f"{OUT_2}\n    a = R[k].T @ a + {AT_JOINT}")
+OWN_AXES_IN = (f"    {BACK}\n    {DOWN}", f"    {DOWN}    {BACK}\n")
+# What the next link hands down is turned where it is used.
+OWN_ANGLE = rnea(
+    f"    {BACK}\n    {DOWN}", "", "    t = t + N[k]", f"    {BACK}\n    t = t + N[k]",
+    LEVER, f"{LEVER} + (cross(chain.offset[k + 1], f) if k < n - 1 else 0)",
+)  # fmt: skip
+OWN_AGAIN = ("(cross(chain.offset[k + 1], f) if k < n - 1 else 0)", "cross(chain.offset[k], f)")
+
 TABLE = {
     "c7-rnea": [
         ("gravity missing", rnea("-chain.gravity", "np.zeros(3)"), 0.5),
@@ -278,6 +298,77 @@ TABLE = {
         ("own offset", rnea(*OWN_OUT, *OWN_IN), 0),
         ("third component", rnea("chain.axis[k] @ t", "t[2]"), 0),
         ("no rotational inertia", rnea("N.append(", "N.append(0 * (", CARRIED, f"{CARRIED})"), 0.2),
+        ("velocity of the joint for its acceleration", rnea(CROSS_R, "cross(w, r)"), 0.45),
+        ("velocity of the centre for its acceleration", rnea(CROSS_C, "cross(w, c)"), 0.45),
+        (
+            "velocities for accelerations",
+            rnea(CROSS_R, "cross(w, r)", CROSS_C, "cross(w, c)"),
+            0.45,
+        ),
+        (
+            "centripetal acceleration of the plane",
+            rnea(CROSS_R, "-(w @ w) * r", CROSS_C, "-(w @ w) * c"),
+            0.45,
+        ),
+        (
+            "next joint from the centre",
+            rnea("F.append(m * ac)", "a = ac\n    F.append(m * a)"),
+            0.2,
+        ),
+        (
+            "centre as the arm of the whole force",
+            rnea(
+                "    f = f + F[k]\n",
+                "",
+                "t = t + N",
+                "f = f + F[k]\n    t = t + N",
+                "F[k])\n    u",
+                "f)\n    u",
+            ),
+            0,
+        ),
+        (
+            "about the joint before",
+            rnea(SHARE, "", DOWN, DOWN + SHARE),
+            0,
+        ),
+        ("length of the moment", rnea("chain.axis[k] @ t", "np.linalg.norm(t)"), 0),
+        ("no part with the angular acceleration", rnea("I @ wd + ", ""), 0.2),
+        ("angular velocity turned the wrong way", rnea("R[k].T @ w,", "R[k] @ w,"), 0.45),
+        ("angular acceleration turned the wrong way", rnea("R[k].T @ wd", "R[k] @ wd"), 0.2),
+        (
+            "acceleration of the joint turned the wrong way",
+            rnea("a = R[k].T @ (a", "a = R[k] @ (a"),
+            0,
+        ),
+        ("force turned the wrong way", rnea("R[k] @ f", "R[k].T @ f"), 0),
+        ("moment turned the wrong way", rnea("R[k] @ t", "R[k].T @ t"), 0),
+        (
+            "weight not turned",
+            rnea("-chain.gravity", "np.zeros(3)", "m * ac", "m * (ac - chain.gravity)"),
+            0.5,
+        ),
+        ("offset in the axes of its own link outwards", TURNED_FIRST, 0.2),
+        ("offset in the axes of its own link inwards", rnea(*OWN_AXES_IN), 0),
+        ("offset in the axes of its own link", but(TURNED_FIRST, *OWN_AXES_IN), 0),
+        (
+            "joint carried by its own rates",
+            late(f"r = R[k].T @ r; a = R[k].T @ a + {AT_JOINT}"),
+            0.2,
+        ),
+        (
+            "joint carried by its own rates, offset as it is",
+            late(f"a = R[k].T @ a + {AT_JOINT}"),
+            0.2,
+        ),
+        ("joint carried by its own rates, then turned", late(OUT), 0.2),
+        (
+            "turning of the axis with two kinds of axes",
+            rnea(OUT_2, "wd = R[k].T @ wd", RATE, "w = R[k].T @ w + z * qd[k]\n"),
+            0.45,
+        ),
+        ("own angle inwards", OWN_ANGLE, 0),
+        ("own angle and offset inwards", but(OWN_ANGLE, *OWN_AGAIN), 0),
         ("friction missing", rnea(" + chain.viscous[k] * qd[k]", ""), 0.45),
         ("sign of friction", rnea("+ chain.viscous", "- chain.viscous"), 0.45),
         ("first joint left out", rnea("range(n - 1, -1, -1)", "range(n - 1, 0, -1)"), 0),
