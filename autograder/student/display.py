@@ -13,7 +13,7 @@ def say(sentence: str) -> None:
     show(
         {
             "text/plain": filled(sentence, indent=0),
-            "text/html": f'<div class="armdyn-said">{escape(sentence)}</div>',
+            "text/html": f'<div class="armdyn-said" style="margin:0.4em 0.8em">{escape(sentence)}</div>',
         }
     )
 
