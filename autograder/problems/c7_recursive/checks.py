@@ -16,13 +16,9 @@ from autograder.problems.c7_recursive import libraries
 from autograder.problems.c7_recursive.chains import random_chain
 from autograder.problems.c7_recursive.counting import count
 from autograder.problems.c7_recursive.counting_mistakes import COUNT
-from autograder.problems.c7_recursive.library_mistakes import (
-    GRAVITY_SIGN,
-    TERMS,
-    gravity_sign,
-    terms,
-)
+from autograder.problems.c7_recursive.library_mistakes import TERMS, terms
 from autograder.problems.c7_recursive.mistakes import RNEA
+from autograder.problems.c7_recursive.sign_mistakes import GRAVITY_SIGN, gravity_sign
 from autograder.problems.c7_recursive.sweeps import RIGHT, Sweeps
 from autograder.problems.material.systems import signed
 from autograder.protocol import Call

@@ -431,6 +431,33 @@ TABLE = {
             ),
             0.5,
         ),
+        (
+            "gravity twice from M",
+            terms("library(q, o, e) - g", "library(q, qd, e) - library(q, qd, o) - g"),
+            0.7,
+        ),
+        ("unit velocities in M", terms("library(q, o, e)", "library(q, e, o)"), 0.7),
+        (
+            "velocity and acceleration exchanged in all calls",
+            terms(
+                "o = 0 * q", "o, given = 0 * q, library\nlibrary = lambda q, v, a: given(q, a, v)"
+            ),
+            0.2,
+        ),
+        (
+            "gravity in motion, taken away everywhere",
+            terms("g = library(q, o, o)", "g = library(q, qd, o)"),
+            0.2,
+        ),
+        (
+            "C q̇ joint by joint",
+            terms(
+                "return M, c",
+                "b = lambda v: library(q, v, o) - g\n"
+                "each = [(b(v) + b(-v)) / 2 for v in np.diag(qd)]\nreturn M, sum(each)",
+            ),
+            0.7,
+        ),
         ("in the order g, C q̇, f", terms("M, c, g, f", "M, g, c, f"), 0.5),
         ("in the order C q̇, f, g", terms("M, c, g, f", "M, c, f, g"), 0.6),
         ("in the order g, f, C q̇", terms("M, c, g, f", "M, g, f, c"), 0.3),
@@ -476,6 +503,14 @@ TABLE = {
         ("without subtractions", count('+-*"\na', '+*"\na'), 0),
         ("exchanged", count("return a, b", "return b, a"), 0),
         ("not set back", count("return a, b", "return a, a + b"), 0.5),
+        ("not set back, the sweeps first", count("return a, b", "return a + b, b"), 0.5),
+        (
+            "direct sum without the outward sweep",
+            count("return a, b", "return a - 24 * n, b"),
+            0.5,
+        ),
+        ("inward sweep alone", count("return a, b", "return a, b - 24 * n"), 0.5),
+        ("first sums of the direct sum", count("return a, b", "return a - n, b"), 0.5),
         ("one link fewer", count("kinds =", "n, kinds = n - 1,"), 0),
         ("one link more", count("kinds =", "n, kinds = n + 1,"), 0),
         (

@@ -10,8 +10,9 @@ from autograder.judging.check import VISIBLE_CASES
 from autograder.problems import CHECKS
 from autograder.problems.c7_recursive import counting, libraries
 from autograder.problems.c7_recursive.checks import ASKED, MAKERS
-from autograder.problems.c7_recursive.library_mistakes import gravity_sign, parts
+from autograder.problems.c7_recursive.library_mistakes import parts
 from autograder.problems.c7_recursive.mistakes import EXAMPLE
+from autograder.problems.c7_recursive.sign_mistakes import gravity_sign
 from autograder.problems.c7_recursive.sweeps import Sweeps
 from autograder.protocol import real
 from tests.autograder.course_problems import problem
