@@ -146,8 +146,8 @@ def test_the_control_of_a_lesson_is_what_its_cell_says():
     assert (control.cell, noise.label, samples.label) == ("06-control", "noise, N·m", "samples")
     assert (noise.values[noise.start], samples.values[samples.start]) == (5, 80)
     assert (len(noise.values), samples.texts[-1]) == (31, "320")
-    shot = control.live(**control.arguments((5.0, 80)))
-    assert shot.alt.startswith("Noise 5.0 N·m, 80 samples: 2 standard errors [")
+    shot = control.live(**control.arguments((5, 80)))
+    assert shot.alt.startswith("Noise 5 N·m, 80 samples: 2 standard errors [")
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,21 @@
 """Shows an output where a student's code runs: in a notebook's cell, or as plain text elsewhere."""
 
+from html import escape
+
 from autograder.judging.passages import filled
 
 
 def say(sentence: str) -> None:
-    """Print it in lines that end between words; JupyterLab breaks a long one anywhere."""
-    print(filled(sentence, indent=0))
+    """Show it in lines that end between words.
+
+    A notebook would break what is printed anywhere, where its window is narrower than a line.
+    """
+    show(
+        {
+            "text/plain": filled(sentence, indent=0),
+            "text/html": f'<div class="armdyn-said" style="margin:0.4em 0.8em">{escape(sentence)}</div>',
+        }
+    )
 
 
 def show(bundle: dict[str, str]) -> None:

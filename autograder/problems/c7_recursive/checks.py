@@ -3,6 +3,8 @@
 The sweeps are those of a chain in space. The libraries are functions that a call hands in.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from autograder.judging.check import VISIBLE_CASES, Check, Criterion
@@ -11,16 +13,13 @@ from autograder.judging.quantities import UnfitError, each, one_number, vector
 from autograder.judging.section import Section
 from autograder.judging.terms import Term
 from autograder.problems.c7_recursive import libraries
+from autograder.problems.c7_recursive.chains import random_chain
 from autograder.problems.c7_recursive.counting import count
 from autograder.problems.c7_recursive.counting_mistakes import COUNT
-from autograder.problems.c7_recursive.library_mistakes import (
-    GRAVITY_SIGN,
-    TERMS,
-    gravity_sign,
-    terms,
-)
+from autograder.problems.c7_recursive.library_mistakes import TERMS, terms
 from autograder.problems.c7_recursive.mistakes import RNEA
-from autograder.problems.c7_recursive.sweeps import Sweeps, changed, random_chain, rnea
+from autograder.problems.c7_recursive.sign_mistakes import GRAVITY_SIGN, gravity_sign
+from autograder.problems.c7_recursive.sweeps import RIGHT, Sweeps
 from autograder.problems.material.systems import signed
 from autograder.protocol import Call
 
@@ -49,20 +48,12 @@ def _torques(call, value):
     return tuple(u if kind == k else NOTHING for k in range(4))
 
 
-def _without_gravity(chain):
-    return changed(chain, gravity=np.zeros(3))
-
-
+# Without all that two velocities make, and without friction.
+UNMOVED = Sweeps(twist=0.0, joint_centre=0.0, centre=0.0, gyro=0.0, friction=0.0)
 RNEA_TERMS = (
-    Term("gravity", lambda q, qd, qdd, chain: rnea(q, 0 * qd, 0 * qdd, chain)),
-    Term(
-        "the part of the accelerations",
-        lambda q, qd, qdd, chain: rnea(q, 0 * qd, qdd, _without_gravity(chain)),
-    ),
-    Term(
-        "C q̇",
-        lambda q, qd, qdd, chain: Sweeps(friction=0.0)(q, qd, 0 * qdd, _without_gravity(chain)),
-    ),
+    Term("gravity", replace(UNMOVED, own_turn=0.0)),
+    Term("the part of the accelerations", replace(UNMOVED, gravity=0.0)),
+    Term("C q̇", Sweeps(gravity=0.0, own_turn=0.0, friction=0.0)),
     Term("friction", lambda q, qd, qdd, chain: chain.viscous * qd),
 )
 
@@ -141,7 +132,7 @@ CHECKS = (
         id="c7-rnea",
         signature="rnea(q, qd, qdd, chain)",
         returns="u",
-        reference=rnea,
+        reference=RIGHT,
         calls=_rnea_calls,
         quantities=_torques,
         criteria=(

@@ -26,6 +26,10 @@ class _NotFromTheRight(Counted):
     __radd__ = __rsub__ = __rmul__ = _uncounted
 
 
+def _outwards(n: int) -> int:
+    return _of_both((outwards, outwards), n)[0]
+
+
 COUNT = (
     Mistake(
         "products only",
@@ -55,6 +59,11 @@ COUNT = (
         "Your second count includes the first one. When does your counter start again from zero?",
     ),
     Mistake(
+        "not set back, the sweeps first",
+        lambda n: (sum(count(n)), count(n)[1]),
+        "Your first count includes the second one. When does your counter start again from zero?",
+    ),
+    Mistake(
         "one link fewer",
         lambda n: count(n - 1),
         "Your counts are those of an arm with one link fewer. How long are the lists that you pass?",
@@ -72,8 +81,24 @@ COUNT = (
     ),
     Mistake(
         "without the outward sweep",
-        lambda n: tuple(total - _of_both((outwards, outwards), n)[0] for total in count(n)),
+        lambda n: tuple(total - _outwards(n) for total in count(n)),
         "Your counts leave out what both algorithms do first. What does outwards cost?",
+    ),
+    Mistake(
+        "direct sum without the outward sweep",
+        lambda n: (count(n)[0] - _outwards(n), count(n)[1]),
+        "Your count of the direct sum leaves out what it does first. What does outwards cost?",
+    ),
+    Mistake(
+        "inward sweep alone",
+        lambda n: (count(n)[0], count(n)[1] - _outwards(n)),
+        "Of the two sweeps you count the inward one alone. What does outwards cost?",
+    ),
+    Mistake(
+        "first sums of the direct sum",
+        lambda n: (count(n)[0] - n, count(n)[1]),
+        "Your count of the direct sum is short by one for each joint. total begins as 0.0: what does it "
+        "cost to add to it?",
     ),
     Mistake(
         "n times one link",
@@ -89,7 +114,7 @@ COUNT = (
     Mistake(
         "pairs without the link itself",
         lambda n: (
-            count(n)[0] - (count(1)[0] - _of_both((outwards, outwards), 1)[0]) * n,
+            count(n)[0] - (count(1)[0] - _outwards(1)) * n,
             count(n)[1],
         ),
         "In your direct sum no link counts for its own joint. Where does the inner loop begin?",

@@ -1,4 +1,4 @@
-"""Mistakes in what is asked of a library that has only rnea."""
+"""Mistakes in the terms that are asked of a library that has only rnea."""
 
 from collections.abc import Callable
 from types import SimpleNamespace
@@ -47,6 +47,26 @@ def _velocity_as_acceleration(library, q, qd):
     return of.M, 0 * of.c, of.g, of.M @ qd
 
 
+def _joint_by_joint(library, q, qd):
+    """C q̇ as a sum over joints of which one moves at a time."""
+    M, _, g, f = terms(library, q, qd)
+    return M, sum(parts(library, q, alone).c for alone in np.diag(qd)), g, f
+
+
+def _of_velocities(library, q):
+    """M of calls in which the unit vectors come where q̇ belongs."""
+    rest = np.zeros(len(q))
+    return np.column_stack([library(q, e, rest) - library(q, rest, rest) for e in np.eye(len(q))])
+
+
+def _velocity_in_M(library, q, qd):
+    return _of_velocities(library, q), *terms(library, q, qd)[1:]
+
+
+def _both_exchanged(library, q, qd):
+    return _of_velocities(library, q), *_velocity_as_acceleration(library, q, qd)[1:]
+
+
 GRAVITY_IN_M = (
     "Each column of your M holds a torque that is there without any acceleration. What does the "
     "library return for an arm that is held still?"
@@ -82,6 +102,18 @@ TERMS = (
         _but(M=lambda of: of.M + _column(of.c + of.f + of.g)),
         "Each column of your M holds all that the library adds to M q̈: ask at rest, and take away "
         "what is left without any acceleration.",
+    ),
+    Mistake(
+        "gravity twice from M",
+        _but(M=lambda of: of.M - _column(of.g)),
+        "Gravity is taken away twice from each column of your M. What do the two calls that you "
+        "subtract have in common already?",
+    ),
+    Mistake(
+        "unit velocities in M",
+        _velocity_in_M,
+        "Your M comes from unit velocities. In which order does the library take the velocity and the "
+        "acceleration?",
     ),
     Mistake(
         "M from one acceleration of all joints",
@@ -150,6 +182,30 @@ TERMS = (
         "and the acceleration?",
         claim=Claim.WHOLE,
     ),
+    Mistake(
+        "velocity and acceleration exchanged in all calls",
+        _both_exchanged,
+        "Your M comes from unit velocities, and your f is M times q̇. In which order does the library "
+        "take the velocity and the acceleration?",
+        claim=Claim.WHOLE,
+    ),
+    Mistake(
+        "gravity in motion, taken away everywhere",
+        _but(
+            M=lambda of: of.M - _column(of.c + of.f),
+            c=lambda of: -of.f,
+            g=lambda of: of.g + of.c + of.f,
+        ),
+        "Your gravity torque holds torques that come from q̇, and you take it away in the other terms. "
+        "With which velocity do you ask for it?",
+        claim=Claim.WHOLE,
+    ),
+    Mistake(
+        "C q̇ joint by joint",
+        _joint_by_joint,
+        "Your C q̇ is a sum over joints of which one moves at a time. Which products of two velocities "
+        "does no such call show?",
+    ),
     *(
         Mistake(f"in the order {name}", _but(**of), ORDER, claim=Claim.WHOLE)
         for name, of in {
@@ -174,87 +230,5 @@ TERMS = (
         "gravity in motion",
         _but(g=lambda of: of.g + of.c + of.f),
         "Your gravity torque holds torques that come from q̇. With which velocity do you ask for it?",
-    ),
-)
-
-
-def _torque(library, acceleration=0.0, joint=1, held=1.0):
-    """Of one joint, with the arm level; held: how often what holds the arm counts."""
-    rest = np.zeros(2)
-    return (
-        library(rest, rest, acceleration * np.ones(2))[joint]
-        - (1 - held) * library(rest, rest, rest)[joint]
-    )
-
-
-def _inertia(library) -> float:
-    return np.sign(_torque(library, 1.0, held=0.0))
-
-
-def gravity_sign(library) -> float:
-    """1 where gravity pulls down, −1 where it pulls up, 0 where there is none: the right answer."""
-    return np.sign(_torque(library)) * _inertia(library)
-
-
-ONE_SIGN = (
-    "Your function returns the same number for every library. Ask the library for a torque: which "
-    "joint of a level arm has a weight to hold?"
-)
-
-
-def _of_all(*rows) -> tuple[Mistake, ...]:
-    """Of three possible numbers those of one criterion may be a mistake's by chance."""
-    return tuple(Mistake(name, wrong, said, Claim.WHOLE) for name, wrong, said in rows)
-
-
-GRAVITY_SIGN = _of_all(
-    ("always 1", lambda library: 1, ONE_SIGN),
-    ("always −1", lambda library: -1, ONE_SIGN),
-    (
-        "joint 1",
-        lambda library: np.sign(_torque(library, joint=0)),
-        "Your number is 0 for every library. The axis of joint 1 is vertical: can it feel a weight?",
-    ),
-    (
-        "whose torque not asked",
-        lambda library: np.sign(_torque(library)),
-        "You take for granted that the library returns the torque of the motors. Some return the one "
-        "that the arm puts on them: which other call tells you?",
-    ),
-    (
-        "reversed",
-        lambda library: -gravity_sign(library),
-        "Your signs are all turned round. A level arm must be pushed up where gravity pulls down, and "
-        "up is where q2 grows.",
-    ),
-    (
-        "reversed, and whose torque not asked",
-        lambda library: -np.sign(_torque(library)),
-        "A level arm must be pushed up where gravity pulls down, and up is where q2 grows. And does "
-        "each library return the torque of the motors?",
-    ),
-    (
-        "nothing between",
-        lambda library: 1 if gravity_sign(library) > 0 else -1,
-        "Some libraries have no gravity at all, until it is set. What does your function return "
-        "for such a one?",
-    ),
-    (
-        "nothing between, and whose torque not asked",
-        lambda library: 1 if _torque(library) > 0 else -1,
-        "Some libraries have no gravity at all, and some return the torque that the arm puts on its "
-        "motors. What does your function return for each of these?",
-    ),
-    (
-        "asked with an acceleration",
-        lambda library: np.sign(_torque(library, acceleration=1.0)),
-        "You ask with an acceleration, and look at one torque: it mixes weight and inertia. Which call "
-        "has the weight alone?",
-    ),
-    (
-        "sign of the inertia",
-        _inertia,
-        "You return the sign of the inertia's torque. It says whose torque the library gives; what "
-        "does gravity add to it?",
     ),
 )

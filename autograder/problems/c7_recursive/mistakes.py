@@ -4,13 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from autograder.judging.diagnosis import Mistake
-from autograder.problems.c7_recursive.sweeps import (
+from autograder.problems.c7_recursive.axes_mistakes import AXES, rows
+from autograder.problems.c7_recursive.sweeps import Sweeps
+from autograder.problems.c7_recursive.wrong_sweeps import (
     AlwaysDown,
     FirstLeftOut,
     LastLeftOut,
     Reversed,
-    Sweeps,
 )
 
 # The chain of the notebook's set-up cell.
@@ -46,22 +46,9 @@ HANDED_DOWN = (
     "Your inward sweep loses something on its way to the base. A joint carries all links beyond "
     "it: which two things does the next link hand down?"
 )
-FRAMES = "into the frame of the next link, or of the link before"
-SIGN_OF_ANGLE = (
-    "You turn vectors the wrong way. Your rotation matrix takes a vector from one frame to another: "
-    "from which, and to which?"
-)
-NOT_TURNED = (
-    f"You hand vectors on without turning them {FRAMES}. In whose axes are the components of each "
-    "vector given?"
-)
-HANDED_ON = (
-    "You hand the {} on without turning it. In whose axes are its components given, and in whose do you "
-    "use them?"
-)
-NOT_WITH_THE_LINK = (
-    "A vector or matrix of the chain is given in the axes of its link, which have turned with it. You "
-    "use one of them as if its axes were still those of the base. "
+FOR_A_VELOCITY = (
+    "In your outward sweep the velocity of a point stands where its acceleration towards the axis "
+    "belongs. How does this velocity change while the link turns evenly?"
 )
 OFFSETS = (
     "You take a wrong place for the next joint. Which entry of offset says where joint k + 1 sits on "
@@ -73,11 +60,7 @@ CENTRE_FOR_JOINT = (
 )
 
 
-def _mistakes(*rows) -> tuple[Mistake, ...]:
-    return tuple(Mistake(name, wrong, sentence) for name, wrong, sentence in rows)
-
-
-RNEA = _mistakes(
+SWEEPS = rows(
     (
         "gravity missing",
         Sweeps(gravity=0.0),
@@ -120,6 +103,25 @@ RNEA = _mistakes(
     ("centripetal acceleration of the joint outwards", Sweeps(joint_centre=-1.0), OUTWARDS),
     ("centripetal acceleration of the centre outwards", Sweeps(centre=-1.0), OUTWARDS),
     ("centripetal acceleration outwards", Sweeps(joint_centre=-1.0, centre=-1.0), OUTWARDS),
+    ("velocity of the joint for its acceleration", Sweeps(joint_inwards="once"), FOR_A_VELOCITY),
+    ("velocity of the centre for its acceleration", Sweeps(inwards="once"), FOR_A_VELOCITY),
+    (
+        "velocities for accelerations",
+        Sweeps(joint_inwards="once", inwards="once"),
+        FOR_A_VELOCITY,
+    ),
+    (
+        "centripetal acceleration of the plane",
+        Sweeps(joint_inwards="plane", inwards="plane"),
+        "Your acceleration towards the axis is that of the plane, where r is at right angles to ω. In "
+        "space r also has a part along ω: how is a point accelerated that lies on the axis?",
+    ),
+    (
+        "next joint from the centre",
+        Sweeps(from_centre=True),
+        "In your outward sweep the acceleration of the next joint starts from that of the centre of "
+        "mass. From which point of the link does offset lead to the next joint?",
+    ),
     ("sign of the angular acceleration at the joint", Sweeps(joint_along=-1.0), ORDER_OF_ALONG),
     ("sign of the angular acceleration at the centre", Sweeps(along=-1.0), ORDER_OF_ALONG),
     ("sign of the angular acceleration", Sweeps(joint_along=-1.0, along=-1.0), ORDER_OF_ALONG),
@@ -150,6 +152,18 @@ RNEA = _mistakes(
     ("sign of the moment of the link's own force", Sweeps(lever=-1.0), ORDER_OF_MOMENT),
     ("sign of the moment of the next link's force", Sweeps(arm=-1.0), ORDER_OF_MOMENT),
     ("sign of both moments", Sweeps(lever=-1.0, arm=-1.0), ORDER_OF_MOMENT),
+    (
+        "centre as the arm of the whole force",
+        Sweeps(lever_of_all=True),
+        "You give the force that the next link hands down a second moment, as if it also pulled at "
+        "the centre of mass. Where does this force act, and where does the link's own?",
+    ),
+    (
+        "about the joint before",
+        Sweeps(about_before=True),
+        "The moment of which you take the motor's part is the one about the joint before. About which "
+        "point does motor k turn its links?",
+    ),
     ("force not handed down", Sweeps(force=0.0), HANDED_DOWN),
     ("torque not handed down", Sweeps(torque=0.0), HANDED_DOWN),
     ("nothing handed down", Sweeps(torque=0.0, arm=0.0), HANDED_DOWN),
@@ -192,42 +206,6 @@ RNEA = _mistakes(
         Sweeps(own_turn=0.0),
         "Your torques do not feel the joints' accelerations. Where does your outward sweep use qdd?",
     ),
-    ("turned the wrong way outwards", Sweeps(out=-1), SIGN_OF_ANGLE),
-    ("turned the wrong way inwards", Sweeps(back=-1), SIGN_OF_ANGLE),
-    ("turned the wrong way", Sweeps(out=-1, back=-1), SIGN_OF_ANGLE),
-    ("not turned outwards", Sweeps(out=0), NOT_TURNED),
-    ("not turned inwards", Sweeps(back=0), NOT_TURNED),
-    ("not turned", Sweeps(out=0, back=0), NOT_TURNED),
-    *(
-        (f"{vector} not turned", Sweeps(unturned=name), HANDED_ON.format(vector))
-        for name, vector in (
-            ("omega", "angular velocity"),
-            ("alpha", "angular acceleration"),
-            ("a", "acceleration of the joint"),
-            ("f", "force"),
-            ("t", "moment"),
-        )
-    ),
-    (
-        "inertia not turned",
-        Sweeps(in_base="I"),
-        f"{NOT_WITH_THE_LINK}It is a matrix: how is it turned?",
-    ),
-    (
-        "centre of mass not turned",
-        Sweeps(in_base="com"),
-        f"{NOT_WITH_THE_LINK}It says where a link's mass is.",
-    ),
-    (
-        "axis not turned",
-        Sweeps(in_base="axis"),
-        f"{NOT_WITH_THE_LINK}It says about which line a joint turns.",
-    ),
-    (
-        "offset not turned",
-        Sweeps(in_base="offset"),
-        f"{NOT_WITH_THE_LINK}It says where a joint sits, and its link is the one before.",
-    ),
     ("centre for the next joint outwards", Sweeps(joint_at="com"), CENTRE_FOR_JOINT),
     ("centre for the next joint inwards", Sweeps(arm_at="com"), CENTRE_FOR_JOINT),
     ("centre for the next joint", Sweeps(joint_at="com", arm_at="com"), CENTRE_FOR_JOINT),
@@ -236,9 +214,21 @@ RNEA = _mistakes(
     ("own offset", Sweeps(joint_at="before", arm_at="before"), OFFSETS),
     (
         "third component",
-        Sweeps(projected=False),
+        Sweeps(part="third"),
         "You take the third component of the moment at each joint. This is the motor's part only if "
         "the joint turns about its z axis. About which line does joint k turn?",
+    ),
+    (
+        "length of the moment",
+        Sweeps(part="length"),
+        "You take the length of the moment at each joint. Which part of it does the motor give, and "
+        "which the bearing?",
+    ),
+    (
+        "no part with the angular acceleration",
+        Sweeps(euler=0.0),
+        "Your Euler's equation has only the part that is left at constant angular velocity. What must "
+        "turn a link faster?",
     ),
     (
         "no rotational inertia",
@@ -274,3 +264,4 @@ RNEA = _mistakes(
         "torque first: where in the result does it belong?",
     ),
 )
+RNEA = (*SWEEPS, *AXES)

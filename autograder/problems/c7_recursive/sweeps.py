@@ -42,11 +42,19 @@ class Sweeps:
     ω × I ω. lever: a link's force about its joint. parallel: the inertia carried over to the joint.
     torque, force: what the next link hands down; arm: its force about this joint.
 
-    projected: onto the joint's axis, or else the third component. out, back: whether vectors are turned
-    into the next link's axes and back; −1 turns them the wrong way. in_base: the entry of the chain that
-    is used as if its axes were the base's. joint_at, arm_at: what is taken for the next joint's place,
-    outwards and inwards: "offset", "com", or "before", which is the joint before it. unturned: the one
-    vector that is handed on as it is: "omega", "alpha", "a", "f" or "t".
+    part: of the moment that the motor gives: "axis", or "third" component, or "length". about_before: it
+    is that about the joint before. out, back: whether vectors are turned into the next link's axes and
+    back; −1 turns them the wrong way. back_by: the joint by whose angle they are turned back, "next" or
+    "own". in_base: the entry of the chain that is used as if its axes were the base's. joint_at, arm_at:
+    what is taken for the next joint's place, outwards and inwards: "offset", "com", or that of the joint
+    "before" it. own_axes_out, own_axes_in: that place is used as if it were given in the axes of
+    the next link itself. rates: whose angular velocity and acceleration carry the joint: those of the
+    link "before", or its "own", or these as if their "axes" were that link's. twist_early: what the
+    turning of the axis adds is formed with ω in the axes of the link before. from_centre: the next
+    joint's acceleration starts from that of the centre of mass. joint_inwards, inwards: the acceleration
+    towards the axis, of the joint and of the centre: "cross" is ω × (ω × r), "once" ω × r, "plane"
+    −ω² r. lever_of_all: the centre of mass is the arm of the whole force. unturned, backward: the one
+    vector that is handed on as it is, or turned the wrong way: "omega", "alpha", "a", "f", "t", "down".
     """
 
     gravity: float = 1.0
@@ -67,13 +75,24 @@ class Sweeps:
     force: float = 1.0
     arm: float = 1.0
     friction: float = 1.0
-    projected: bool = True
+    part: str = "axis"
+    about_before: bool = False
     out: int = 1
     back: int = 1
+    back_by: str = "next"
     in_base: str = ""
     joint_at: str = "offset"
     arm_at: str = "offset"
+    own_axes_out: bool = False
+    own_axes_in: bool = False
+    rates: str = "before"
+    twist_early: bool = False
+    from_centre: bool = False
+    joint_inwards: str = "cross"
+    inwards: str = "cross"
+    lever_of_all: bool = False
     unturned: str = ""
+    backward: str = ""
 
     def __call__(self, q, qd, qdd, chain) -> np.ndarray:
         """Of one chain, or with a leading axis of as many as there are."""
@@ -84,18 +103,30 @@ class Sweeps:
         omega, alpha = np.zeros_like(a), np.zeros_like(a)
         forces, torques = [], []
         for k in range(n):
-            # Of the joint, still in the axes of the link before.
             r, out = _place(own, k, self.joint_at), _turned(_transposed(R[k]), self.out)
-            a = a + self.joint_along * cross(alpha, r) + self.joint_centre * _inwards(omega, r)
+            if self.rates == "before" and not self.own_axes_out:
+                a = a + self._from_joint(omega, alpha, r)  # in the axes of the link before
+            early = omega
             omega, alpha = self._handed("omega", out, omega), self._handed("alpha", out, alpha)
-            a, down = self._handed("a", out, a), np.matvec(out, down)
+            a, down = self._handed("a", out, a), self._handed("down", out, down)
+            if self.rates == "before" and self.own_axes_out:
+                a = a + self._from_joint(omega, alpha, r)
             axis, c, m = own.axis[..., k, :], own.com[..., k, :], chain.m[..., k, np.newaxis]
             joint = axis * qd[..., k, np.newaxis]
-            alpha = self.turn * alpha + self.twist * cross(omega, joint)
+            turning = cross(early if self.twist_early else omega, joint)
+            alpha = self.turn * alpha + self.twist * turning
             alpha = alpha + self.own_turn * axis * qdd[..., k, np.newaxis]
             omega = self.spin * omega + joint
-            of_centre = a + self.along * cross(alpha, c) + self.centre * _inwards(omega, c)
+            if self.rates == "own":
+                turned = r if self.own_axes_out else np.matvec(out, r)
+                a = a + self._from_joint(omega, alpha, turned)
+            elif self.rates == "axes":
+                a = a + np.matvec(out, self._from_joint(omega, alpha, r))
+            towards = _inwards(omega, c, self.inwards)
+            of_centre = a + self.along * cross(alpha, c) + self.centre * towards
             F = m * of_centre - self.weight * m * down
+            if self.from_centre:
+                a = of_centre
             I = own.I[..., k, :, :]
             if self.parallel:
                 I = I + self.parallel * m[..., np.newaxis] * _of_point(c)
@@ -107,31 +138,50 @@ class Sweeps:
         f, t = np.zeros_like(a), np.zeros_like(a)
         for k in reversed(range(n)):
             if k + 1 < n:
-                back = _turned(R[k + 1], self.back)
-                f, t = self._handed("f", back, f), self._handed("t", back, t)
-                r = _place(own, k + 1, self.arm_at)
-                t = self.torque * t + self.arm * cross(r, f)
+                back = _turned(R[k + 1 if self.back_by == "next" else k], self.back)
+                f, t = self._handed_down(f, t, back, _place(own, k + 1, self.arm_at))
+                if self.lever_of_all:
+                    t = t + cross(own.com[..., k, :], f)
             f, t = forces[k] + self.force * f, torques[k] + t
-            u[..., k] += np.vecdot(own.axis[..., k, :], t) if self.projected else t[..., 2]
+            felt = t
+            if self.about_before:
+                _, felt = self._handed_down(f, t, R[k], _place(own, k, self.arm_at))
+            u[..., k] += self._given(own.axis[..., k, :], felt)
         return u
 
+    def _from_joint(self, omega, alpha, r) -> np.ndarray:
+        """What the turning adds to the acceleration of a joint at r on the link."""
+        towards = _inwards(omega, r, self.joint_inwards)
+        return self.joint_along * cross(alpha, r) + self.joint_centre * towards
+
+    def _handed_down(self, f, t, back, r) -> tuple[np.ndarray, np.ndarray]:
+        """The force, and the moment about the joint of the link before, from which the next is at r."""
+        early = cross(r, f)
+        f, t = self._handed("f", back, f), self._handed("t", back, t)
+        moment = np.matvec(back, early) if self.own_axes_in else cross(r, f)
+        return f, self.torque * t + self.arm * moment
+
+    def _given(self, axis, t) -> np.ndarray:
+        """The motor's part of the moment."""
+        if self.part == "third":
+            return t[..., 2]
+        return np.vecdot(axis, t) if self.part == "axis" else np.linalg.norm(t, axis=-1)
+
     def for_calls(self, calls: list[Call]) -> list[np.ndarray]:
-        """What it returns for each call: those with chains of one length at once."""
-        found: list = [None] * len(calls)
+        """What it returns for each call, all at once: behind a short chain hang links without mass."""
         lengths = [len(call.args[0]) for call in calls]
-        for n in set(lengths):
-            places = [place for place, length in enumerate(lengths) if length == n]
-            *states, chains = zip(*(calls[place].args for place in places), strict=True)
-            names = vars(chains[0])
-            together = {name: np.stack([getattr(c, name) for c in chains]) for name in names}
-            q, qd, qdd = map(np.stack, states)
-            values = self(q, qd, qdd, SimpleNamespace(**together))
-            for place, value in zip(places, values, strict=True):
-                found[place] = value
-        return found
+        *states, chains = zip(*(call.args for call in calls), strict=True)
+        n, of_links = max(lengths), [name for name in vars(chains[0]) if name != "gravity"]
+        together = {name: _filled([vars(c)[name] for c in chains], n) for name in of_links}
+        together["gravity"] = np.array([chain.gravity for chain in chains], dtype=float)
+        q, qd, qdd = (_filled(part, n) for part in states)
+        values = self(q, qd, qdd, SimpleNamespace(**together))
+        return [value[:own] for value, own in zip(values, lengths, strict=True)]
 
     def _handed(self, name: str, turn, v) -> np.ndarray:
-        return v if name == self.unturned else np.matvec(turn, v)
+        if name == self.unturned:
+            return v
+        return np.matvec(_transposed(turn) if name == self.backward else turn, v)
 
     def _own(self, chain, R) -> SimpleNamespace:
         """The chain, or with one entry as it is where its axes are taken for the base's."""
@@ -158,8 +208,20 @@ def _turned(R, way: int) -> np.ndarray:
     return R if way == 1 else _transposed(R) if way == -1 else np.eye(3)
 
 
-def _inwards(omega, r) -> np.ndarray:
-    return cross(omega, cross(omega, r))
+def _filled(values, n: int) -> np.ndarray:
+    """Those of several chains, each with zeros up to n joints."""
+    found = np.zeros((len(values), n, *np.shape(values[0])[1:]))
+    for place, value in enumerate(values):
+        found[place, : len(value)] = value
+    return found
+
+
+def _inwards(omega, r, form: str) -> np.ndarray:
+    """The acceleration towards the axis, in the form that `Sweeps` names."""
+    if form == "plane":
+        return -np.vecdot(omega, omega)[..., np.newaxis] * r
+    once = cross(omega, r)
+    return once if form == "once" else cross(omega, once)
 
 
 def _of_point(c) -> np.ndarray:
@@ -179,83 +241,6 @@ def _place(chain, k: int, at: str) -> np.ndarray:
 RIGHT = Sweeps()
 
 
-def rnea(q, qd, qdd, chain) -> np.ndarray:
-    """The torques, (n,), N·m: the right answer."""
-    return RIGHT(q, qd, qdd, chain)
-
-
 def changed(chain, **entries) -> SimpleNamespace:
     """The chain with other entries."""
     return SimpleNamespace(**vars(chain) | entries)
-
-
-@dataclass(frozen=True)
-class AlwaysDown(Sweeps):
-    """Gravity of Earth along −z, also where there is none."""
-
-    def __call__(self, q, qd, qdd, chain):
-        down = np.full_like(chain.gravity, [0.0, 0.0, -9.81])
-        return super().__call__(q, qd, qdd, changed(chain, gravity=down))
-
-
-@dataclass(frozen=True)
-class FirstLeftOut(Sweeps):
-    """Nothing at the first joint."""
-
-    def __call__(self, q, qd, qdd, chain):
-        u = super().__call__(q, qd, qdd, chain)
-        u[..., 0] = 0.0
-        return u
-
-
-@dataclass(frozen=True)
-class LastLeftOut(Sweeps):
-    """Nothing of the last link."""
-
-    def __call__(self, q, qd, qdd, chain):
-        left = {name: np.array(getattr(chain, name)) for name in ("m", "I", "viscous")}
-        left["m"][..., -1] = left["viscous"][..., -1] = 0.0
-        left["I"][..., -1, :, :] = 0.0
-        return super().__call__(q, qd, qdd, changed(chain, **left))
-
-
-@dataclass(frozen=True)
-class Reversed(Sweeps):
-    """The torques from the tip to the base."""
-
-    def __call__(self, q, qd, qdd, chain):
-        return super().__call__(q, qd, qdd, chain)[..., ::-1]
-
-
-def random_chain(rng: np.random.Generator, n: int, gravity: bool) -> SimpleNamespace:
-    """A chain of n links whose joints point anywhere, with inertias that a body can have."""
-    down = -rng.uniform(4.0, 12.0) * _direction(rng) if gravity else np.zeros(3)
-    com = np.array([rng.uniform(0.15, 0.4) * _direction(rng) for _ in range(n)])
-    m = rng.uniform(1.0, 3.0, n)
-    return SimpleNamespace(
-        axis=np.array([_direction(rng) for _ in range(n)]),
-        offset=np.array([rng.uniform(0.3, 0.7) * _direction(rng) for _ in range(n)]),
-        m=m,
-        com=com,
-        I=np.array([_inertia(rng, mass * (c @ c)) for mass, c in zip(m, com, strict=True)]),
-        viscous=rng.uniform(0.2, 1.0, n),
-        gravity=down,
-    )
-
-
-def _direction(rng) -> np.ndarray:
-    """A unit vector of which no component is small."""
-    while True:
-        v = rng.normal(size=3)
-        v /= np.linalg.norm(v)
-        if np.min(np.abs(v)) > 0.2:
-            return v
-
-
-def _inertia(rng, size: float) -> np.ndarray:
-    """About the centre of mass: three different principal moments, none above the sum of the others."""
-    spread = size * rng.permutation([0.3, 0.7, 1.2]) * rng.uniform(0.8, 1.2, 3)
-    moments = np.sum(spread) - spread
-    turn = rotation(_direction(rng), rng.uniform(0.5, 2.5))
-    I = turn @ np.diag(moments) @ turn.T
-    return (I + I.T) / 2

@@ -84,7 +84,8 @@ def lines_of(models) -> set[str]:
     found = set()
     for model in models:
         source = getattr(model, "func", model)
-        if inspect.isfunction(source) and source.__module__.startswith("autograder.problems"):
+        source = source if inspect.isfunction(source) else type(source)  # with its __call__
+        if source.__module__.startswith("autograder.problems"):
             found |= {flat(line) for line in inspect.getsource(source).splitlines()[1:]}
     return {
         line for line in found if (len(line) >= LONG and "=" in line) or line.startswith("return")

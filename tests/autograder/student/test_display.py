@@ -5,6 +5,8 @@ import io
 
 from hypothesis import given
 from hypothesis import strategies as st
+from IPython.core.interactiveshell import InteractiveShell
+from IPython.utils.capture import capture_output
 
 from autograder.student.display import say
 
@@ -18,3 +20,19 @@ def test_a_line_ends_between_words(words):
     lines = printed.getvalue().splitlines()
     assert " ".join(lines) == " ".join(words)
     assert max(map(len, lines)) <= 78
+
+
+def test_in_a_notebook_the_window_breaks_the_lines(monkeypatch):
+    """What is printed there would break within words where the window is narrow."""
+    monkeypatch.setattr(InteractiveShell, "_instance", None)
+    InteractiveShell.instance()
+    try:
+        with capture_output() as shown:
+            say("The check took q < 0, & no name. " + 30 * "word ")
+    finally:
+        InteractiveShell.clear_instance()
+    (output,) = shown.outputs
+    assert shown.stdout == ""
+    assert "q &lt; 0, &amp; no name" in output.data["text/html"]
+    assert "\n" not in output.data["text/html"]
+    assert output.data["text/plain"].startswith("The check took q < 0, & no name.")

@@ -136,7 +136,7 @@ def formulas() -> set[str]:
     sides = set()
     for model in models:
         try:
-            source = inspect.getsource(model)
+            source = inspect.getsource(model if inspect.isfunction(model) else type(model))
         except OSError:
             continue
         for line in source.splitlines():

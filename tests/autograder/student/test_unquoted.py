@@ -28,7 +28,7 @@ def shell(monkeypatch):
 def said(shell, cell: str) -> str:
     with capture_output() as shown:
         shell.run_cell(cell)
-    return shown.stdout
+    return shown.stdout + "".join(output.data["text/plain"] for output in shown.outputs)
 
 
 @pytest.mark.parametrize("letter", ["a", "B"])

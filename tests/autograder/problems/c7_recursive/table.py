@@ -136,6 +136,26 @@ CENTRE_IN = ("cross(chain.offset[k], f)", "cross(chain.com[k - 1], f)")
 OWN_OUT = (PLACE, "r, c, m, I = chain.axis[k], chain.offset[k - 1 if k else 0],")
 OWN_IN = ("cross(chain.offset[k], f)", "cross(chain.offset[k - 1], f)")
 
+CROSS_C, CROSS_R = "cross(w, cross(w, c))", "cross(w, cross(w, r))"
+RATE = "w = w + z * qd[k]\n"
+
+
+def late(line):
+    """The acceleration of the joint, once its link has its rates."""
+    return rnea(f"    {OUT}\n", "", RATE, f"{RATE}    {line}\n")
+
+
+AT_JOINT = f"cross(wd, r) + {CROSS_R}"
+SHARE = "    u[k] = chain.axis[k] @ t + chain.viscous[k] * qd[k]\n"
+TURNED_FIRST = rnea(f"    {OUT}\n", "", OUT_2, f"{OUT_2}\n    a = R[k].T @ a + {AT_JOINT}")
+OWN_AXES_IN = (f"    {BACK}\n    {DOWN}", f"    {DOWN}    {BACK}\n")
+# What the next link hands down is turned where it is used.
+OWN_ANGLE = rnea(
+    f"    {BACK}\n    {DOWN}", "", "    t = t + N[k]", f"    {BACK}\n    t = t + N[k]",
+    LEVER, f"{LEVER} + (cross(chain.offset[k + 1], f) if k < n - 1 else 0)",
+)  # fmt: skip
+OWN_AGAIN = ("(cross(chain.offset[k + 1], f) if k < n - 1 else 0)", "cross(chain.offset[k], f)")
+
 TABLE = {
     "c7-rnea": [
         ("gravity missing", rnea("-chain.gravity", "np.zeros(3)"), 0.5),
@@ -278,6 +298,77 @@ TABLE = {
         ("own offset", rnea(*OWN_OUT, *OWN_IN), 0),
         ("third component", rnea("chain.axis[k] @ t", "t[2]"), 0),
         ("no rotational inertia", rnea("N.append(", "N.append(0 * (", CARRIED, f"{CARRIED})"), 0.2),
+        ("velocity of the joint for its acceleration", rnea(CROSS_R, "cross(w, r)"), 0.45),
+        ("velocity of the centre for its acceleration", rnea(CROSS_C, "cross(w, c)"), 0.45),
+        (
+            "velocities for accelerations",
+            rnea(CROSS_R, "cross(w, r)", CROSS_C, "cross(w, c)"),
+            0.45,
+        ),
+        (
+            "centripetal acceleration of the plane",
+            rnea(CROSS_R, "-(w @ w) * r", CROSS_C, "-(w @ w) * c"),
+            0.45,
+        ),
+        (
+            "next joint from the centre",
+            rnea("F.append(m * ac)", "a = ac\n    F.append(m * a)"),
+            0.2,
+        ),
+        (
+            "centre as the arm of the whole force",
+            rnea(
+                "    f = f + F[k]\n",
+                "",
+                "t = t + N",
+                "f = f + F[k]\n    t = t + N",
+                "F[k])\n    u",
+                "f)\n    u",
+            ),
+            0,
+        ),
+        (
+            "about the joint before",
+            rnea(SHARE, "", DOWN, DOWN + SHARE),
+            0,
+        ),
+        ("length of the moment", rnea("chain.axis[k] @ t", "np.linalg.norm(t)"), 0),
+        ("no part with the angular acceleration", rnea("I @ wd + ", ""), 0.2),
+        ("angular velocity turned the wrong way", rnea("R[k].T @ w,", "R[k] @ w,"), 0.45),
+        ("angular acceleration turned the wrong way", rnea("R[k].T @ wd", "R[k] @ wd"), 0.2),
+        (
+            "acceleration of the joint turned the wrong way",
+            rnea("a = R[k].T @ (a", "a = R[k] @ (a"),
+            0,
+        ),
+        ("force turned the wrong way", rnea("R[k] @ f", "R[k].T @ f"), 0),
+        ("moment turned the wrong way", rnea("R[k] @ t", "R[k].T @ t"), 0),
+        (
+            "weight not turned",
+            rnea("-chain.gravity", "np.zeros(3)", "m * ac", "m * (ac - chain.gravity)"),
+            0.5,
+        ),
+        ("offset in the axes of its own link outwards", TURNED_FIRST, 0.2),
+        ("offset in the axes of its own link inwards", rnea(*OWN_AXES_IN), 0),
+        ("offset in the axes of its own link", but(TURNED_FIRST, *OWN_AXES_IN), 0),
+        (
+            "joint carried by its own rates",
+            late(f"r = R[k].T @ r; a = R[k].T @ a + {AT_JOINT}"),
+            0.2,
+        ),
+        (
+            "joint carried by its own rates, offset as it is",
+            late(f"a = R[k].T @ a + {AT_JOINT}"),
+            0.2,
+        ),
+        ("joint carried by its own rates, then turned", late(OUT), 0.2),
+        (
+            "turning of the axis with two kinds of axes",
+            rnea(OUT_2, "wd = R[k].T @ wd", RATE, "w = R[k].T @ w + z * qd[k]\n"),
+            0.45,
+        ),
+        ("own angle inwards", OWN_ANGLE, 0),
+        ("own angle and offset inwards", but(OWN_ANGLE, *OWN_AGAIN), 0),
         ("friction missing", rnea(" + chain.viscous[k] * qd[k]", ""), 0.45),
         ("sign of friction", rnea("+ chain.viscous", "- chain.viscous"), 0.45),
         ("first joint left out", rnea("range(n - 1, -1, -1)", "range(n - 1, 0, -1)"), 0),
@@ -340,6 +431,33 @@ TABLE = {
             ),
             0.5,
         ),
+        (
+            "gravity twice from M",
+            terms("library(q, o, e) - g", "library(q, qd, e) - library(q, qd, o) - g"),
+            0.7,
+        ),
+        ("unit velocities in M", terms("library(q, o, e)", "library(q, e, o)"), 0.7),
+        (
+            "velocity and acceleration exchanged in all calls",
+            terms(
+                "o = 0 * q", "o, given = 0 * q, library\nlibrary = lambda q, v, a: given(q, a, v)"
+            ),
+            0.2,
+        ),
+        (
+            "gravity in motion, taken away everywhere",
+            terms("g = library(q, o, o)", "g = library(q, qd, o)"),
+            0.2,
+        ),
+        (
+            "C q̇ joint by joint",
+            terms(
+                "return M, c",
+                "b = lambda v: library(q, v, o) - g\n"
+                "each = [(b(v) + b(-v)) / 2 for v in np.diag(qd)]\nreturn M, sum(each)",
+            ),
+            0.7,
+        ),
         ("in the order g, C q̇, f", terms("M, c, g, f", "M, g, c, f"), 0.5),
         ("in the order C q̇, f, g", terms("M, c, g, f", "M, c, f, g"), 0.6),
         ("in the order g, f, C q̇", terms("M, c, g, f", "M, g, f, c"), 0.3),
@@ -385,6 +503,14 @@ TABLE = {
         ("without subtractions", count('+-*"\na', '+*"\na'), 0),
         ("exchanged", count("return a, b", "return b, a"), 0),
         ("not set back", count("return a, b", "return a, a + b"), 0.5),
+        ("not set back, the sweeps first", count("return a, b", "return a + b, b"), 0.5),
+        (
+            "direct sum without the outward sweep",
+            count("return a, b", "return a - 24 * n, b"),
+            0.5,
+        ),
+        ("inward sweep alone", count("return a, b", "return a, b - 24 * n"), 0.5),
+        ("first sums of the direct sum", count("return a, b", "return a - n, b"), 0.5),
         ("one link fewer", count("kinds =", "n, kinds = n - 1,"), 0),
         ("one link more", count("kinds =", "n, kinds = n + 1,"), 0),
         (

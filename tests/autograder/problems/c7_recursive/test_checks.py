@@ -10,14 +10,16 @@ from autograder.judging.check import VISIBLE_CASES
 from autograder.problems import CHECKS
 from autograder.problems.c7_recursive import counting, libraries
 from autograder.problems.c7_recursive.checks import ASKED, MAKERS
-from autograder.problems.c7_recursive.library_mistakes import gravity_sign, parts
+from autograder.problems.c7_recursive.library_mistakes import parts
 from autograder.problems.c7_recursive.mistakes import EXAMPLE
-from autograder.problems.c7_recursive.sweeps import rnea
+from autograder.problems.c7_recursive.sign_mistakes import gravity_sign
+from autograder.problems.c7_recursive.sweeps import Sweeps
 from autograder.protocol import real
 from tests.autograder.course_problems import problem
 from tests.autograder.problems.c7_recursive.right import RIGHT
+from tests.autograder.problems.c7_recursive.table import AT_JOINT, CROSS_C, CROSS_R, late
 from tests.autograder.problems.c7_recursive.table import rnea as body_with
-from tests.autograder.verdicts import judged, judged_in, namespace_of
+from tests.autograder.verdicts import judged, judged_in, namespace_of, sentences
 from tests.submissions.answers import cell_of
 
 PROBLEM = problem("c7-recursive")
@@ -47,9 +49,39 @@ def test_the_sweeps_agree_with_M_C_g_and_f_of_the_library(seed):
         q, qd, qdd, chain = call.args
         model = of_the_library(chain)
         u = model.M(q) @ qdd + model.C(q, qd) @ qd + model.g_vec(q) + model.f_vec(qd)
-        np.testing.assert_allclose(rnea(*call.args), u, rtol=1e-10, atol=1e-10)
+        np.testing.assert_allclose(Sweeps()(*call.args), u, rtol=1e-10, atol=1e-10)
         lengths.add(len(q))
     assert lengths == {2, 3, 4}
+
+
+def test_many_chains_at_once_give_what_each_gives_alone():
+    """Of different lengths, for the right sweeps and for every mistake."""
+    calls = CHECKS["c7-rnea"].calls(np.random.default_rng(2), 12)[3::4]
+    assert [len(call.args[0]) for call in calls] == [2, 3, 4]
+    for mistake in CHECKS["c7-rnea"].mistakes:
+        for call, u in zip(calls, mistake.wrong.for_calls(calls), strict=True):
+            alone = mistake.wrong(*call.args)
+            np.testing.assert_allclose(u, alone, rtol=1e-12, atol=1e-12, err_msg=mistake.name)
+
+
+# Each is near a mistake, and is not it.
+NEIGHBOURS = {
+    "centripetal acceleration of the plane": body_with(CROSS_C, "-w**2 * c", CROSS_R, "-w**2 * r"),
+    "turning of the axis with two kinds of axes": body_with("cross(w, z", "2 * cross(w, z"),
+    "next joint from the centre": body_with("F.append(m * ac)", "a = ac / 2\n    F.append(m * ac)"),
+    "centre as the arm of the whole force": body_with(
+        "cross(chain.com[k], F", "cross(2 * chain.com[k], F"
+    ),
+    "joint carried by its own rates": late(f"a = R[k].T @ a + R[k] @ ({AT_JOINT})"),
+    "length of the moment": body_with("chain.axis[k] @ t", "np.sum(np.abs(t))"),
+}
+
+
+@pytest.mark.parametrize("name", NEIGHBOURS)
+def test_what_is_only_near_a_mistake_is_not_called_so(name):
+    found = judged("c7-rnea", NEIGHBOURS[name]).diagnosis
+    (sentence,) = sentences("c7-rnea", name)
+    assert not [said for said in found if sentence in said]
 
 
 def test_each_part_is_asked_for_by_itself():
