@@ -77,7 +77,7 @@ async function list() {
       element("th", { scope: "row" }, link(`mark/${where}`, element("span", { html: one.title }))),
       element("td", {}, one.assignment),
       element("td", { className: "number" }, `${one.answers}`),
-      element("td", { className: "number left" }, one.left ? `${one.left}` : "none"),
+      element("td", { className: "number left" }, one.left ? `${one.left}` : one.answers ? "none" : ""),
       element("td", { className: "number" }, one.blank ? `${one.blank}` : ""),
       element("td", {}, one.second ? "" : link(`apart/${where}`, apart || "compare")));
   });
@@ -94,7 +94,8 @@ async function marking(assignment, cell, wanted, unsaved = "") {
   const proof = await get("proof", { assignment, cell });
   const isLeft = (one) => one.state !== "marked";
   if (!proof.papers.length) {
-    page.replaceChildren(link("", "All answers"), element("p", {}, "Nobody has written anything here yet."));
+    page.replaceChildren(link("", "All answers"), element("p", {},
+      `There is nothing to read: nobody has written anything here, or “autograder grade ${assignment}” has not run yet.`));
     return;
   }
   const found = proof.papers.findIndex((one) => one.id === wanted);
