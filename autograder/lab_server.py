@@ -119,9 +119,11 @@ def _load_jupyter_server_extension(server: ServerApp) -> None:
     """Jupyter calls this, and before nbgrader's: the first that serves an address is asked."""
     course = course_of(Path(server.root_dir).resolve())
     if course is not None and (course / "nbgrader_config.py").is_file():
+        from autograder.nbgrader_glue import people_shown
         from autograder.nbgrader_glue.buttons import show_in_words
 
         show_in_words(server)
+        people_shown.serve(server.web_app, server.base_url)
     if course is not None:
         # This takes a second, which is not always needed.
         from autograder.nbgrader_glue import environment, validating

@@ -25,6 +25,8 @@ def asked_rows(given: object, rows: Sequence[Row]) -> list[Met]:
 
 def asked_points(total: object, most: float, rows: list[Met]) -> float:
     """Points for the whole answer: the given total, or without one the sum of the rows."""
+    if total is None and not rows:
+        raise AskedError("Type the points for the whole answer first.")
     if total is None:
         total = round(sum(row.given for row in rows), 2)
     return _number(total, most, "The whole answer")

@@ -84,7 +84,7 @@ class Desk:
             "comment": comment,
             "state": state,
             "student": self._named(paper) if self._names else "",
-            "version": self._version(paper, entry),
+            "version": self._version(paper, entry, written.content),
         }
 
     def save(self, said: dict) -> dict:
@@ -92,11 +92,10 @@ class Desk:
 
         AskedError if something is no number, or too much. ChangedError unless `version` is the answer's.
         """
-        proof, paper = self._asked(said)
+        proof, paper, content = self._read(said)
         rows = asked_rows(said.get("given"), proof.rubric.rows)
         points = asked_points(said.get("total"), proof.rubric.points, rows)
         comment = asked_comment(said.get("comment"))
-        content = self._book.content(proof, paper.student)
         when = datetime.now(UTC).isoformat(timespec="seconds")
         given = Given(tuple(rows), points, comment, content, when)
         if not self._second:
@@ -113,7 +112,7 @@ class Desk:
 
     def take_back(self, said: dict) -> dict:
         """Put an answer back to those to be marked."""
-        proof, paper = self._asked(said)
+        proof, paper, _ = self._read(said)
         if not self._second:
             self._book.record(proof, paper.student, None, paper.comment)
         self._kept.change(
@@ -158,12 +157,12 @@ class Desk:
 
     def choose(self, said: dict) -> dict:
         """Let the first or the second marker's points count, or others."""
-        proof, paper = self._asked(said)
-        entry = self._kept.of(proof.assignment, proof.cell).get(paper.student, {})
+        proof, paper, entry = self._asked(said)
         if self._second or SECOND not in entry or paper.points is None:
             raise AskedError(
                 "There is nothing to choose: two people have to mark the answer first."
             )
+        self._refuse_unless_seen(said, paper, entry)
         mine, theirs = self._first(paper, entry), entry[SECOND]
         if (which := said.get("which")) not in (FIRST, SECOND, "other"):
             raise AskedError("Choose the first points, the second, or give others.")
@@ -203,23 +202,37 @@ class Desk:
                 return proof, paper
         raise AskedError("This submission is no longer in the gradebook: go back to the list.")
 
-    def _asked(self, said: dict) -> tuple[Proof, Paper]:
-        """The answer that a request is about. ChangedError unless it is as the marker saw it."""
+    def _asked(self, said: dict) -> tuple[Proof, Paper, Entry]:
+        """The answer that a request is about, and what is kept of it."""
         wanted = (str(said.get(name)) for name in ("assignment", "cell", "id"))
         proof, paper = self._paper(*wanted)
-        entry = self._kept.of(proof.assignment, proof.cell).get(paper.student, {})
-        if said.get("version") != self._version(paper, entry):
+        return proof, paper, self._kept.of(proof.assignment, proof.cell).get(paper.student, {})
+
+    def _read(self, said: dict) -> tuple[Proof, Paper, str]:
+        """The answer that a request is about, and a name for its content. ChangedError unless it is the
+        one that the marker has read.
+        """
+        proof, paper, entry = self._asked(said)
+        content = self._book.content(proof, paper.student)
+        self._refuse_unless_seen(said, paper, entry, content)
+        return proof, paper, content
+
+    def _refuse_unless_seen(
+        self, said: dict, paper: Paper, entry: Entry, content: str = ""
+    ) -> None:
+        """ChangedError unless the answer is as the marker saw it."""
+        if said.get("version") != self._version(paper, entry, content):
             raise ChangedError(
-                "Somebody has marked this answer since you opened it, here or in the Formgrader. "
-                "Open it again to see what it has now; nothing was saved."
+                "Since you opened this answer, somebody has marked it, here or in the Formgrader, or it "
+                "was handed in again. Open it again to see what it has now; nothing was saved."
             )
-        return proof, paper
 
     def _told(self, proof: Proof, paper: Paper) -> dict:
         """What the page needs after a change."""
         _, paper = self._paper(proof.assignment, proof.cell, paper.id)
         entry = self._kept.of(proof.assignment, proof.cell).get(paper.student, {})
-        told = {"state": self._state(paper, entry), "version": self._version(paper, entry)}
+        content = self._book.content(proof, paper.student)
+        told = {"state": self._state(paper, entry), "version": self._version(paper, entry, content)}
         return told | {"comments": self._comments(proof)}
 
     def _in_order(self, proof: Proof) -> list[tuple[Paper, str]]:
@@ -272,9 +285,10 @@ class Desk:
         parts = Counter(part.strip() for text in texts for part in text.split("\n\n"))
         return [text for text, _ in parts.most_common() if text][:MOST_COMMENTS]
 
-    def _version(self, paper: Paper, entry: Entry) -> str:
+    def _version(self, paper: Paper, entry: Entry, content: str = "") -> str:
+        """content: a name for it, where the marker has the answer itself in view."""
         seen = (entry.get(SECOND),) if self._second else (paper, entry)
-        return digest(repr(seen))
+        return digest(repr((seen, content)))
 
     def _named(self, paper: Paper) -> str:
         return self._book.called(paper.student)

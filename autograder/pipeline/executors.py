@@ -168,7 +168,7 @@ class Cluster:
         except TypeError as error:  # what Dask raises where its settings name no certificate
             raise ValueError(
                 f"{address} asks for a certificate, and Dask's settings name none; "
-                "docs/class-server.md says how to make one"
+                "docs/workers.md says how to make one"
             ) from error
         self._executor = self._client.get_executor(pure=False)
 

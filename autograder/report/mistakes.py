@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from autograder.judging.claims import as_written
-from autograder.problems import check_here
 from autograder.report.answers import anonymous
 from autograder.report.students import Student
 
@@ -20,11 +19,10 @@ RARE = 0.01
 class Made:
     """A sentence of the diagnosis, its check, and the students who got it.
 
-    name: the mistake's name, if a person wrote the mistake.
+    Several mistakes may share a sentence, so no name of one stands here.
     """
 
     check: str
-    name: str
     sentence: str
     students: tuple[str, ...]
 
@@ -57,10 +55,7 @@ def mistakes_made(students: Iterable[Student]) -> list[Made]:
             said = map(as_written, verdict["diagnosis"])
             for sentence in dict.fromkeys(said):
                 to_whom[check, sentence].append(student.name)
-    made = [
-        Made(check, _name_of(check, sentence), sentence, tuple(names))
-        for (check, sentence), names in to_whom.items()
-    ]
+    made = [Made(check, sentence, tuple(names)) for (check, sentence), names in to_whom.items()]
     return sorted(made, key=lambda one: (-len(one.students), one.check, one.sentence))
 
 
@@ -112,10 +107,3 @@ def example_of(made: Made, students: list[Student]) -> Example | None:
         if student.name in made.students and made.check in student.answers
     ]
     return min((one for one in answers if one.code), key=lambda one: len(one.code), default=None)
-
-
-def _name_of(check: str, sentence: str) -> str:
-    """Of a mistake that a person wrote; of one that follows from a mechanism the sentence says more."""
-    known = check_here(check)
-    mistakes = known.mistakes if known else ()
-    return next((mistake.name for mistake in mistakes if mistake.sentence == sentence), "")

@@ -65,9 +65,7 @@ def summary(of: Class) -> str:
     if of.missing:
         lines.append(f"nothing handed in: {len(of.missing)} of the class")
     for one in mistakes_made(students)[:MOST_LINES]:
-        lines.append(
-            f"{len(one.students):4d} × {shown_note(f'{one.check}: {one.name or one.sentence}')}"
-        )
+        lines.append(f"{len(one.students):4d} × {shown_note(f'{one.check}: {one.sentence}')}")
     for never in figures.never_met(students):
         lines.append(shown_note(f"nobody met: {never.check}: {never.text}"))
     return "\n".join(lines)

@@ -17,7 +17,8 @@ class Step:
     """One assignment. share: the mean of those of whom everything is read, as a part of its points; None
     where there are none. of_checks: the same of the checks alone, of all who are graded.
 
-    hints: how many a student saw, on average; None where no count is known.
+    hints: how many a student saw, on average; None where no count is known. in_full: of how many
+    everything is read, of `graded`.
     """
 
     assignment: str
@@ -27,6 +28,8 @@ class Step:
     hints: float | None
     to_read: int
     of_checks: float | None = None
+    in_full: int = 0
+    graded: int = 0
 
 
 @dataclass(frozen=True)
@@ -72,6 +75,8 @@ def steps(classes: list[Class]) -> list[Step]:
             _hints_each(of),
             sum(student.to_read for student in of.students),
             mean(of.check_scores) / of.of_checks if of.graded and of.of_checks else None,
+            len(of.scores),
+            len(of.graded),
         )
         for of in classes
     ]

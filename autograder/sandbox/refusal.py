@@ -19,7 +19,7 @@ REMEDIES = {
     "seccomp=unconfined, and one of Podman's with --security-opt label=disable.",
 }
 _OTHERWISE = "In a container, it needs flags."
-PAGE = "docs/class-server.md, section 10"
+PAGE = "docs/containers.md"
 
 
 def remedy(said: str) -> str:

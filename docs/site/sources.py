@@ -16,8 +16,8 @@ ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
 GUIDES = (
     *("instructors", "handing-out", "class-list", "platforms", "grading-rules", "marking"),
-    *("corrections", "sandbox", "troubleshooting", "class-server", "own-problem", "library"),
-    *("course-map", "source-errata", "references"),
+    *("corrections", "sandbox", "troubleshooting", "class-server", "workers", "containers"),
+    *("own-problem", "library", "course-map", "source-errata", "references"),
 )
 PAGES = ("CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md")
 # Files that pages link to, and a reader may fetch. The tests of the autograder hold right answers.

@@ -151,7 +151,7 @@ def test_three_proofs_are_marked_with_the_keyboard(taught, tab, tmp_path):
         assert len(saving) == 1
 
         to(tab, "By Newton.")
-        tab.get_by_label("Points for row 2").fill("0.5")
+        tab.get_by_label("Points for row 2").press_sequentially("0,5")
         tab.get_by_label("Points for row 4").fill("7")
         tab.locator(".save").click()
         expect(tab.get_by_role("status")).to_have_text("Row 4 takes 0 to 1 points.")
@@ -206,6 +206,8 @@ def test_a_second_marker_is_blind_and_the_first_one_chooses(taught, tab):
         tab.goto(address)
         tab.get_by_role("link", name="1 to decide").click()
         expect(tab.get_by_role("row").nth(1)).to_contain_text("Ada Lovelace")
+        tab.get_by_role("button", name="these").click()
+        expect(tab.get_by_role("status")).to_contain_text("Type the points")
         tab.get_by_role("button", name="second: 1").click()
         expect(tab.get_by_text("0 to decide")).to_be_visible()
         assert tab.evaluate(BEYOND) == []
@@ -223,14 +225,37 @@ def test_without_the_token_nothing_is_shown_and_a_locked_gradebook_is_waited_for
         tab.goto("about:blank")
         tab.goto(address)
         to(tab, "I am sure.")
-        engine = sqlalchemy.create_engine(courses.database(taught))
+        engine = sqlalchemy.create_engine(courses.database(taught), poolclass=sqlalchemy.NullPool)
         with engine.connect() as other:
             other.exec_driver_sql("BEGIN EXCLUSIVE")
             tab.keyboard.press("2")
             tab.keyboard.press("s")
             time.sleep(6)  # SQLite itself gives up after five seconds
             assert tab.locator("#said").text_content() == ""
+            tab.locator("#comment").fill("Typed while it waits.")
             other.exec_driver_sql("ROLLBACK")
-        engine.dispose()
         expect(tab.get_by_role("status")).to_have_text("Saved: 1 of 5 points.")
-    assert rows(taught)["bob"][:2] == (1.0, False)
+        assert rows(taught)["bob"][:2] == (1.0, False)
+        expect(tab.locator(".rubric.touched")).to_be_visible()
+        tab.locator(".save").click()
+        expect(tab.locator(".rubric.touched")).to_have_count(0)
+        assert rows(taught)["bob"] == (1.0, False, "Typed while it waits.")
+
+        with Gradebook(courses.database(taught)) as gradebook:
+            gradebook.find_grade(CELL, P3, P3, "bob").manual_score = 4.0
+            gradebook.db.commit()
+        tab.locator("#comment").fill("Mine.")
+        tab.keyboard.press("Escape")
+        tab.keyboard.press("n")
+        expect(tab.get_by_role("status")).to_contain_text("somebody has marked it")
+        tab.get_by_role("button", name="Open it again").click()
+        expect(tab.get_by_role("status")).to_have_text(
+            "This is what it has now. Your comment stands under “Said before”."
+        )
+        expect(tab.locator("#total")).to_have_value("4")
+        tab.get_by_role("button", name="Mine.").click()
+        tab.locator(".save").click()
+        expect(tab.get_by_role("status")).to_have_text("Saved: 4 of 5 points.")
+        tab.reload()
+        expect(tab.locator(".answer").get_by_text("I am sure.")).to_be_visible()
+    assert rows(taught)["bob"] == (4.0, False, "Typed while it waits.\n\nMine.")

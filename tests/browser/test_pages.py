@@ -119,7 +119,7 @@ def test_nothing_in_the_formgrader_asks_another_host(formgrader, server):
         (f"manage_submissions/{P3}", "needs manual grading"),
         ("gradebook", P3),
         (f"gradebook/{P3}", P3),
-        ("manage_students", "None, None"),
+        ("manage_students", "ada"),
         ("manage_students/ada", P3),
     ):
         formgrader.goto(f"{address}/formgrader/{path}")
@@ -127,12 +127,44 @@ def test_nothing_in_the_formgrader_asks_another_host(formgrader, server):
     assert formgrader.asked == []
 
 
+def test_who_was_only_collected_stands_by_the_class_lists_name_or_by_the_id(
+    formgrader, server, taught, tmp_path
+):
+    address, _ = server
+    listed = taught / "course" / "class.csv"
+    listed.write_text("id,last_name,first_name,email\nbob,Doe,Bob,bob@example.org\n")
+    folders = [courses.submit(taught, student, "{}").parents[1] for student in ("bob", "cem")]
+    try:
+        for path in ("manage_students", f"manage_submissions/{P3}"):
+            formgrader.goto(f"{address}/formgrader/{path}")
+            table = formgrader.locator("#main-table")
+            for student, name in (("ada", "ada"), ("bob", "Doe, Bob"), ("cem", "cem")):
+                row = table.locator(f'tr:has(td:text-is("{student}"))')
+                expect(row.locator("td").first).to_have_text(name)
+            assert "None, None" not in table.inner_text()
+            formgrader.screenshot(path=tmp_path / "names.png")
+        assert formgrader.asked == []
+    finally:
+        listed.unlink()
+        for folder in folders:
+            shutil.rmtree(folder)
+
+
 def test_a_proof_is_read_and_marked_in_the_formgrader(formgrader, server, taught, tmp_path):
     address, _ = server
     formgrader.goto(f"{address}/formgrader/gradebook/{P3}/{P3}")
-    formgrader.get_by_role("link", name="Submission #1").click()
     score = formgrader.locator("#p3-derivation")
-    expect(score).to_be_visible()
+    was_open = []
+
+    def look(route):
+        was_open.append(score.is_editable())
+        route.fallback()
+
+    formgrader.route("**/formgrader/api/grades?*", look)
+    formgrader.get_by_role("link", name="Submission #1").click()
+    # What is typed before the points have come, nbgrader would write over.
+    expect(score).to_be_editable()
+    assert was_open == [False]
     assert formgrader.locator("math").count() > 20
     assert formgrader.get_by_alt_text("page one").evaluate("e => e.naturalWidth") == 60
     assert formgrader.get_by_alt_text("never mentioned.jpg").evaluate("e => e.naturalWidth") == 60

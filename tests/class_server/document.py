@@ -1,4 +1,5 @@
-"""The commands of docs/class-server.md, block by block; `python3 -m` prints those that install.
+"""The commands of docs/class-server.md and docs/workers.md, block by block; `python3 -m` prints those
+that install.
 
 `.ci/machine` reads this with the system's Python, so it needs nothing else.
 """
@@ -8,7 +9,8 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-PAGE = Path(__file__).parents[2] / "docs" / "class-server.md"
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = DOCS / "class-server.md"
 _SECTION = re.compile(r"^## (\d+)\. .*?$(.*?)(?=^## |\Z)", re.M | re.S)
 _BLOCK = re.compile(r"^```sh\n# as (\S+)\n(.*?)^```$", re.M | re.S)
 
@@ -23,10 +25,16 @@ class Block(NamedTuple):
 def sections() -> dict[int, list[Block]]:
     """The blocks of each section, by its number."""
     text = PAGE.read_text(encoding="utf-8")
-    return {
-        int(number): [Block(*found) for found in _BLOCK.findall(body)]
-        for number, body in _SECTION.findall(text)
-    }
+    return {int(number): _blocks(body) for number, body in _SECTION.findall(text)}
+
+
+def about_workers() -> list[Block]:
+    """The blocks of docs/workers.md."""
+    return _blocks((DOCS / "workers.md").read_text(encoding="utf-8"))
+
+
+def _blocks(text: str) -> list[Block]:
+    return [Block(*found) for found in _BLOCK.findall(text)]
 
 
 if __name__ == "__main__":

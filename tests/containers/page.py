@@ -1,18 +1,16 @@
-"""The commands of docs/class-server.md about containers, as a reader types them."""
+"""The commands of docs/containers.md, as a reader types them."""
 
 import re
 
-from tests.class_server.document import PAGE
+from tests.class_server.document import DOCS
 
-_SECTION = re.compile(r"^## \d+\. Containers$(.*?)(?=^## )", re.M | re.S)
 _BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 
 
 def blocks() -> list[str]:
-    """Each block of the section, without the line that says where it is run."""
-    found = _SECTION.search(PAGE.read_text(encoding="utf-8"))
-    assert found is not None
-    return [block.partition("\n")[2] for block in _BLOCK.findall(found[1])]
+    """Each block, without the line that says where it is run."""
+    page = (DOCS / "containers.md").read_text(encoding="utf-8")
+    return [block.partition("\n")[2] for block in _BLOCK.findall(page)]
 
 
 def commands(verb: str, image: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""The images, really built and run by the commands of docs/class-server.md."""
+"""The images, really built and run by the commands of docs/containers.md."""
 
 import json
 import os

@@ -8,7 +8,8 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 _FENCED = re.compile(r"^( *)```(\S*)\n(.*?)^\1```$", re.M | re.S)
 _STATUS = re.compile(r"exit status (\d+)")
-CLASS_SERVER = "docs/class-server.md"  # tests/class_server runs its commands, as their accounts
+# Of these, tests/class_server runs the commands, as their accounts, test_tls.py and tests/containers.
+RUN_ELSEWHERE = {"docs/class-server.md", "docs/workers.md", "docs/containers.md"}
 # What a block that is not typed into a terminal holds.
 LANGUAGES = ("sh", "python", "text", "csv", "toml", "ini", "mermaid", "{eval-rst}", "{toctree}")
 
@@ -61,7 +62,7 @@ class Page:
 
     def of(self, block: Block) -> list[Command]:
         """The commands of a block; what a backslash continues is one."""
-        if block.language != "sh" or self.name == CLASS_SERVER:
+        if block.language != "sh" or self.name in RUN_ELSEWHERE:
             return []
         found, number = [], block.line
         for text in re.split(r"(?<!\\)\n", block.text.rstrip("\n")):

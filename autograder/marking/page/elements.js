@@ -12,4 +12,13 @@ export function element(tag, settings = {}, ...children) {
   return made;
 }
 
-export const points = (number) => `${Math.round(number * 100) / 100}`;
+export const points = (number) => (Number.isFinite(number) ? `${Math.round(number * 100) / 100}` : "–");
+
+// For points. Of a field of the type "number", an English browser drops the comma: 0,5 would become 5.
+export const field = (settings) => element("input", { type: "text", inputMode: "decimal", autocomplete: "off", ...settings });
+
+// The number in it; null where it is empty, and as text what is none, which the server refuses.
+export function typed(input) {
+  const text = input.value.trim().replace(",", ".");
+  return text === "" ? null : Number.isFinite(Number(text)) ? Number(text) : text;
+}

@@ -1,6 +1,6 @@
 // The page for marking: a list of the answers that a person reads, one answer beside its rubric, and the
 // answers on which two markers differ. What the server sends as HTML has been cleaned there.
-import { element, points } from "./elements.js";
+import { element, field, points, typed } from "./elements.js";
 import { rubric } from "./rubric.js";
 
 const page = document.getElementById("page");
@@ -31,15 +31,16 @@ async function ask(name, wanted, body) {
     throw new Error("The server does not answer: is `autograder mark` still running?");
   }
   const found = await answer.json();
-  if (!answer.ok) throw new Error(found.error);
+  if (!answer.ok) throw Object.assign(new Error(found.error), { hasChanged: answer.status === 409 });
   return found;
 }
 
 const get = (name, wanted = {}) => ask(name, wanted);
 const act = (name, body) => ask(name, {}, body);
 
-function say(text, isError = false) {
-  said.textContent = text;
+// way: what may be done about it, as the words of a button and what it does.
+function say(text, isError = false, way = null) {
+  said.replaceChildren(text, ...(way ? [" ", element("button", { on: { click: safely(way[1]) } }, way[0])] : []));
   said.classList.toggle("error", isError);
 }
 
@@ -47,7 +48,7 @@ const safely = (does) => async (...given) => {
   try {
     return await does(...given);
   } catch (error) {
-    say(error.message, true);
+    say(error.message, true, error.way);
     return undefined;
   }
 };
@@ -76,7 +77,7 @@ async function list() {
       element("th", { scope: "row" }, link(`mark/${where}`, element("span", { html: one.title }))),
       element("td", {}, one.assignment),
       element("td", { className: "number" }, `${one.answers}`),
-      element("td", { className: "number left" }, one.left ? `${one.left}` : "none"),
+      element("td", { className: "number left" }, one.left ? `${one.left}` : one.answers ? "none" : ""),
       element("td", { className: "number" }, one.blank ? `${one.blank}` : ""),
       element("td", {}, one.second ? "" : link(`apart/${where}`, apart || "compare")));
   });
@@ -88,16 +89,22 @@ async function list() {
       : element("p", {}, "No assignment in the gradebook has an answer that a person reads."));
 }
 
-async function marking(assignment, cell, wanted) {
+// unsaved: a comment that was not saved, which is offered.
+async function marking(assignment, cell, wanted, unsaved = "") {
   const proof = await get("proof", { assignment, cell });
   const isLeft = (one) => one.state !== "marked";
   if (!proof.papers.length) {
-    page.replaceChildren(link("", "All answers"), element("p", {}, "Nobody has written anything here yet."));
+    page.replaceChildren(link("", "All answers"), element("p", {},
+      `There is nothing to read: nobody has written anything here, or “autograder grade ${assignment}” has not run yet.`));
     return;
   }
   const found = proof.papers.findIndex((one) => one.id === wanted);
   const at = found >= 0 ? found : Math.max(proof.papers.findIndex(isLeft), 0);
   const paper = proof.papers[at];
+  const here = `#mark/${path(assignment, cell, paper.id)}`; // where a reload leads
+  history.replaceState(null, "", here);
+  shown = here;
+  if (unsaved) proof.comments.unshift(unsaved);
   let answer = await get("answer", { assignment, cell, id: paper.id });
   let showsModel = sessionStorage.getItem("model") !== "hidden";
 
@@ -130,17 +137,31 @@ async function marking(assignment, cell, wanted) {
   }
 
   async function change(name, more) {
-    const now = await act(name, { assignment, cell, id: paper.id, version: answer.version, ...more });
+    const upTo = panel.changes();
+    let now;
+    try {
+      now = await act(name, { assignment, cell, id: paper.id, version: answer.version, ...more });
+    } catch (error) {
+      throw error.hasChanged ? Object.assign(error, { way: ["Open it again", reopen] }) : error;
+    }
     answer = { ...answer, ...now };
     paper.state = now.state;
-    panel.saved(answer);
+    panel.saved(answer, upTo);
     told();
+  }
+
+  async function reopen() {
+    const { comment } = panel.given();
+    const offered = panel.isTouched() && comment !== answer.comment ? comment : "";
+    await marking(assignment, cell, paper.id, offered);
+    say(`This is what it has now.${offered ? " Your comment stands under “Said before”." : ""}`);
   }
 
   async function save() {
     const given = panel.given();
+    const all = panel.all();
     await change("save", given);
-    say(`Saved: ${points(given.total ?? panel.sum())} of ${points(proof.points)} points.`);
+    say(`Saved: ${points(all)} of ${points(proof.points)} points.`);
   }
 
   async function takeBack() {
@@ -163,6 +184,7 @@ async function marking(assignment, cell, wanted) {
   async function previous() {
     await saved();
     if (at) await go(proof.papers[at - 1]);
+    else say("This is the first one.");
   }
 
   function toggleModel() {
@@ -175,7 +197,7 @@ async function marking(assignment, cell, wanted) {
   desk.classList.toggle("without-model", !showsModel || !proof.model);
   told();
   page.replaceChildren(where, heading, fold("What was asked", proof.task), desk);
-  panel.saved(answer);
+  panel.saved(answer, panel.changes());
   window.scrollTo(0, 0);
   leave = saved;
   keys = { n: next, p: previous, s: save, m: toggleModel, c: panel.toComment, 0: panel.none };
@@ -188,18 +210,22 @@ async function apart(assignment, cell) {
   const differ = found.papers.filter((one) => one.first !== one.second);
   const open = differ.filter((one) => one.counts === null).length;
   const choose = (one, which, total) => safely(async () => {
-    await act("choose", { assignment, cell, id: one.id, version: one.version, which, total });
+    try {
+      await act("choose", { assignment, cell, id: one.id, version: one.version, which, total });
+    } catch (error) {
+      const again = async () => { await apart(assignment, cell); say(""); };
+      throw error.hasChanged ? Object.assign(error, { way: ["Show all again", again] }) : error;
+    }
     await apart(assignment, cell);
     say(`Answer ${one.number}: chosen.`);
   });
   const rows = found.papers.map((one) => {
-    const other = element("input", { type: "number", min: 0, max: found.points, step: "any",
-      "aria-label": `Other points for answer ${one.number}` });
+    const other = field({ "aria-label": `Other points for answer ${one.number}` });
     const same = one.first === one.second;
     const choice = [
       element("button", { on: { click: choose(one, "first") } }, `first: ${points(one.first)}`), " ",
       element("button", { on: { click: choose(one, "second") } }, `second: ${points(one.second)}`), " ", other, " ",
-      element("button", { on: { click: () => choose(one, "other", other.valueAsNumber)() } }, "these")];
+      element("button", { on: { click: () => choose(one, "other", typed(other))() } }, "these")];
     return element("tr", {},
       element("th", { scope: "row" }, link(`mark/${path(assignment, cell, one.id)}`, one.student || `answer ${one.number}`)),
       element("td", { className: "number" }, points(one.first)), element("td", { className: "number" }, points(one.second)),
@@ -231,9 +257,14 @@ async function show() {
   }
   shown = location.hash;
   leave = keys = window.onbeforeunload = null;
-  if (view === "mark" && cell) await marking(assignment, cell, id);
-  else if (view === "apart" && cell) await apart(assignment, cell);
-  else await list();
+  page.inert = true; // what is typed into a page that goes would be lost
+  try {
+    if (view === "mark" && cell) await marking(assignment, cell, id);
+    else if (view === "apart" && cell) await apart(assignment, cell);
+    else await list();
+  } finally {
+    page.inert = false;
+  }
 }
 
 window.addEventListener("hashchange", async () => {

@@ -1,11 +1,12 @@
 // The rows of the rubric with their points, the comment, and what was said before.
-import { element, points } from "./elements.js";
+import { element, field, points, typed } from "./elements.js";
 
 export function rubric(proof, first, does) {
   const given = proof.rows.map((row, at) => first.given?.[at] ?? 0);
-  let touched = false;
+  let changes = 0;
+  let saved = 0; // so many of them
 
-  const touch = () => { touched = true; refresh(); };
+  const touch = () => { changes += 1; refresh(); };
   const give = (at, number) => {
     given[at] = number;
     total.value = ""; // points for the whole are typed after the rows
@@ -13,23 +14,22 @@ export function rubric(proof, first, does) {
   };
   const ticks = proof.rows.map((row, at) => element("input", { type: "checkbox", on: {
     change: (event) => give(at, event.target.checked ? row.points : 0) } }));
-  const parts = proof.rows.map((row, at) => element("input", { type: "number", min: 0, max: row.points, step: "any",
-    "aria-label": `Points for row ${at + 1}`, on: {
-      input: (event) => give(at, Number(event.target.value)) } }));
+  const parts = proof.rows.map((row, at) => field({ "aria-label": `Points for row ${at + 1}`,
+    on: { input: (event) => give(at, typed(event.target) ?? 0) } }));
   const rows = proof.rows.map((row, at) => element("li", {},
     element("label", {}, ticks[at], " ", element("kbd", {}, `${at + 1}`), " ",
       element("span", { className: "rendered_html", html: row.text })),
     element("span", { className: "points" }, parts[at], ` of ${points(row.points)}`,
       first.suggested.includes(at + 1) ? element("em", {}, " suggested by the lines") : "")));
 
-  const total = element("input", { type: "number", min: 0, max: proof.points, step: "any", id: "total", on: { input: touch } });
+  const total = field({ id: "total", on: { input: touch } });
   const comment = element("textarea", { id: "comment", rows: 3, on: { input: touch } });
   const used = element("ul", { className: "used" });
   const save = element("button", { className: "save", on: { click: does.save } });
   const back = element("button", { on: { click: does.takeBack } }, "Back to those to be marked");
 
-  const sum = () => Math.round(100 * given.reduce((all, one) => all + one, 0)) / 100;
-  const all = () => (total.value === "" ? sum() : Number(total.value));
+  const sum = () => Math.round(100 * given.reduce((all, one) => all + Number(one), 0)) / 100;
+  const all = () => typed(total) ?? (rows.length ? sum() : null);
 
   function refresh() {
     proof.rows.forEach((row, at) => {
@@ -39,7 +39,7 @@ export function rubric(proof, first, does) {
     });
     total.placeholder = proof.rows.length ? points(sum()) : "";
     save.replaceChildren(`Save ${points(all())} of ${points(proof.points)} points `, element("kbd", {}, "s"));
-    shown.classList.toggle("touched", touched);
+    shown.classList.toggle("touched", changes !== saved);
   }
 
   function add(text) {
@@ -63,14 +63,16 @@ export function rubric(proof, first, does) {
 
   return {
     shown,
-    sum,
-    given: () => ({ given, total: total.value === "" && rows.length ? null : Number(total.value), comment: comment.value }),
-    isTouched: () => touched,
+    all,
+    given: () => ({ given, total: typed(total), comment: comment.value }),
+    changes: () => changes,
+    isTouched: () => changes !== saved,
     toggle: (row) => give(row, given[row] >= proof.rows[row].points ? 0 : proof.rows[row].points),
     none() { given.fill(0); total.value = rows.length ? "" : 0; touch(); },
     toComment() { comment.focus(); },
-    saved(answer) {
-      touched = false;
+    // upTo: what has been changed since is not saved.
+    saved(answer, upTo) {
+      saved = upTo;
       if (answer === first || !shown.dataset.filled) {
         const by = answer.given ? sum() : null;
         total.value = answer.points !== null && answer.points !== by ? answer.points : "";

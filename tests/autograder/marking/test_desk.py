@@ -8,7 +8,7 @@ import pytest
 from autograder.marking.asked import AskedError
 from autograder.marking.desk import AGAIN, MARKED, TO_MARK, ChangedError, Desk
 from autograder.marking.kept import COUNTS, FIRST, Kept, counting
-from tests.autograder.marking.books import Book
+from tests.autograder.marking.books import PROOF, Book
 
 AT = {"assignment": "p3", "cell": "p3-proof"}
 
@@ -124,6 +124,19 @@ def test_what_somebody_else_saved_meanwhile_is_not_written_over(first, book):
     assert book.rows["ada"].by_hand == 3.0
 
 
+@pytest.mark.parametrize("by", ["first", "second"])
+def test_no_points_are_given_to_what_was_handed_in_since_the_marker_read_it(
+    by, request, book, kept
+):
+    desk = request.getfixturevalue(by)
+    said = {**AT, "id": "id-ada", "version": seen(desk, "ada")["version"], "given": [1, 2]}
+    book.text = "By Lagrange."
+    with pytest.raises(ChangedError, match="handed in again"):
+        desk.save(said | {"comment": ""})
+    assert book.rows["ada"].to_read
+    assert kept.of("p3", "p3-proof") == {}
+
+
 def test_a_second_marker_sees_nothing_of_the_first_and_changes_no_score(first, second, book):
     give(first, "ada", 1.0, 2.0, comment="Fine.")
     shown = seen(second, "ada")
@@ -188,6 +201,18 @@ def test_nothing_can_be_chosen_before_two_have_marked(first):
     said = {**AT, "id": "id-ada", "version": seen(first, "ada")["version"], "which": "second"}
     with pytest.raises(AskedError, match="two people have to mark"):
         first.choose(said)
+
+
+def test_points_that_nobody_typed_are_no_zero(first, second, book, monkeypatch):
+    give(first, "ada", 1.0, 0.0)
+    give(second, "ada", 0.0, 0.0)
+    with pytest.raises(AskedError, match="Type the points"):
+        choose(first, "ada", "other")
+    bare = replace(PROOF, rubric=replace(PROOF.rubric, rows=()))
+    monkeypatch.setattr(book, "proofs", lambda: [bare])
+    with pytest.raises(AskedError, match="Type the points"):
+        give(first, "bob")
+    assert (book.rows["ada"].by_hand, book.rows["bob"].by_hand) == (1.0, None)
 
 
 def test_names_are_hidden_unless_they_are_asked_for(book, kept):

@@ -1,4 +1,4 @@
-"""A cluster that only those can use who have a certificate, by the commands of docs/class-server.md."""
+"""A cluster that only those can use who have a certificate, by the commands of docs/workers.md."""
 
 import os
 import subprocess
@@ -14,11 +14,11 @@ from armdyn.ports.toolchain import processes
 from autograder import cli
 from tests.autograder import courses
 from tests.autograder.courses import P3, submit
-from tests.class_server.document import sections
+from tests.class_server.document import about_workers
 from tests.class_server.server import free_port
 from tests.submissions import p3_pendulum
 
-CERTIFICATES, SCHEDULER, WORKER, GRADE = (block.script for block in sections()[9])
+CERTIFICATES, SCHEDULER, WORKER, GRADE = (block.script for block in about_workers())
 START_SECONDS = 60.0
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="the page is about Linux")

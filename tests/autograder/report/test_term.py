@@ -39,8 +39,8 @@ def test_assignments_stand_as_they_were_handed_in():
 
 def test_an_assignment_in_figures():
     first, second, third = term.steps(term.in_order(TERM))
-    assert first == term.Step("p3", 4, 10.0, None, None, 4)
-    assert second == term.Step("p1", 4, 10.0, pytest.approx(0.6), 3.0, 0)
+    assert first == term.Step("p3", 4, 10.0, None, None, 4, graded=4)
+    assert second == term.Step("p1", 4, 10.0, pytest.approx(0.6), 3.0, 0, in_full=4, graded=4)
     assert (third.handed_in, third.share) == (3, pytest.approx(0.6))
     (ungraded,) = term.steps([of_class("p1", 11, {"ada": None})])
     assert ungraded.share is None
@@ -61,6 +61,8 @@ def test_until_a_proof_is_read_the_checks_alone_have_a_mean():
     assert "Of the checks alone, of all: mean 4.5, median 4.5 of 5 points" in page
     read = replace(unread, students=[replace(students[0], to_read=0), students[1]])
     assert term.steps([read])[0].share == pytest.approx(0.8)
+    page = str(Text(report.term_page([read])))
+    assert "80 % of the 1 of 2 read in full; of all, 90 % of the checks" in page
     said = report.summary(read).splitlines()[0]
     assert said == (
         "2 of 2 graded, 1 of these in full, mean 8, median 8 of 10 points; "
