@@ -130,17 +130,19 @@ async function marking(assignment, cell, wanted) {
   }
 
   async function change(name, more) {
+    const edits = panel.edits();
     const now = await act(name, { assignment, cell, id: paper.id, version: answer.version, ...more });
     answer = { ...answer, ...now };
     paper.state = now.state;
-    panel.saved(answer);
+    panel.saved(answer, edits);
     told();
   }
 
   async function save() {
     const given = panel.given();
+    const total = given.total ?? panel.sum();
     await change("save", given);
-    say(`Saved: ${points(given.total ?? panel.sum())} of ${points(proof.points)} points.`);
+    say(`Saved: ${points(total)} of ${points(proof.points)} points.`);
   }
 
   async function takeBack() {
@@ -149,7 +151,7 @@ async function marking(assignment, cell, wanted) {
   }
 
   async function saved() {
-    if (panel.isTouched()) await save();
+    while (panel.isTouched()) await save(); // also what was typed while it saved
   }
 
   async function next() {
@@ -231,9 +233,14 @@ async function show() {
   }
   shown = location.hash;
   leave = keys = window.onbeforeunload = null;
-  if (view === "mark" && cell) await marking(assignment, cell, id);
-  else if (view === "apart" && cell) await apart(assignment, cell);
-  else await list();
+  page.inert = true; // what is typed from here on would be lost
+  try {
+    if (view === "mark" && cell) await marking(assignment, cell, id);
+    else if (view === "apart" && cell) await apart(assignment, cell);
+    else await list();
+  } finally {
+    page.inert = false;
+  }
 }
 
 window.addEventListener("hashchange", async () => {

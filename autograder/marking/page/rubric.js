@@ -3,9 +3,10 @@ import { element, points } from "./elements.js";
 
 export function rubric(proof, first, does) {
   const given = proof.rows.map((row, at) => first.given?.[at] ?? 0);
-  let touched = false;
+  let edits = 0, savedEdits = 0; // what is typed while a save is on its way is not in it
+  const isTouched = () => edits !== savedEdits;
 
-  const touch = () => { touched = true; refresh(); };
+  const touch = () => { edits += 1; refresh(); };
   const give = (at, number) => {
     given[at] = number;
     total.value = ""; // points for the whole are typed after the rows
@@ -39,7 +40,7 @@ export function rubric(proof, first, does) {
     });
     total.placeholder = proof.rows.length ? points(sum()) : "";
     save.replaceChildren(`Save ${points(all())} of ${points(proof.points)} points `, element("kbd", {}, "s"));
-    shown.classList.toggle("touched", touched);
+    shown.classList.toggle("touched", isTouched());
   }
 
   function add(text) {
@@ -65,12 +66,13 @@ export function rubric(proof, first, does) {
     shown,
     sum,
     given: () => ({ given, total: total.value === "" && rows.length ? null : Number(total.value), comment: comment.value }),
-    isTouched: () => touched,
+    isTouched,
+    edits: () => edits,
     toggle: (row) => give(row, given[row] >= proof.rows[row].points ? 0 : proof.rows[row].points),
     none() { given.fill(0); total.value = rows.length ? "" : 0; touch(); },
     toComment() { comment.focus(); },
-    saved(answer) {
-      touched = false;
+    saved(answer, upTo = edits) {
+      savedEdits = upTo;
       if (answer === first || !shown.dataset.filled) {
         const by = answer.given ? sum() : null;
         total.value = answer.points !== null && answer.points !== by ? answer.points : "";
