@@ -124,7 +124,7 @@ def tab(browser, request):
 
 @pytest.fixture
 def clock(tab):
-    """The tab's clock, which goes on by `run_for(ms)` alone: nothing plays on while a test is held up."""
+    """The tab's clock, which goes on by `run_for(ms)` alone: nothing plays on while a test waits."""
     tab.clock.install(time=0)
     tab.clock.pause_at(1000)
     return tab.clock
