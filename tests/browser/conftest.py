@@ -114,9 +114,17 @@ def tab(browser, request):
     context = browser.new_context(java_script_enabled=getattr(request, "param", True))
     context.route(re.compile(r"^(?!file:)"), lambda route: route.abort())
     tab = context.new_page()
-    tab.set_default_timeout(20_000)
+    tab.set_default_timeout(PATIENCE)
     tab.trouble = []
     tab.on("pageerror", lambda error: tab.trouble.append(str(error)))
     tab.on("request", lambda r: tab.trouble.append(r.url) if r.url[:5] not in SELF else None)
     yield tab
     context.close()
+
+
+@pytest.fixture
+def clock(tab):
+    """The tab's clock, which goes on by `run_for(ms)` alone: nothing plays on while a test waits."""
+    tab.clock.install(time=0)
+    tab.clock.pause_at(1000)
+    return tab.clock

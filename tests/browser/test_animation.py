@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
+from tests.browser.conftest import PATIENCE
+
 CODE = """\
 import numpy as np
 from armdyn import Planar2R
@@ -60,7 +62,7 @@ class Player:
         self.slider.fill(str(time))
 
 
-def test_it_plays_pauses_and_ends(tab, file):
+def test_it_plays_pauses_and_ends(tab, clock, file):
     tab.goto(file)
     expect(tab.locator("[data-links]")).to_have_count(2)  # the same output twice: two players
     first, second = (Player(root) for root in tab.locator("[data-armdyn-animation]").all())
@@ -68,20 +70,23 @@ def test_it_plays_pauses_and_ends(tab, file):
     still = first.links
     first.button.click()
     expect(first.button).to_have_text("Pause")
-    tab.wait_for_function("document.querySelector('[data-live]').dataset.time > 0.5")
+    clock.run_for(700)
     first.button.click()
     stopped = first.time
-    assert 0.5 < stopped < 3
+    assert stopped == pytest.approx(0.7, abs=0.1)
     assert not np.array_equal(first.links, still)
-    tab.wait_for_timeout(200)
+    clock.run_for(200)
     assert first.time == stopped
     assert second.time == 0
     first.move_to(2.9)
     first.button.click()
-    tab.wait_for_function("document.querySelector('[data-live]').dataset.time >= 3")
+    clock.run_for(200)
     expect(first.button).to_have_text("Play")
+    assert first.time == 3
     first.button.click()
-    tab.wait_for_function("document.querySelector('[data-live]').dataset.time < 2")
+    assert first.time == 0
+    clock.run_for(200)
+    assert 0 < first.time <= 0.2
     assert tab.trouble == []
 
 
@@ -150,16 +155,16 @@ def test_in_jupyterlab_untrusted_then_run_then_as_stored_output(page, opened, st
     panel = page.locator(".jp-NotebookPanel", has_text="Animation(arm, t, q")
     output = panel.locator(".jp-OutputArea-output")
     figure = output.get_by_role("img", name=NAME).last
-    expect(figure).to_be_visible(timeout=60_000)
+    expect(figure).to_be_visible()
     expect(output.locator("svg, button, input")).to_have_count(0)
     expect(output).to_contain_text("A still figure: run the cell")
     page.screenshot(path=tmp_path / "untrusted.png")
 
     # Asked before the kernel is there, JupyterLab drops the outputs and runs nothing.
-    expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle", timeout=60_000)
+    expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle")
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_text("Run All Cells", exact=True).click()
-    expect(output.locator("[data-links]")).to_be_visible(timeout=60_000)
+    expect(output.locator("[data-links]")).to_be_visible()
     expect(output.get_by_text("A still figure: run the cell")).to_have_count(0)
     player = Player(output.locator("[data-armdyn-animation]"))
     before = player.links
@@ -177,7 +182,7 @@ def test_in_jupyterlab_untrusted_then_run_then_as_stored_output(page, opened, st
 
     panel.locator(".jp-InputArea-prompt").first.click()
     page.keyboard.press("Control+S")
-    for _ in range(100):
+    for _ in range(PATIENCE // 100):
         if nbformat.read(stored, nbformat.NO_CONVERT).cells[0].execution_count:
             break
         page.wait_for_timeout(100)
@@ -185,7 +190,7 @@ def test_in_jupyterlab_untrusted_then_run_then_as_stored_output(page, opened, st
     assert saved.cells[0].execution_count == 1
     assert len(stored.read_bytes()) < 50_000
     opened(stored.name)
-    expect(output.locator("[data-links]")).to_be_visible(timeout=60_000)
+    expect(output.locator("[data-links]")).to_be_visible()
     player.move_to(1.0)
     assert player.time == 1.0
     page.screenshot(path=tmp_path / "stored.png")

@@ -62,6 +62,7 @@ def menu(page, opened):
     opened()
     expect(page.locator(".jp-DirListing-itemName", has_text="problems")).to_be_visible()
     page.locator(".lm-MenuBar-item", has_text="Nbgrader").click()
+    expect(page.locator(".lm-Menu-itemLabel")).not_to_have_count(0)
     names = page.locator(".lm-Menu-itemLabel").all_text_contents()
     page.keyboard.press("Escape")
     return [name for name in names if name]
@@ -86,6 +87,7 @@ def test_a_student_has_no_tools_of_an_instructor(menu):
 def test_fetch_validate_submit_feedback(page, course, nbgrader, listed, terminal, tmp_path):
     work = course / "problems" / MINE / f"{MINE}.ipynb"
     before = work.read_bytes()
+    expect(listed.row("released", LOST)).to_have_count(1)
     expect(listed.row("released", MINE)).to_have_count(0)  # it is there: nothing to fetch
     page.screenshot(path=tmp_path / "released.png")
     listed.press("released", LOST, "Fetch")

@@ -37,6 +37,8 @@ def control(course, opened, page):
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_text("Run All Cells", exact=True).click()
     expect(cell.locator(".widget-output img")).to_be_visible()
+    # Until the last cell has run, JupyterLab still lays out the notebook.
+    expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle")
     return cell
 
 

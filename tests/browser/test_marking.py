@@ -19,6 +19,7 @@ from autograder.cli import main
 from tests.autograder import courses
 from tests.autograder.courses import P3
 from tests.autograder.proofs.models import models
+from tests.browser.conftest import PATIENCE
 from tests.browser.test_pages import BEYOND, LOST
 from tests.submissions.answers import answered, cell_of
 
@@ -90,7 +91,7 @@ def tab(browser):
     page.on("request", lambda one: page.asked.append(one.url)
             if not one.url.startswith(("http://127.0.0.1:", "data:")) else None)  # fmt: skip
     page.on("pageerror", lambda error: page.asked.append(str(error)))
-    page.set_default_timeout(30_000)
+    page.set_default_timeout(PATIENCE)
     yield page
     context.close()
 
@@ -101,10 +102,15 @@ def to(tab, text: str) -> None:
     for _ in range(4):
         if tab.locator(".answer").get_by_text(text).count():
             return
-        before = tab.locator(".where").inner_text()
-        tab.keyboard.press("n")
-        expect(tab.locator(".where")).not_to_have_text(before)
+        go_on(tab)
     raise AssertionError(f"no answer says {text}")
+
+
+def go_on(tab) -> None:
+    """To the next answer: when it is there, and not as soon as this one is saved."""
+    this = re.search(r"answer \d+ of", tab.locator(".where").inner_text())[0]
+    tab.keyboard.press("n")
+    expect(tab.locator(".where")).not_to_contain_text(this)
 
 
 def rows(root) -> dict[str, tuple]:
@@ -138,7 +144,7 @@ def test_three_proofs_are_marked_with_the_keyboard(taught, tab, tmp_path):
         tab.keyboard.type("Where is the *pivot*?")
         tab.keyboard.press("Escape")
         expect(tab.locator(".save")).to_contain_text("Save 3 of 5 points")
-        tab.keyboard.press("n")
+        go_on(tab)
         expect(tab.locator(".where")).to_contain_text("2 left to mark")
 
         to(tab, "I am sure.")

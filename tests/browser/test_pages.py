@@ -24,6 +24,7 @@ from autograder.nbgrader_glue.feedback import FeedbackExporter
 from autograder.nbgrader_glue.release import configuration
 from tests.autograder import courses
 from tests.autograder.course_problems import NAMES, ROOT, problem, without_plots
+from tests.browser.conftest import PATIENCE
 
 P3 = "p3-pendulum"
 AUTOGRADER = Path(sys.executable).with_name("autograder")
@@ -97,6 +98,7 @@ def formgrader(browser, server):
     address, token = server
     context = browser.new_context(viewport={"width": 1280, "height": 900})
     page = context.new_page()
+    page.set_default_timeout(PATIENCE)
     page.asked = []
 
     def answer(route):
@@ -176,7 +178,8 @@ def test_a_proof_is_read_and_marked_in_the_formgrader(formgrader, server, taught
         score.fill("4")
         score.press("Tab")
     assert answer.value.ok
-    expect(formgrader.locator(".score-saved.glyphicon-ok").last).to_be_visible()
+    formgrader.reload()
+    expect(score).to_have_value("4")
     assert formgrader.asked == []
 
     with Gradebook(f"sqlite:///{taught / 'course' / 'gradebook.db'}") as gradebook:

@@ -115,6 +115,7 @@ def solve(server, name: str, answers) -> None:
 
 def menu_of(page) -> list[str]:
     page.locator(".lm-MenuBar-item", has_text="Nbgrader").click()
+    expect(page.locator(".lm-Menu-itemLabel")).not_to_have_count(0)
     names = page.locator(".lm-Menu-itemLabel").all_text_contents()
     page.keyboard.press("Escape")
     return [name for name in names if name]

@@ -170,7 +170,7 @@ async function marking(assignment, cell, wanted, unsaved = "") {
   }
 
   async function saved() {
-    if (panel.isTouched()) await save();
+    while (panel.isTouched()) await save(); // also what was typed while it saved
   }
 
   async function next() {
