@@ -111,7 +111,7 @@ def test_in_a_notebook_it_is_for_a_person(kernel, person):
         if message["msg_type"] == "stream":
             written.append((message["content"]["name"], message["content"]["text"]))
 
-    reply = kernel.execute_interactive(SLOW, allow_stdin=person, timeout=60, output_hook=note)
+    reply = kernel.execute_interactive(SLOW, allow_stdin=person, timeout=300, output_hook=note)
     assert reply["content"]["status"] == "ok", reply["content"]
     assert all(name == "stderr" for name, _ in written)
     assert ("simulated" in "".join(text for _, text in written)) is person
