@@ -60,7 +60,7 @@ def _now() -> tuple[float, float, float]:
 
 
 def _at_once(read: Callable[[], Read]) -> tuple[float, Read]:
-    """The clock, s, and what was read at that time: read again where the processor was lost in between."""
+    """The clock, s, and what was read just then: once more where the processor was lost in between."""
     for _ in range(TRIES):
         clock = time.monotonic()
         found = read()

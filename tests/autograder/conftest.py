@@ -9,7 +9,7 @@ from tests.autograder.sandbox import rooms as rooms_of_tests
 
 @pytest.fixture(scope="module")
 def rooms():
-    """A file's own, as cells leave names behind: `for _ in …` keeps IPython from setting _ afterwards."""
+    """A file's own, as cells leave names behind: after `for _ in …` IPython no longer sets _."""
     with rooms_of_tests.kept() as rooms:
         yield rooms
 
