@@ -64,6 +64,7 @@ c.HTMLExporter.extra_template_paths = nbgrader_glue.templates_of_nbgrader()
 c.Application.logging_config = nbgrader_glue.LOG
 # Without, each kernel that Validate starts warns that others could read its traffic.
 c.KernelManager.transport_encryption = "auto" if zmq.has("curve") else "disabled"
+c.Execute.timeout = nbgrader_glue.VALIDATE_SECONDS
 
 c.ClearSolutions.code_stub = {"python": nbgrader_glue.CODE_STUB}
 c.ClearSolutions.text_stub = nbgrader_glue.TEXT_STUB

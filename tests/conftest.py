@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from tests import once
 
@@ -63,8 +63,10 @@ AS_ROOT = "run the tests as root"
 
 np.seterr(all="raise", under="ignore")  # underflow to zero is right for a decayed state
 
-settings.register_profile("local", deadline=None)
-settings.register_profile("ci", deadline=None, derandomize=True)
+# How long an example takes, and to draw it, is the machine's affair.
+ANY_MACHINE = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("local", ANY_MACHINE)
+settings.register_profile("ci", ANY_MACHINE, derandomize=True)
 # The same examples in each run, as CI asks for in both of its runs.
 settings.load_profile(os.environ.get("EXAMPLES") or ("ci" if os.environ.get("CI") else "local"))
 

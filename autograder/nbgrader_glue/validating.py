@@ -10,6 +10,9 @@ from pathlib import Path
 from jupyter_server.utils import url_path_join
 from nbgrader.server_extensions.validate_assignment.handlers import ValidateAssignmentHandler
 from tornado.web import Application
+from traitlets.config import Config
+
+from autograder.nbgrader_glue.steps import VALIDATE_SECONDS
 
 CALL = re.compile(r"""^check\(\s*["']([\w-]+)["']""", re.MULTILINE)
 AGAIN = "Put your answers into the notebook as it was handed out, and validate that one."
@@ -35,6 +38,13 @@ SAID = {"DeadKernelError": ENDED, "NoSuchKernel": NO_KERNEL}
 
 class Handler(ValidateAssignmentHandler):
     """nbgrader's, which is asked only about a notebook that it can judge."""
+
+    def load_config(self) -> Config:
+        """nbgrader's settings; without a file of settings, as a student has none, cells get our time."""
+        config: Config = super().load_config()
+        if "timeout" not in config.Execute:
+            config.Execute.timeout = VALIDATE_SECONDS
+        return config
 
     def validate_notebook(self, path: str) -> dict[str, object]:
         """What JupyterLab shows: success, and as value the result, or why there is none."""

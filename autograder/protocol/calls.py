@@ -2,7 +2,6 @@
 
 import difflib
 import sys
-import time
 import traceback
 import warnings
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
@@ -224,14 +223,13 @@ def answer_all(calls: list[Call], namespace: Mapping) -> list[Reply]:
     all: whoever reads of it wants to know whether every call fails.
     """
     replies: list[Reply] = []
-    ends = None
+    since: Stopwatch | None = None
     for call in calls:
         replies.append(answer(call, namespace))
         if (fault := replies[-1].fault) is None:
             continue
-        now = time.monotonic()
-        ends = now + CALL_SECONDS if ends is None else ends
-        if fault.kind not in GO_ON_AFTER or now > ends:
+        since = since or Stopwatch()
+        if fault.kind not in GO_ON_AFTER or since.seconds(PATIENCE) > CALL_SECONDS:
             break
     return replies
 

@@ -5,11 +5,13 @@ jumps back in a loop or enters a function (`sys.monitoring`, since Python 3.12).
 Python, as in `time.sleep`, is stopped when it comes back.
 """
 
+import math
 import signal
 import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
@@ -95,6 +97,7 @@ class _Stopping(Limit):
 
     _armed = False
     _looking = False  # a timer may come while the last one is still answered
+    _stopped = -math.inf
 
     def __enter__(self) -> Limit:
         self._thread = threading.get_ident()
@@ -116,6 +119,7 @@ class _Stopping(Limit):
         times = (FAR if far else PATIENCE) if starved else 1.0
         error = TimeLimitError(times * self.seconds, starved)
         self.error = self.error or error
+        self._stopped = time.monotonic()
         return error
 
     def _left(self) -> float:
@@ -194,6 +198,13 @@ class _BySignals(_Stopping):
     def _came(self, number: int, frame: FrameType | None) -> None:
         if not self._armed or (frame is not None and frame.f_code in _OURS):
             return
+        # Where the code had no processor for a while, both signals come at once, and the second would be
+        # raised on the way out of the block.
+        if time.monotonic() - self._stopped < AGAIN / 2:
+            return
+        if frame is not None and frame.f_code in _BLOCKS:
+            signal.setitimer(signal.ITIMER_PROF, 0.001, AGAIN)
+            return
         left = self.seconds - (time.process_time() - self._begin)
         if left <= 0:
             raise self._stop(starved=False)
@@ -243,7 +254,7 @@ class _ByLooking(_Stopping):
 
     def _look(self, code: Any, *_: object) -> None:
         now = time.monotonic()
-        if now < self._due or not self._armed or code in _OURS:
+        if now < self._due or not self._armed or code in _OURS or code in _BLOCKS:
             return
         if threading.get_ident() != self._thread:
             return
@@ -275,3 +286,6 @@ _OURS = _codes(
     _Stopping._swallowed,
     _Stopping._raise_above,
 )
+# Nor in these: where a limit is part of a block that a generator makes, its own exit comes after them.
+_BLOCK = type(contextmanager(iter)(()))
+_BLOCKS = _codes(_BLOCK.__enter__, _BLOCK.__exit__)

@@ -6,7 +6,13 @@ long it was. Where the system does not say, that time counts as well.
 
 import os
 import time
+from collections.abc import Callable
 from contextlib import suppress
+from typing import TypeVar
+
+Read = TypeVar("Read")
+TRIES = 4
+MOMENT = 0.01  # s; to read all takes a tenth of it
 
 
 class Waiting:
@@ -22,7 +28,7 @@ class Waiting:
         Look often: of a process that has ended, the time since the last look counts as waiting, but for
         what it computed.
         """
-        clock, busy, below = time.monotonic(), _busy_here(), _busy_below()
+        clock, (busy, below) = _at_once(lambda: (_busy_here(), _busy_below()))
         if self._seen is not None:
             clock_before, busy_before, below_before = self._seen
             worked = busy - busy_before
@@ -47,7 +53,20 @@ class Stopwatch:
 
 
 def _now() -> tuple[float, float, float]:
-    return time.process_time(), time.monotonic(), _delay("/proc/thread-self/schedstat")
+    clock, (computed, delay) = _at_once(
+        lambda: (time.process_time(), _delay("/proc/thread-self/schedstat"))
+    )
+    return computed, clock, delay
+
+
+def _at_once(read: Callable[[], Read]) -> tuple[float, Read]:
+    """The clock, s, and what was read just then: once more where the processor was lost in between."""
+    for _ in range(TRIES):
+        clock = time.monotonic()
+        found = read()
+        if time.monotonic() - clock < MOMENT:
+            break
+    return clock, found
 
 
 def _busy_here() -> float:

@@ -148,7 +148,7 @@ def _refused(*options: str) -> str | None:
     """None if bubblewrap starts with these options; otherwise what it said, on one line."""
     command = ["bwrap", *options, "--ro-bind", "/", "/", "true"]
     try:
-        ran = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=10)
+        ran = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=60)
     except FileNotFoundError:
         return refusal.NOT_INSTALLED
     except (OSError, subprocess.SubprocessError) as error:

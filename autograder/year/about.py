@@ -63,7 +63,7 @@ def _kit(root: Path) -> str:
     git, said = shutil.which("git"), f"armdyn {version('armdyn')}"
     if git and (root / ".git").exists():
         asked = [git, "-C", str(root), "rev-parse", "HEAD"]
-        found = subprocess.run(asked, capture_output=True, text=True, timeout=10, check=False)
+        found = subprocess.run(asked, capture_output=True, text=True, timeout=60, check=False)
         if found.returncode == 0:
             said += f", commit {found.stdout.strip()}"
     return said

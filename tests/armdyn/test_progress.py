@@ -113,7 +113,7 @@ def test_in_a_notebook_it_is_for_a_person(kernel, person):
         elif message["msg_type"] not in ("status", "execute_input"):
             others.append(message["msg_type"])
 
-    reply = kernel.execute_interactive(SLOW, allow_stdin=person, timeout=60, output_hook=note)
+    reply = kernel.execute_interactive(SLOW, allow_stdin=person, timeout=300, output_hook=note)
     assert reply["content"]["status"] == "ok", reply["content"]
     assert others == []  # on stderr a red line would stay in JupyterLab
     assert bool(lines) is person

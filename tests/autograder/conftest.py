@@ -1,4 +1,4 @@
-"""Rooms that tests share: a room must outlive a student's faults."""
+"""Rooms that the tests of a file share: a room must outlive a student's faults."""
 
 import pytest
 
@@ -7,8 +7,9 @@ from autograder.sandbox.ways import Way
 from tests.autograder.sandbox import rooms as rooms_of_tests
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def rooms():
+    """A file's own, as cells leave names behind: after `for _ in …` IPython no longer sets _."""
     with rooms_of_tests.kept() as rooms:
         yield rooms
 

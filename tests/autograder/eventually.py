@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable
 
-SECONDS = 10.0
+SECONDS = 120.0
 
 
 def eventually(met: Callable[[], object]) -> bool:

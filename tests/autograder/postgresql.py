@@ -11,7 +11,7 @@ from pathlib import Path
 
 # The server refuses to run as root.
 USER = {"user": "postgres"} if os.name == "posix" and os.geteuid() == 0 else {}
-START_SECONDS = 30.0
+START_SECONDS = 120.0
 
 
 @contextmanager

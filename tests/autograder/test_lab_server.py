@@ -9,7 +9,6 @@ import shutil
 import socket
 import subprocess
 import sys
-import time
 import urllib.request
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -61,12 +60,10 @@ def plain_jupyter_lab(root):
         ) as server,
     ):
         try:
-            for _ in range(600):
-                if found := re.search(r"(http://127\.0\.0\.1:\d+)/lab", log.read_text()):
-                    break
-                assert server.poll() is None, log.read_text()
-                time.sleep(0.1)
-            address = found.group(1)
+            shown = re.compile(r"(http://127\.0\.0\.1:\d+)/lab")
+            assert eventually(lambda: server.poll() is not None or shown.search(log.read_text()))
+            assert server.poll() is None, log.read_text()
+            address = shown.search(log.read_text()).group(1)
             # The address may be in the log before anything listens there.
             assert eventually(lambda: _listens(int(address.rpartition(":")[2])))
 
@@ -76,7 +73,7 @@ def plain_jupyter_lab(root):
                     headers={"Authorization": "token t", "Content-Type": "application/json"},
                     data=json.dumps(data).encode() if data else None,
                 )
-                with DIRECTLY.open(request, timeout=60) as answer:
+                with DIRECTLY.open(request, timeout=250) as answer:
                     return json.load(answer)
 
             yield ask

@@ -15,7 +15,9 @@ pin = library("pinocchio")
 
 # The file of each example is written over that of the one before.
 files = settings(
-    max_examples=50, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=50,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 
 

@@ -69,7 +69,7 @@ def test_a_singular_arm_is_no_least_squares_problem(lc2):
 
 def in_octave(octave, script):
     command = [octave, "--norc", "--quiet", "--path", matlab.FOLDER, "--eval", script]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
     assert done.returncode == 0, done.stderr
     return np.array([[float(x) for x in line.split()] for line in done.stdout.splitlines()])
 

@@ -173,7 +173,7 @@ tried("p3-M")
     done = subprocess.run(
         [sys.executable, "-I", "-S", "-c",
          f"import sys; sys.path[:0] = [{str(package)!r}, {sysconfig.get_paths()['purelib']!r}]\n{code}"],
-        cwd=tmp_path, capture_output=True, text=True, check=True, timeout=120,
+        cwd=tmp_path, capture_output=True, text=True, check=True, timeout=300,
     )  # fmt: skip
     said = " ".join(done.stdout.split())
     assert str(package) in said

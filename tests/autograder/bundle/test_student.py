@@ -5,7 +5,6 @@ import re
 import shutil
 import socket
 import sys
-import time
 import urllib.request
 from pathlib import Path
 from urllib.parse import urljoin
@@ -20,6 +19,7 @@ from autograder.notebook.version import other_version, version_of
 from autograder.protocol.limits import NO_LIMIT
 from tests.autograder.bundle import sitting
 from tests.autograder.course_problems import NAMES, problem, without_plots
+from tests.autograder.eventually import eventually
 
 SITTING = str(Path(sitting.__file__))
 LEFT = {"p1-inertia": 1, "p4-gravity": 1, "c8-control": 2}  # checks that only the grader makes
@@ -97,13 +97,11 @@ def test_the_command_opens_the_course_where_there_is_none(installed, tmp_path):
         env={"HOME": str(home), "PATH": "/usr/bin:/bin", "PYTHONUNBUFFERED": "1"},
     )  # fmt: skip
     try:
-        address = None
-        for _ in range(600):
-            if address := re.search("Open (http.*)", (tmp_path / "log").read_text()):
-                break
-            assert server.poll() is None, (tmp_path / "log").read_text()
-            time.sleep(0.1)
-        assert address is not None
+        shown = re.compile("Open (http.*)")
+        log_of = (tmp_path / "log").read_text
+        assert eventually(lambda: server.poll() is not None or shown.search(log_of()))
+        assert server.poll() is None, log_of()
+        address = shown.search(log_of())
         # Another port than the one asked for, where another program has taken that meanwhile.
         token = address[1].partition("token=")[2]
         url = urljoin(address[1], f"/api/contents/problems?token={token}")

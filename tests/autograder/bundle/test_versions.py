@@ -60,7 +60,7 @@ def said(package: Path, notebook: Path, code: str = "", **environment: str) -> s
     guarded = f"try:\n    exec({code!r})\nexcept Exception as error:\n    print(error)"
     done = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", f"{begin}{namespace}{guarded}"],
-        cwd=notebook.parent, capture_output=True, text=True, check=True, timeout=120,
+        cwd=notebook.parent, capture_output=True, text=True, check=True, timeout=300,
         env={name: os.environ[name] for name in ("PATH", "LANG") if name in os.environ} | environment,
     )  # fmt: skip
     return " ".join(done.stdout.split())

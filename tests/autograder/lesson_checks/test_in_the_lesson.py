@@ -270,7 +270,7 @@ def test_with_all_answers_in_it_a_lesson_runs_and_every_check_is_right(number):
     for id, answers in table(number).items():
         cell_of(notebook, id).source = filled(cell_of(notebook, id).source, answers.right[0])
     resources = {"metadata": {"path": str(path_of(number).parent)}}
-    nbclient.NotebookClient(notebook, timeout=120, resources=resources).execute()
+    nbclient.NotebookClient(notebook, timeout=300, resources=resources).execute()
     for id in table(number):
         (output,) = cell_of(notebook, id).outputs
         assert output.data["text/plain"].startswith(f"{id}: correct\n"), id

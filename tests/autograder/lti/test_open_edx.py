@@ -60,7 +60,7 @@ def running(keys, served, tmp_path_factory):
     command += [str(keys / key.PUBLIC), served, str(folder / "members.json")]
     with (folder / "log").open("w") as log:
         server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
-        late = threading.Timer(120, server.kill)
+        late = threading.Timer(400, server.kill)
         late.start()
         try:
             line = server.stdout.readline()
@@ -70,7 +70,7 @@ def running(keys, served, tmp_path_factory):
         finally:
             late.cancel()
             server.kill()
-            server.communicate(timeout=30)
+            server.communicate(timeout=120)
 
 
 @pytest.fixture

@@ -61,7 +61,9 @@ def test_another_process_derives_nothing(folder):
         "Catalogue._made = None\n"
         "print(len(Catalogue(MECHANISMS['pendulum'], 'M').mutants))"
     )
-    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    run = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=300
+    )
     assert run.stdout.strip() == str(len(Catalogue(PENDULUM, "M").mutants)), run.stderr
 
 
@@ -144,7 +146,7 @@ def test_whatever_entry_is_damaged_is_made_anew(folder):
 
     def said():
         run = subprocess.run(
-            [sys.executable, "-c", ALL_OF_F], capture_output=True, text=True, timeout=60
+            [sys.executable, "-c", ALL_OF_F], capture_output=True, text=True, timeout=300
         )
         assert run.returncode == 0, run.stderr
         return run.stdout
@@ -205,7 +207,7 @@ def test_two_processes_at_once_leave_one_whole_entry(folder):
     runs = [
         subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE) for _ in range(2)
     ]
-    outputs = {run.communicate(timeout=60)[0] for run in runs}
+    outputs = {run.communicate(timeout=300)[0] for run in runs}
     assert outputs == {f"{len(Catalogue(PENDULUM, 'g_vec').mutants)}\n".encode()}
     (path,) = folder.iterdir()
     digest, _, text = path.read_text(encoding="utf-8").partition("\n")

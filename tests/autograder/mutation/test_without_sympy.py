@@ -46,7 +46,7 @@ for check in CHECKS.values():
 
 def run(script, *arguments):
     done = subprocess.run(
-        [sys.executable, "-c", script, *arguments], capture_output=True, text=True, timeout=200
+        [sys.executable, "-c", script, *arguments], capture_output=True, text=True, timeout=300
     )
     assert done.returncode == 0, done.stderr
     return done.stdout

@@ -1,9 +1,15 @@
-"""What Validate says of a notebook that nbgrader could not judge."""
+"""What Validate says of a notebook that nbgrader could not judge, and how long a cell may take."""
+
+import shutil
 
 import nbformat
 import pytest
+from nbgrader.preprocessors import Execute
+from nbgrader.server_extensions.validate_assignment.handlers import ValidateAssignmentHandler
 from traitlets.config import Config
 
+from autograder.nbgrader_glue import validating
+from autograder.nbgrader_glue.release import configuration
 from autograder.nbgrader_glue.validating import Handler, fault_of
 from tests.autograder.courses import P3, ROOT
 
@@ -75,6 +81,20 @@ def test_a_kernel_that_is_not_there_is_told_in_a_sentence(tmp_path):
     said = Server(tmp_path).validate_notebook("one.ipynb")
     assert not said["success"]
     assert said["value"].startswith("This notebook asks for a kernel that is not installed here.")
+
+
+@pytest.mark.parametrize(
+    ("own", "seconds"), [({}, 1), ({"Execute": {"timeout": 2}}, 2)], ids=["none", "the course's"]
+)
+def test_a_cell_has_our_time_unless_the_course_says_another(monkeypatch, tmp_path, own, seconds):
+    monkeypatch.setattr(ValidateAssignmentHandler, "load_config", lambda self: Config(own))
+    monkeypatch.setattr(validating, "VALIDATE_SECONDS", 1)
+    assert Execute(config=Handler.load_config(Server(tmp_path))).timeout == seconds
+
+
+def test_the_course_gives_a_cell_that_time(tmp_path):
+    shutil.copy(ROOT / "nbgrader_config.py", tmp_path)
+    assert Execute(config=configuration(tmp_path)).timeout == validating.VALIDATE_SECONDS > 30
 
 
 def test_a_cell_that_is_there_twice_is_named(handed_out):

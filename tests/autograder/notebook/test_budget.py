@@ -97,13 +97,13 @@ def test_a_budget_that_was_computed_and_waited_through_is_certain():
 
 def test_a_cell_that_a_clock_ended_is_not_certain(monkeypatch):
     """In the room, where it goes on, and by the judge, who closes it."""
-    monkeypatch.setattr("autograder.sandbox.room.GRACE_SECONDS", 0.2)
-    monkeypatch.setattr(Room.run, "__defaults__", (0.05,))
+    monkeypatch.setattr("autograder.sandbox.room.GRACE_SECONDS", 1.0)
+    monkeypatch.setattr(Room.run, "__defaults__", (0.2,))
     sleep = "import time\ntime.sleep(30)"
     stop = "import os, signal\nos.kill(os.getpid(), signal.SIGSTOP)"
     with Sitting(Room) as sitting:
         (shown,) = sitting.run(sleep)
-        assert shown["evalue"] == "this cell had not ended after 0.25 s on the clock"
+        assert shown["evalue"] == "this cell had not ended after 1 s on the clock"
         assert sitting.uncertain == ["the cell that begins with “import time”"]
         (shown,) = sitting.run(stop)
         assert shown["ename"] == "RoomLostError"
@@ -159,8 +159,9 @@ def test_a_function_that_sleeps_is_not_certain(release, monkeypatch):
     notebook = p3_pendulum.right_but(
         release, M="import time\ndef M(q, pend):\n    time.sleep(60)\n    return [[pend.I]]"
     )
+    # Far less than M sleeps, and enough for the functions that compute.
     monkeypatch.setattr("autograder.sandbox.room.CALL_SECONDS", 0.05)
-    monkeypatch.setattr("autograder.sandbox.room.GRACE_SECONDS", 0.2)
+    monkeypatch.setattr("autograder.sandbox.room.GRACE_SECONDS", 0.6)
     graded = grade(notebook, SOURCE, "seed")
     assert graded.uncertain
     assert f"{UNCERTAIN} M" in graded.notes

@@ -158,7 +158,7 @@ def test_nothing_is_said_of_a_notebook_whose_answers_alone_changed(release, make
     assert len(mended.cells) == len(submission.cells)
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(names=st.sets(st.sampled_from(sorted(KNOWN))))
 def test_missing_cells_come_back_in_the_order_of_the_source(release, names):
     submission = copy.deepcopy(release)

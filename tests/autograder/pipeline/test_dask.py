@@ -19,7 +19,7 @@ from tests.autograder.courses import P3, rows, submit
 from tests.submissions import p3_pendulum
 from tests.submissions.answers import blank
 
-START_SECONDS = 60.0
+START_SECONDS = 250.0
 STUDENTS = 12
 
 

@@ -19,7 +19,7 @@ from tests.submissions import start_here
 from tests.submissions.start_here import ASSIGNMENT
 
 COMMAND = (Path(sys.executable).parent / "autograder", "grade", ASSIGNMENT, "--jobs", "2")
-SECONDS = 120.0  # for one run, on a busy machine
+SECONDS = 250.0  # for one run, on a busy machine
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="there is no SIGKILL on Windows")
 
 
@@ -89,6 +89,13 @@ def reach(course: Course, process: subprocess.Popen, count: int) -> None:
         time.sleep(0.001)
 
 
+def rest_before(course: Course, seconds: float) -> None:
+    """Wait so long, but no longer than until the next files: the machine may be quicker by now."""
+    begun, end = course.begun(), time.monotonic() + seconds
+    while course.begun() == begun and time.monotonic() < end:
+        time.sleep(0.001)
+
+
 def kill_points(
     rng: random.Random, took: Durations, students: int, kills: int
 ) -> list[tuple[int, float]]:
@@ -152,7 +159,7 @@ def test_killed_runs_go_on_to_the_same_gradebook(tmp_path, tmp_path_factory, stu
         for count, rest in kill_points(rng, took, students, kills):
             process = course.start()
             reach(course, process, min(max(count, course.begun() + 1), students) if count else 0)
-            time.sleep(rest)
+            rest_before(course, rest)
             kill(process, with_group=rng.random() < 0.5)
             killed += process.returncode == -signal.SIGKILL
             processes.wait()
@@ -164,7 +171,7 @@ def test_killed_runs_go_on_to_the_same_gradebook(tmp_path, tmp_path_factory, stu
             written = now
         assert course.start().wait(SECONDS) == 0
         processes.wait()
-    assert killed > kills / 2  # where the machine is busy at first, some come too late
+    assert killed > kills / 2
     assert judged.items() <= course.judged().items()
     assert rewritten <= kills  # by one writer, who was interrupted so often
     assert course.rows() == expected

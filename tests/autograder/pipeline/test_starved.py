@@ -12,7 +12,7 @@ from tests.submissions import p3_pendulum
 # A right answer that waits once, as it would for a processor of a busy machine.
 SLOW = """
 import time
-waits = [1.5]
+waits = [2.5]
 def M(q, pend):
     if waits:
         time.sleep(waits.pop())
@@ -50,8 +50,9 @@ def judged(monkeypatch):
             log.append((name, alone))
             with monkeypatch.context() as limits:
                 if log.busy(name, alone):
+                    # Far less than the answer waits, and enough for those that compute.
                     limits.setattr("autograder.sandbox.room.CALL_SECONDS", 0.05)
-                    limits.setattr("autograder.sandbox.room.GRACE_SECONDS", 0.2)
+                    limits.setattr("autograder.sandbox.room.GRACE_SECONDS", 0.6)
                 outcome = work(*given)
             yield name, outcome
 
@@ -100,7 +101,7 @@ def test_what_a_clock_ended_again_is_noted_and_judged_by_the_next_run(course, ju
 
 def test_what_the_processors_time_ended_is_certain(course, judged, capsys, monkeypatch):
     monkeypatch.setattr("autograder.sandbox.room.CALL_SECONDS", 0.2)
-    monkeypatch.setattr("autograder.sandbox.room.GRACE_SECONDS", 0.2)
+    monkeypatch.setattr("autograder.sandbox.room.GRACE_SECONDS", 0.6)
     endless = "def M(q, pend):\n    while True: pass"
     submit(course, "ada", p3_pendulum.right_but(courses.release(course), M=endless))
     said = grade(capsys)

@@ -401,8 +401,11 @@ def test_calls_stop_at_a_fault_that_others_share(monkeypatch):
 
 
 def test_faulty_calls_together_take_no_longer_than_one_may(monkeypatch):
-    monkeypatch.setattr(calls, "CALL_SECONDS", 0.2)
-    kinds, made = answered("import time; time.sleep(0.15); raise ValueError")
+    monkeypatch.setattr(calls, "CALL_SECONDS", 0.4)
+    spin = (
+        "import time; end = time.process_time() + 0.27\n    while time.process_time() < end: pass"
+    )
+    kinds, made = answered(f"{spin}\n    raise ValueError")
     assert kinds == 3 * [FaultKind.RAISED]
     assert made == [0.0, 1.0, 2.0]
 

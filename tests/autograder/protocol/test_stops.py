@@ -1,10 +1,12 @@
 """A stop reaches the code wherever it is, leaves its error, and nothing of it comes afterwards."""
 
+import ctypes
 import signal
 import subprocess
 import sys
 import time
 import warnings
+from contextlib import contextmanager
 
 import pytest
 
@@ -91,6 +93,16 @@ def nested():
     loop()
 
 
+def both_signals_at_once():
+    """As after a wait for the processor: the limit's own signal is there, and the clock's."""
+    for timer in (signal.ITIMER_PROF, signal.ITIMER_REAL):
+        signal.setitimer(timer, 0)
+    _compute(0.01)
+    # Without Python in between.
+    list(map(ctypes.CDLL(None)["raise"], (signal.SIGALRM, signal.SIGPROF)))
+    loop()
+
+
 @pytest.fixture
 def by_processor(monkeypatch):
     """On a busy machine, such short limits would be met by the clock first."""
@@ -115,6 +127,24 @@ def test_a_stop_comes_through_and_nothing_afterwards(by_processor, code):
         assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
         assert (sys.unraisablehook, sys.gettrace(), _handlers()) == (hook, trace, handlers)
     _compute(0.01)  # what came late would come now
+
+
+@contextmanager
+def within(seconds):
+    """A limit that is part of another block, as those of pictures are."""
+    with limits.time_limit(seconds) as limit:
+        yield limit
+
+
+@pytest.mark.parametrize("code", [loop, both_signals_at_once, destructors, generators])
+def test_a_limit_in_another_block_ends_with_that(by_processor, code):
+    handlers = _handlers()
+    for n in range(OFTEN):
+        with pytest.raises(limits.TimeLimitError) as stopped, within(0.001 + 0.0003 * (n % 7)):
+            code()
+        assert stopped.value.seconds < 0.01
+        assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
+        assert _handlers() == handlers
 
 
 def test_code_that_ends_about_its_limit_is_stopped_or_not_and_nothing_in_between(by_processor):
@@ -184,6 +214,24 @@ def test_time_in_which_something_computes_or_could_is_no_waiting():
     assert computing < 0.5 * passed + 0.1
     time.sleep(0.3)
     assert waiting.look() - computing > 0.2
+
+
+def test_a_wait_for_the_processor_between_two_readings_counts_for_neither(monkeypatch):
+    waits = [0.2]
+
+    def here():
+        busy = read()
+        if waits:
+            time.sleep(waits.pop())
+        return busy
+
+    read = waiting_module._busy_here
+    waiting = Waiting()
+    waiting.look()
+    monkeypatch.setattr(waiting_module, "_busy_here", here)
+    time.sleep(0.2)
+    assert waiting.look() > 0.3
+    assert waits == []
 
 
 COMPUTE = "import time\nwhile time.process_time() < 0.8: pass"

@@ -29,11 +29,12 @@ import os, sys, time
 from autograder.sandbox.room import Room
 from autograder.sandbox.ways import Way
 room = Room(Way[sys.argv[1]])
-if os.fork() == 0:
+fork = os.fork()
+if fork == 0:
     os.setsid()
-    time.sleep(20)
+    time.sleep(999)
     os._exit(0)
-print("ready", flush=True)
+print(fork, flush=True)
 room.run(os.environ["CELL"])
 """
 # A grader of several: this process shares its warm process with the one that it starts.
@@ -74,15 +75,19 @@ def test_a_killed_grader_takes_its_room_along(way, busy, tmp_path):
         # A room without walls lies in a folder below, which its processes name.
         env=os.environ | {"TMPDIR": str(tmp_path), "CELL": student(mark, busy)},
     ) as grader:
-        assert grader.stdout.readline() == b"ready\n"
-        assert appears(mark)
-        grader.kill()
-        grader.wait()
-        assert gone(mark)
-        if not way.walled:
-            assert gone(f"{tmp_path}/room-")
-        if way is Way.UNWALLED:
-            assert eventually(lambda: not list(tmp_path.iterdir()))
+        fork = int(grader.stdout.readline())
+        try:
+            assert appears(mark)
+            grader.kill()
+            grader.wait()
+            assert gone(mark)
+            if not way.walled:
+                assert gone(f"{tmp_path}/room-")
+            if way is Way.UNWALLED:
+                assert eventually(lambda: not list(tmp_path.iterdir()))
+        finally:
+            grader.kill()
+            os.kill(fork, signal.SIGKILL)
 
 
 @pytest.mark.parametrize("victim", ["grader", "worker"])

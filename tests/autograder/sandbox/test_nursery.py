@@ -263,7 +263,7 @@ class TestLife:
             "    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 7\n"
             "    assert room.run('print(1)')[0]['text'] == '1\\n'\n"
         )
-        subprocess.run([sys.executable, "-c", code, way.name], check=True, timeout=60, cwd=ROOT)
+        subprocess.run([sys.executable, "-c", code, way.name], check=True, timeout=300, cwd=ROOT)
 
 
 @EITHER

@@ -1,9 +1,9 @@
 """What ends a room, what does not, and that nothing is left of it."""
 
 import os
+import select
 import shutil
 import sys
-import time
 from textwrap import indent
 
 import pytest
@@ -46,8 +46,8 @@ class TestLoss:
 
     def test_a_process_that_ends_later_is_a_lost_room(self, way):
         with Room(way) as room:
-            room.run("import os, threading\nthreading.Timer(0.2, os._exit, [0]).start()")
-            time.sleep(0.6)
+            room.run("import os, threading\nthreading.Timer(1.0, os._exit, [0]).start()")
+            assert select.select([room._process.replies], [], [], 60)[0]  # its end is read there
             with pytest.raises(RoomLostError):
                 room.ask([Call("f", ())])
 

@@ -78,7 +78,7 @@ def test_each_time_one_more_and_the_last_again(id, capsys):
         assert left == (again if more else LAST)
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.lists(st.sampled_from([id for id in CHECKS if CHECKS[id].hints]), max_size=12))
 def test_each_check_counts_for_itself(asked):
     hint_counts._here.clear()

@@ -287,8 +287,8 @@ def test_what_a_compiler_takes_is_not_the_cells_own_time(warm, suffix):
 
     right = answers.right("M", suffix)
     takes = built(f"{right}\n// built here, and nowhere else", 10)
-    # Near what it takes, so that the clock's limit is generous on a busy machine.
-    limit = 0.8 * takes
+    # A processor that others use as well takes longer for the same: the second build may need less.
+    limit = 0.5 * takes
     assert built(f"{right}\n// and here again", limit) > limit
 
 
