@@ -58,6 +58,7 @@ def of_verdict(verdict: Verdict) -> NotebookNode:
         "check": verdict.check,
         "state": verdict.state.value,
         "credit": verdict.credit,
+        "problem": verdict.problem,
         "diagnosis": list(verdict.diagnosis),
         "rows": [{"text": row.text, "met": row.met} for row in verdict.rows],
     }
@@ -78,9 +79,9 @@ def of_marks(marked: Marked) -> NotebookNode:
 
 
 def read_verdict(output: dict) -> dict | None:
-    """check, state, credit, diagnosis and rows of the verdict that an output shows; None for any other.
+    """check, state, credit, problem, diagnosis and rows of an output's verdict; None for any other.
 
-    One that an earlier version of the course wrote has no rows.
+    One that an earlier version of the course wrote may have no rows and no problem.
     """
     return output.get("metadata", {}).get(VERDICT)
 

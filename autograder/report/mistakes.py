@@ -8,6 +8,7 @@ from itertools import combinations
 
 from autograder.judging.claims import as_written
 from autograder.report.answers import anonymous
+from autograder.report.carried_on import is_carried_on
 from autograder.report.students import Student
 
 MOST_GROUPS = 10
@@ -48,11 +49,14 @@ class Example:
 
 
 def mistakes_made(students: Iterable[Student]) -> list[Made]:
-    """Each sentence that a student got, the most frequent first."""
+    """Each sentence on a mistake that a student got, the most frequent first; none on an error that is
+    only carried on.
+    """
     to_whom = defaultdict(list)
     for student in students:
         for check, verdict in student.verdicts.items():
-            said = map(as_written, verdict["diagnosis"])
+            own = [one for one in verdict["diagnosis"] if not is_carried_on(check, one)]
+            said = map(as_written, own)
             for sentence in dict.fromkeys(said):
                 to_whom[check, sentence].append(student.name)
     made = [Made(check, sentence, tuple(names)) for (check, sentence), names in to_whom.items()]

@@ -11,6 +11,7 @@ from autograder.judging.card import LOOKS
 from autograder.judging.verdict import State
 from autograder.report import figures, term
 from autograder.report.mistakes import example_of, made_together, mistakes_made
+from autograder.report.stopped import stopped
 from autograder.report.students import Class, Student
 from autograder.terminal import shown_note, shown_points
 
@@ -114,6 +115,7 @@ def _of_class(of: Class) -> dict:
         "worst": [(one, example_of(one, of.students)) for one in made[:MOST_MADE]],
         "together": made_together(made, len(of.students)),
         "never": figures.never_met(of.students),
+        "stopped": stopped(of.students),
         "derived": figures.derived(of),
         "hints": figures.hints_seen(of),
         "times": figures.handed_in(of.students),

@@ -1,10 +1,13 @@
-"""Where the course's gradebook, tables and sheets differ from the ledger, in lines."""
+"""Where the course's gradebook, tables, sheets and reports differ from the ledger, in lines."""
 
 import csv
+import html
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 from tests.rehearsal.ledger import RULES
+from tests.rehearsal.mistakes import MISTAKES
 from tests.rehearsal.term import Term
 
 NEAR = 1e-5  # points: tables have five digits after the point
@@ -91,6 +94,41 @@ def of_the_files(term: Term, name: str) -> Iterator[str]:
             yield f"{path.name} is open to other accounts: {path.stat().st_mode:o}"
     if not list(term.root.glob("archive/*.zip")):
         yield "there is no archive"
+
+
+def of_the_text(term: Term, name: str) -> Iterator[str]:
+    """Of the problem as students read it: it has to say what a mistake leaves of the points."""
+    text = "\n".join(cell.source for cell in term.problems[name].release.cells)
+    for wrong in MISTAKES[name]:
+        if wrong.published not in text:
+            yield f"{name}: the problem does not say {wrong.published!r}"
+
+
+def of_the_report(term: Term, name: str) -> Iterator[str]:
+    """Each mistake that the lecturer reads of, with as many students as made it; the commonest first."""
+    page = (term.root / "course" / "report" / f"{name}.html").read_text(encoding="utf-8")
+    rows = re.findall(
+        r'<tr><td class="number">(\d+)</td><td>(.*?)</td>\n<td>(.*?)<details>', page, re.S
+    )
+    shown = [(int(count), check, html.unescape(text)) for count, check, text in rows]
+    wanted: dict[tuple[str, str], int] = {}
+    for wrong in MISTAKES[name]:
+        for told in wrong.told.items():
+            wanted[told] = wanted.get(told, 0) + len(term.ledger.made(name, wrong))
+    for (check, words), count in wanted.items():
+        found = [many for many, of, text in shown if of == check and words in text]
+        if found != [count] * bool(count):
+            yield f"{name}.html: {check}, “{words}”: {found} students, not {count}"
+    read = r"(?:, who|; \d+ of them) read: \S"
+    stopped = dict(re.findall(rf'<span class="name">(\S+):</span> (\d+) students?{read}', page))
+    for wrong in MISTAKES[name]:
+        for check in wrong.kept if not wrong.told else ():
+            count, found = len(term.ledger.made(name, wrong)), int(stopped.get(check, 0))
+            if found != count:
+                yield f"{name}.html: {check} gave no numbers to {found} students, not {count}"
+    counts = [count for count, *_ in shown]
+    if counts != sorted(filter(None, wanted.values()), reverse=True):
+        yield f"{name}.html: mistakes of {counts} students, not of {sorted(wanted.values())}"
 
 
 def table(path: Path) -> list[dict[str, str]]:

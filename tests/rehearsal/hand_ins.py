@@ -1,4 +1,4 @@
-"""What is handed in: the released notebook with its first answers right, or no notebook."""
+"""What is handed in: the released notebook with its first answers, right or wrong, or no notebook."""
 
 import copy
 import json
@@ -8,6 +8,8 @@ from pathlib import Path
 
 import nbformat
 from nbformat import NotebookNode
+
+from tests.rehearsal.mistakes import Mistake
 
 DAMAGED = ("", "{", "%PDF-1.7 a scan", '{"cells": [], "metadata": {}', "null", "[1, 2]")
 
@@ -29,15 +31,20 @@ class Problem:
         self.tests = [about["grade_id"] for about in graded if not about["solution"]]
         (self.proof,) = (about["grade_id"] for about in graded if about["solution"])
 
-    def notebook(self, answered: int, proof: str = "", note: str = "") -> str:
-        """The first `answered` answers are right, as later ones may call them; note: a student's own."""
+    def notebook(
+        self, answered: int, proof: str = "", note: str = "", wrong: Mistake | None = None
+    ) -> str:
+        """The first `answered` answers are right but for what is wrong, as later ones may call them.
+        note: a student's own.
+        """
         notebook = copy.deepcopy(self.release)
         asked = [name.split("-", 1)[1] for name in self.tests[:answered]]
         right = import_module(f"tests.submissions.{self.name.replace('-', '_')}").RIGHT
+        answers = right | (wrong.answers if wrong else {})
         for cell in notebook.cells:
             id = _about(cell).get("grade_id", "")
             if id.removeprefix("answer-") in asked and id.startswith("answer-"):
-                cell.source = right[id.removeprefix("answer-")].strip("\n")
+                cell.source = answers[id.removeprefix("answer-")].strip("\n")
                 cell.source += f"\n# {note}" if note else ""
             elif id == self.proof and proof:
                 cell.source = proof

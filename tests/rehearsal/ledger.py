@@ -2,10 +2,12 @@
 
 import math
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from zoneinfo import ZoneInfo
+
+from tests.rehearsal.mistakes import Mistake
 
 BERLIN = ZoneInfo("Europe/Berlin")
 DAY = 86_400
@@ -48,11 +50,13 @@ RULES = {
 }
 LATE = (-3 * DAY, -DAY, -3600, -1, 0, 60, 14 * 60, 16 * 60, DAY - 1, DAY + 1, 2 * DAY, 9 * DAY)
 OFTEN = (20, 20, 20, 20, 20, 1, 1, 1, 2, 2, 2, 1)
+WRONG = 0.4  # of the hand-ins
 
 
 @dataclass
 class HandIn:
-    """answered: how many of the answers are right, from the first on. late: seconds after the due date.
+    """answered: how many of the answers are there, from the first on; wrong: what is wrong in them, None
+    where all are right. late: seconds after the due date.
 
     proof: its text. read: the points that a person gave it, None while nobody has read it.
     """
@@ -63,6 +67,7 @@ class HandIn:
     damaged: bool = False
     read: float | None = None
     to_read_again: bool = False
+    wrong: Mistake | None = None
 
     @property
     def unread(self) -> bool:
@@ -73,10 +78,10 @@ class HandIn:
 class Ledger:
     """hand_ins: by student and assignment. extensions: as long after the due date.
 
-    points: of each assignment, the points of its tests in their order.
+    points: of each assignment, the points of its tests in their order, by their names.
     """
 
-    points: dict[str, list[float]] = field(default_factory=dict)
+    points: dict[str, dict[str, float]] = field(default_factory=dict)
     hand_ins: dict[tuple[str, str], HandIn] = field(default_factory=dict)
     extensions: dict[tuple[str, str], timedelta] = field(default_factory=dict)
     withdrawn: set[str] = field(default_factory=set)
@@ -92,7 +97,15 @@ class Ledger:
 
     def raw(self, student: str, name: str) -> float:
         one = self.hand_ins[student, name]
-        return sum(self.points[name][: one.answered]) + (one.read or 0)
+        kept = one.wrong.kept if one.wrong else {}
+        answered = list(self.points[name].items())[: one.answered]
+        earned = sum(points * kept.get(test, 1) for test, points in answered)
+        return earned + (one.read or 0)
+
+    def made(self, name: str, wrong: Mistake) -> list[str]:
+        """The students in whose hand-in this is wrong."""
+        return [student for (student, of), one in self.hand_ins.items()
+                if of == name and one.wrong is wrong and not one.damaged]  # fmt: skip
 
     def penalty(self, student: str, name: str) -> float:
         late = self.late(student, name)
@@ -112,14 +125,17 @@ class Ledger:
         return sum(one for one in marks if one is not None)
 
 
-def drawn(dice: random.Random, name: str, asked: int, student: str) -> HandIn | None:
+def drawn(
+    dice: random.Random, name: str, asked: int, student: str, mistakes: Iterator[Mistake]
+) -> HandIn | None:
     """What one student hands in; None for nothing."""
     if dice.random() > (0.95 if name.startswith("p") else 0.3):
         return None
-    answered = dice.choice((0, *range(asked + 1), asked, asked, asked))
+    wrong = next(mistakes) if dice.random() < WRONG else None
+    answered = asked if wrong else dice.choice((0, *range(asked + 1), asked, asked, asked))
     proof = f"By {student}: multiply by $\\dot q^T$, …" if dice.random() < 0.8 else ""
     (late,) = dice.choices(LATE, OFTEN)
-    return HandIn(answered, proof, late)
+    return HandIn(answered, proof, late, wrong=wrong)
 
 
 def calendar(extensions: dict[tuple[str, str], timedelta], names: list[str]) -> str:

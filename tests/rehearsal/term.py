@@ -7,7 +7,6 @@ import time
 from collections.abc import Iterable
 from datetime import UTC, timedelta
 from pathlib import Path
-from zoneinfo import ZoneInfo
 
 import nbformat
 from nbgrader.api import Gradebook
@@ -19,15 +18,18 @@ from tests.autograder import courses
 from tests.autograder.course_problems import without_plots
 from tests.autograder.lms.platforms import canvas_name, moodle_folder, moodle_sheet, zipped
 from tests.rehearsal.hand_ins import DAMAGED, Problem, hand_in, problem
-from tests.rehearsal.ledger import RULES, HandIn, Ledger, calendar, drawn
+from tests.rehearsal.ledger import BERLIN, DAY, RULES, HandIn, Ledger, calendar, drawn
+from tests.rehearsal.mistakes import MISTAKES, made_in
 from tests.rehearsal.people import class_list, class_of
 
 ROOT = Path(__file__).parents[2]
 P1, P2, P3, P4 = "p1-inertia", "p2-energy-skew", "p3-pendulum", "p4-gravity"
 SEED = "rehearsed"
-# A lecturer's own test that asks too much: NumPy's True, which students return, is not Python's.
-OWN_TEST = "\n### BEGIN HIDDEN TESTS\nassert is_spd(np.eye(2)) is True\n### END HIDDEN TESTS"
-ITS_CELL = "p1-is_spd"
+# A lecturer's own test that asks too much: rows in a list, which students return, have no shape.
+OWN_TEST = (
+    "\n### BEGIN HIDDEN TESTS\nassert M(np.zeros(2), cutter).shape == (2, 2)\n### END HIDDEN TESTS"
+)
+ITS_CELL = "p1-M"
 
 
 class Term:
@@ -72,13 +74,14 @@ class Term:
     def hand_in(self, name: str) -> None:
         """Everybody's hand-in: by Moodle's archive for p3, by Canvas's for p4, else as collected."""
         of = self.problems[name]
-        self.ledger.points[name] = [of.points[test] for test in of.tests]
+        self.ledger.points[name] = {test: of.points[test] for test in of.tests}
+        mistakes = made_in(name, self.dice)
         texts = {}
         for student in self.students:
-            one = drawn(self.dice, name, len(of.tests), student.id)
+            one = drawn(self.dice, name, len(of.tests), student.id, mistakes)
             if one is not None:
                 self.ledger.hand_ins[student.id, name] = one
-                texts[student.id] = of.notebook(one.answered, one.proof)
+                texts[student.id] = self._text(name, one)
         unlucky = self.dice.sample(sorted(texts), min(len(DAMAGED), len(texts) // 4))
         for id, text in zip(unlucky, DAMAGED, strict=False):
             self.ledger.hand_ins[id, name].damaged = True
@@ -87,8 +90,9 @@ class Term:
         take(name, texts)
 
     def grade(self, name: str) -> None:
-        broken = any(one.damaged for (_, of), one in self.ledger.hand_ins.items() if of == name)
-        self.run("autograder", "grade", name, "--jobs", "2", status=int(broken))
+        broken = sum(one.damaged for (_, of), one in self.ledger.hand_ins.items() if of == name)
+        said = self.run("autograder", "grade", name, "--jobs", "2", status=int(broken > 0))
+        assert said.count(" could not be graded  ") == broken, said
 
     def read_proofs(self, name: str) -> None:
         """A person reads most of the proofs, and gives half points, too: some of p2's on the page of
@@ -119,7 +123,7 @@ class Term:
     def change_points(self, name: str, test: str, points: int) -> None:
         self._edit(name, test, lambda cell: cell.metadata.nbgrader.update(points=points))
         self.run("nbgrader", "generate_assignment", name, "--force")
-        self.ledger.points[name][self.problems[name].tests.index(test)] = points
+        self.ledger.points[name][test] = points
         self.grade(name)
 
     def hand_in_again(self, name: str) -> tuple[str, str]:
@@ -131,11 +135,11 @@ class Term:
         same, other = self.dice.sample(read, 2)
         for student in (same, other):
             one = self.ledger.hand_ins[student, name]
-            one.answered = len(self.problems[name].tests)
+            one.answered, one.wrong = len(self.problems[name].tests), None
             if student == other:
                 one.proof += " And so on."
                 one.to_read_again = True
-            text = self.problems[name].notebook(one.answered, one.proof, "again")
+            text = self._text(name, one, "again")
             hand_in(self.root, student, name, text, self._time(name, one))
         self.grade(name)
         return same, other
@@ -156,8 +160,24 @@ class Term:
         return sorted(student for (student, of), one in self.ledger.hand_ins.items()
                       if of == name and 0 < one.late < 7 * 86_400 and not one.damaged)  # fmt: skip
 
+    def think_again(self, name: str) -> None:
+        """Before the deadline and after a first look at the marks, some hand in once more: three have
+        mended what was wrong, and one has spoilt what was right. The last hand-in counts.
+        """
+        early = [(student, one) for (student, of), one in sorted(self.ledger.hand_ins.items())
+                 if of == name and one.late < 0 and not one.damaged]  # fmt: skip
+        mended = [(student, one) for student, one in early if one.wrong][:3]
+        spoilt = [(student, one) for student, one in early if not one.wrong][:1]
+        for student, one in mended + spoilt:
+            one.wrong = None if one.wrong else MISTAKES[name][0]
+            one.answered, one.late = len(self.problems[name].tests), one.late // 2
+            hand_in(self.root, student, name, self._text(name, one), self._time(name, one))
+
     def gradebook(self) -> Gradebook:
         return Gradebook(courses.database(self.root))
+
+    def _text(self, name: str, one: HandIn, note: str = "") -> str:
+        return self.problems[name].notebook(one.answered, one.proof, note, one.wrong)
 
     def _mark(self, name: str, marks: dict[str, float]) -> None:
         with self.gradebook() as gradebook:
@@ -173,10 +193,15 @@ class Term:
         desk = Desk(book, Kept(self.root))
         (proof,) = (one for one in book.proofs() if one.assignment == name)
         id_of = {paper.student: paper.id for paper in book.papers(proof)}
-        for student, points in marks.items():
+        worth = [row.points for row in proof.rubric.rows]
+        for at, (student, points) in enumerate(marks.items()):
             where = name, proof.cell, id_of[student]
             said = dict(zip(("assignment", "cell", "id"), where, strict=True))
-            said |= {"total": points, "given": [0] * len(proof.rubric.rows), "comment": ""}
+            # Row by row, as far as the points go; or, every other time, as one number.
+            given = [min(most, max(0.0, points - sum(worth[:k]))) for k, most in enumerate(worth)]
+            said |= {"given": given, "total": None, "comment": ""}
+            if at % 2:
+                said |= {"given": [0] * len(worth), "total": points}
             desk.save(said | {"version": desk.answer(*where)["version"]})
 
     def _give_all_the_same_arm(self, name: str) -> None:
@@ -211,20 +236,39 @@ class Term:
             hand_in(self.root, student, name, text, time)
 
     def _from_moodle(self, name: str, texts: dict[str, str]) -> None:
+        """Two archives: one downloaded two days before the deadline, and one after it. Some who had
+        handed in by then, with a mistake, do so again: in time, which counts, or late, which does not.
+        """
+        when = {id: self.ledger.hand_ins[id, name] for id in texts}
+        for one in when.values():
+            one.late -= one.late % 60  # Moodle's sheet has no seconds
+        readable = {id: one for id, one in when.items() if not one.damaged}
+        again = [id for id, one in readable.items() if -DAY <= one.late <= 0 and not one.wrong][:4]
+        too_late = [id for id, one in readable.items() if one.late > DAY][:2]
+        proofs = {id: readable[id].proof for id in again + too_late}
+        asked, wrong = len(self.problems[name].tests), MISTAKES[name][0]
+        early = {id: HandIn(asked, proof, -3 * DAY, wrong=wrong) for id, proof in proofs.items()}
+        self._by_moodle(name, early, {id: self._text(name, one) for id, one in early.items()}, 0)
+        self._by_moodle(name, when, texts, 1)
+        for id in too_late:
+            self.ledger.hand_ins[id, name] = early[id]
+
+    def _by_moodle(
+        self, name: str, hand_ins: dict[str, HandIn], texts: dict[str, str], status: int
+    ) -> None:
         files, rows = {}, []
         for one in self.students:
             row = {"number": one.number, "name": one.name, "email": one.email}
-            if one.id in texts:
-                entry = self.ledger.hand_ins[one.id, name]
-                entry.late -= entry.late % 60  # Moodle's sheet has no seconds
-                when = RULES[name].due.astimezone(UTC) + timedelta(seconds=entry.late)
-                local = when.astimezone(ZoneInfo("Europe/Berlin"))
+            if one.id in hand_ins:
+                late = timedelta(seconds=hand_ins[one.id].late)
+                local = (RULES[name].due.astimezone(UTC) + late).astimezone(BERLIN)
                 row["submitted"] = f"{local:%A, %d %B %Y, %I:%M %p}"
                 files[f"{moodle_folder(one.name, one.number)}/{name} (1).ipynb"] = texts[one.id]
             rows.append(row)
         archive = zipped(self.root / "moodle.zip", files)
         sheet = moodle_sheet(self.root / "moodle.csv", rows)
-        self.run("autograder", "collect-zip", name, str(archive), "--sheet", str(sheet), status=1)
+        command = ["autograder", "collect-zip", name, str(archive), "--sheet", str(sheet)]
+        self.run(*command, status=status)
 
     def _from_canvas(self, name: str, texts: dict[str, str]) -> None:
         """Canvas's archive has no times: it says who was late, and p4 has no penalty."""
