@@ -30,7 +30,8 @@ WHOLE = (
     *("lesson_checks/number", "lesson_checks/typed", "problems/__init__", "problems/arm_card"),
     *("problems/material/__init__", "problems/material/described", "checks"),
     *("nbgrader_glue/exchange/__init__", "nbgrader_glue/exchange/entered"),
-    *("nbgrader_glue/exchange/students", "nbgrader_glue/environment", "nbgrader_glue/validating"),
+    *("nbgrader_glue/exchange/students", "nbgrader_glue/environment", "nbgrader_glue/patience"),
+    "nbgrader_glue/validating",
 )
 # But for this one, whose formulas lead from one answer to the next.
 LEFT_OUT = ("judging/carried/ways.py",)

@@ -4,6 +4,7 @@ Importing this package does not import nbgrader, which takes seconds; its module
 """
 
 from autograder.nbgrader_glue.in_words import end_in_words
+from autograder.nbgrader_glue.patience import VALIDATE_SECONDS
 from autograder.nbgrader_glue.private import make_private
 from autograder.nbgrader_glue.release import write_problem
 from autograder.nbgrader_glue.steps import (
@@ -15,7 +16,6 @@ from autograder.nbgrader_glue.steps import (
     PAGE_FILTERS,
     RELEASE_EXPORTER,
     SUBMISSION_EXPORTER,
-    VALIDATE_SECONDS,
     autograde_preprocessors,
     feedback_preprocessors,
     generate_preprocessors,

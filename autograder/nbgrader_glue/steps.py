@@ -30,9 +30,6 @@ PAGE_FILTERS = {
     "with_formulas": "autograder.nbgrader_glue.formulas.with_formulas",
     "pictures_beside": "autograder.nbgrader_glue.markdown.pictures_beside",
 }
-# For `Execute`, by which Validate runs each cell, s by the clock. nbgrader's own 30 are too few where a
-# whole class shares a server.
-VALIDATE_SECONDS = 120
 # For `ExchangeFactory`, on a student's side and on the graders': nbgrader's exchange, closed.
 EXCHANGE = OF_STUDENTS | OF_GRADERS
 

@@ -12,7 +12,7 @@ from nbgrader.server_extensions.validate_assignment.handlers import ValidateAssi
 from tornado.web import Application
 from traitlets.config import Config
 
-from autograder.nbgrader_glue.steps import VALIDATE_SECONDS
+from autograder.nbgrader_glue.patience import VALIDATE_SECONDS
 
 CALL = re.compile(r"""^check\(\s*["']([\w-]+)["']""", re.MULTILINE)
 AGAIN = "Put your answers into the notebook as it was handed out, and validate that one."
