@@ -81,7 +81,9 @@ def lab(arguments: list[str]) -> int:
     server = LabApp.initialize_server([*settings, *arguments])
     for log in (*map(logging.getLogger, OTHERS_LOGS), server.log):
         log.addFilter(_is_an_error)
-    print(f"\n    Open {_address(server)}\n    Stop with Ctrl-C\n", flush=True)
+    # The loop's first task is to listen, and this its next: before, nobody answers at the address.
+    where = f"\n    Open {_address(server)}\n    Stop with Ctrl-C\n"
+    server.io_loop.add_callback(print, where, flush=True)
     # Jupyter would print the address again, five times over.
     server.identity_provider.token_generated = False
     server.start()
