@@ -153,6 +153,10 @@ def pytest_collection_finish():
     gc.freeze()
 
 
+def pytest_sessionfinish():
+    gc.unfreeze()  # or nanobind tells at the end of all that was never taken away
+
+
 @pytest.hookimpl(trylast=True)
 def pytest_terminal_summary(terminalreporter):
     """Just above the last line: what to install for the tests that were skipped, each once."""
